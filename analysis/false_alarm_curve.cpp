@@ -6,7 +6,7 @@
 
 #include "analysis/detection/threshold.hpp"
 #include "analysis/pod/hit_miss_pod.hpp"
-#include "analysis/statistics/wilson.hpp"
+#include "analysis/statistics/interval.hpp"
 
 namespace gearpod::analysis {
 namespace {

@@ -1,5 +1,5 @@
 // Detectable size against false-alarm rate: a90 at thresholds for rates from 0.1 down to 1e-6, as
-// far as the healthy sample supports them (detection/tail.hpp). Also the threshold of least
+// far as the healthy sample supports them (analysis/detection/threshold.hpp). Also the threshold of least
 // expected cost, where an alarm and a miss have a cost.
 #pragma once
 
@@ -12,7 +12,6 @@
 #include "analysis/detection/detection_table.hpp"
 #include "analysis/detection/healthy_thresholds.hpp"
 #include "analysis/pod/pod_curve.hpp"
-#include "analysis/pod/size_estimate.hpp"
 #include "analysis/statistics/interval.hpp"
 
 namespace gearpod::analysis {

@@ -8,8 +8,7 @@
 #include <set>
 #include <stdexcept>
 
-#include "analysis/detection/reliable_size.hpp"
-#include "analysis/statistics/clopper_pearson.hpp"
+#include "analysis/detection/detection.hpp"
 #include "analysis/statistics/interval.hpp"
 
 namespace gearpod::analysis {

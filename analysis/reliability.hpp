@@ -10,14 +10,13 @@
 #include "analysis/detection/condition_detection.hpp"
 #include "analysis/false_alarm_curve.hpp"
 #include "analysis/inputs/input_effects.hpp"
-#include "analysis/inputs/level_sensitivity.hpp"
 #include "analysis/inputs/miss_sensitivity.hpp"
+#include "analysis/inputs/sobol_indices.hpp"
 #include "analysis/inputs/uncertain_inputs.hpp"
 #include "analysis/pod/hit_miss_pod.hpp"
 #include "analysis/pod/signal_response_pod.hpp"
 #include "analysis/ranking/combined_detector.hpp"
 #include "analysis/ranking/feature_ranking.hpp"
-#include "analysis/ranking/roc.hpp"
 #include "analysis/statistics/interval.hpp"
 
 namespace gearpod::analysis {
@@ -113,5 +112,42 @@ Reliability assess_reliability(const ReliabilityData& data,
 Reliability assess_reliability(const ReliabilityData& data,
                                const std::vector<FeatureDetection>& detections,
                                const DetectionRequest& request, int threads);
+
+// Headline result: the smallest fault found with a probability of 90 % at the requested confidence.
+//
+// For one feature alone this is the upper bound of a90 where the curve fits, otherwise the smallest
+// size demonstrated by the tested rates. Two effects make this bound erratic: a fitted curve may
+// give a larger size after a miss has become a hit (its slope falls), and perfect detection has no
+// curve. A size demonstrated by one feature at one noise level therefore also holds for every
+// feature and level that finds at least as many faults in every size group. As a result the size
+// never grows where no rate falls, and no feature ranks below one that finds fewer faults.
+
+struct SmallestFault {
+    // Feature and noise level whose bound is used: the requested ones, or ones that find no more
+    // faults.
+    struct Source {
+        std::string feature;
+        double noise_level = 0.0;
+        bool operator==(const Source&) const = default;
+    };
+    std::string feature;
+    double size = 0.0;
+    bool from_curve = false;  // the bound is a90's, otherwise a demonstrated size
+    Source source;
+    bool own = true;  // the source is the feature itself at this noise level
+};
+
+// Smallest fault of one feature (index in `reliability.features`) at a noise level.
+std::optional<SmallestFault> smallest_fault(const Reliability& reliability, std::size_t level,
+                                            std::size_t feature);
+
+// Smallest fault over all features. Of equal sizes, the feature that finds most comes first, then
+// the better ranked.
+std::optional<SmallestFault> smallest_fault(const Reliability& reliability, std::size_t level);
+
+// The same from the tested rates alone, where there are too many values for curves: the smallest
+// size demonstrated by its own and all larger sizes' rates.
+std::optional<SmallestFault> smallest_fault(std::span<const FeatureDetection> detection,
+                                            std::size_t level);
 
 }  // namespace gearpod::analysis

@@ -12,8 +12,8 @@
 #include <string>
 #include <vector>
 
+#include "analysis/pod/pod_curve.hpp"
 #include "analysis/pod/response_fit.hpp"
-#include "analysis/pod/size_estimate.hpp"
 
 namespace gearpod::analysis {
 

@@ -6,12 +6,11 @@
 #include <vector>
 
 #include "mc/commands/commands.hpp"
-#include "mc/forecast/memory.hpp"
-#include "mc/help/man_page.hpp"
-#include "mc/help/reference.hpp"
-#include "mc/input/spelling.hpp"
-#include "mc/options/options.hpp"
-#include "mc/options/program.hpp"
+#include "mc/commands/help/reference.hpp"
+#include "mc/commands/options/options.hpp"
+#include "mc/commands/options/program.hpp"
+#include "mc/files/input/spelling.hpp"
+#include "mc/numerics/forecast/memory.hpp"
 #include "mc/results/provenance.hpp"
 
 namespace {

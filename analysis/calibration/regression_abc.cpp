@@ -7,7 +7,7 @@
 #include <numeric>
 #include <stdexcept>
 
-#include "analysis/statistics/midranks.hpp"
+#include "analysis/statistics/rank_statistics.hpp"
 #include "machine/upper_median.hpp"
 
 namespace gearpod::analysis {

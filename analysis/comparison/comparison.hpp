@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "analysis/detection/detection.hpp"
-#include "analysis/statistics/difference_interval.hpp"
+#include "analysis/statistics/difference_tests.hpp"
 
 namespace gearpod::analysis {
 

@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "analysis/comparison/comparison.hpp"
+#include "analysis/reliability.hpp"
 #include "analysis/report/report.hpp"
-#include "analysis/smallest_fault.hpp"
 
 namespace gearpod::analysis {
 

@@ -7,9 +7,9 @@
 #include <set>
 #include <stdexcept>
 
+#include "analysis/detection/detection.hpp"
 #include "analysis/detection/false_alarm_rate.hpp"
 #include "analysis/detection/healthy_thresholds.hpp"
-#include "analysis/detection/size_groups.hpp"
 
 namespace gearpod::analysis {
 namespace {

@@ -4,17 +4,67 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 #include <stdexcept>
+#include <vector>
 
 #include "analysis/detection/false_alarm_rate.hpp"
 #include "analysis/detection/healthy_thresholds.hpp"
-#include "analysis/detection/size_groups.hpp"
-#include "analysis/statistics/clopper_pearson.hpp"
+#include "analysis/detection/threshold.hpp"
 #include "analysis/statistics/every_nth.hpp"
 #include "analysis/statistics/interval.hpp"
 #include "machine/upper_median.hpp"
 
 namespace gearpod::analysis {
+
+std::optional<std::size_t> group_of(double size, const std::vector<SizeGroup>& groups) {
+    constexpr double kSameSize = 1e-9;
+    std::optional<std::size_t> found;
+    for (std::size_t g = 0; g < groups.size(); ++g) {
+        const double slack = kSameSize * std::abs(groups[g].high);
+        const bool level = groups[g].low == groups[g].high;
+        const double low = level ? groups[g].low - slack : groups[g].low;
+        const double high = level ? groups[g].high + slack : groups[g].high;
+        if (size >= low && size <= high) {
+            found = g;
+        }
+    }
+    return found;
+}
+
+std::vector<std::size_t> groups_of(std::span<const double> sizes,
+                                   const std::vector<SizeGroup>& groups) {
+    std::vector<std::size_t> out;
+    out.reserve(sizes.size());
+    for (const double size : sizes) {
+        out.push_back(group_of(size, groups).value_or(kNoGroup));
+    }
+    return out;
+}
+
+void count(DetectionCell& cell, double value, double threshold, Alarm alarm) {
+    if (!std::isfinite(value)) {
+        ++cell.failed;
+        return;
+    }
+    ++cell.tested;
+    cell.detected += is_alarm(value, threshold, alarm) ? 1 : 0;
+}
+
+// Without a threshold there is no rate, but the gearboxes are still counted.
+void rate(DetectionCell& cell, bool has_threshold, double confidence) {
+    if (!has_threshold || cell.tested == 0) {
+        cell.pd = cell.lower = cell.upper = kNan;
+        cell.exact = {kNan, kNan};
+        return;
+    }
+    const Interval bounds = wilson_interval(cell.detected, cell.tested, confidence);
+    cell.pd = static_cast<double>(cell.detected) / static_cast<double>(cell.tested);
+    cell.lower = bounds.lower;
+    cell.upper = bounds.upper;
+    cell.exact = clopper_pearson_interval(cell.detected, cell.tested, confidence);
+}
+
 namespace {
 
 void check_shapes(const FeatureSample& sample, std::size_t levels, const char* which) {
@@ -255,6 +305,126 @@ FeatureDetection detect(const std::string& feature, Alarm alarm, const FeatureSa
             outside, group.size()));
     }
     return result;
+}
+
+namespace {
+
+// True if all values equal to the threshold belong to one gearbox. Noise-free records of one
+// gearbox are equal, which does not make the feature a constant.
+bool tied_within_one(std::span<const double> values, std::span<const std::size_t> gearbox,
+                     double threshold) {
+    std::set<std::size_t> tied;
+    for (std::size_t i = 0; i < values.size(); ++i) {
+        if (values[i] == threshold) {
+            tied.insert(gearbox[i]);
+        }
+    }
+    return tied.size() == 1;
+}
+
+}  // namespace
+
+FeatureDetection detect_clustered(const std::string& feature, Alarm alarm,
+                                  const FeatureSample& healthy,
+                                  std::span<const std::size_t> gearbox, const FeatureSample& graded,
+                                  const DetectionRequest& request) {
+    FeatureDetection result = detect(feature, alarm, healthy, graded, request);
+    const std::size_t count = std::set<std::size_t>(gearbox.begin(), gearbox.end()).size();
+    if (count == gearbox.size() || !healthy.weights.empty()) {
+        return result;
+    }
+    const std::size_t levels = request.noise_levels.size();
+    for (std::size_t n = 0; n < levels; ++n) {
+        LevelDetection& level = result.levels[n];
+        if (std::isnan(level.threshold)) {
+            continue;
+        }
+        const std::vector<double> values = every_nth(healthy.values, n, levels);
+        if (tied_within_one(values, gearbox, level.threshold)) {
+            const std::string tie = fmt::format(
+                "noise level {:g}: healthy records equal the threshold", level.noise_level);
+            std::erase_if(result.warnings,
+                          [&](const std::string& warning) { return warning.starts_with(tie); });
+        }
+        const Interval own = level.threshold_rate;
+        const Interval clustered =
+            level.tail ? Interval{kNan, kNan}
+                       : clustered_rate_interval(values, gearbox, alarm, level.threshold,
+                                                 request.false_alarm_rate, request.confidence);
+        // Never narrower than the interval of independent values.
+        level.threshold_rate = {std::min(own.lower, clustered.lower),
+                                std::max(own.upper, clustered.upper)};
+        const bool tested = !level.cells.empty() && level.cells.front().size.high == 0.0 &&
+                            level.cells.front().tested > 0;
+        if (level.tail) {
+            level.threshold_rate = {kNan, kNan};
+        }
+        Interval& bounds = level.healthy_rate_bounds;
+        bounds = tested ? Interval{std::min(bounds.lower, level.threshold_rate.lower),
+                                   std::max(bounds.upper, level.threshold_rate.upper)}
+                        : level.threshold_rate;
+        if (!level.tail && level.threshold_rate.upper <= 2.0 * request.false_alarm_rate) {
+            continue;
+        }
+        result.warnings.push_back(
+            level.tail
+                ? fmt::format("noise level {:g}: {} healthy records come from only {} gearboxes, "
+                              "so the false-alarm rate of the extrapolated threshold is unknown",
+                              level.noise_level, level.threshold_sample, count)
+                : fmt::format(
+                      "noise level {:g}: {} healthy records come from only {} gearboxes, so the "
+                      "false-alarm rate of {:g} is known only to within [{:.2g}, {:.2g}]",
+                      level.noise_level, level.threshold_sample, count, request.false_alarm_rate,
+                      level.threshold_rate.lower, level.threshold_rate.upper));
+    }
+    // Removes the warnings that assume independent values.
+    std::erase_if(result.warnings, [](const std::string& warning) {
+        return warning.find("healthy records determine the false-alarm rate") != std::string::npos;
+    });
+    return result;
+}
+
+std::optional<SizeGroup> reliable_size(const LevelDetection& level, double pd) {
+    std::optional<SizeGroup> size;
+    for (auto cell = level.cells.rbegin(); cell != level.cells.rend(); ++cell) {
+        if (cell->size.high <= 0.0 || !(cell->lower >= pd)) {
+            break;
+        }
+        size = cell->size;
+    }
+    return size;
+}
+
+long hits_in_a_row(double pd, double confidence) {
+    return static_cast<long>(std::ceil(std::log1p(-confidence) / std::log(pd) - 1e-9));
+}
+
+double size_beyond_misses(std::span<const double> sizes, std::span<const int> hit, double pd,
+                          double confidence) {
+    double missed = 0.0;
+    for (std::size_t i = 0; i < sizes.size(); ++i) {
+        missed = hit[i] == 0 ? std::max(missed, sizes[i]) : missed;
+    }
+    std::vector<double> beyond;
+    for (std::size_t i = 0; i < sizes.size(); ++i) {
+        if (hit[i] == 1 && sizes[i] > missed) {
+            beyond.push_back(sizes[i]);
+        }
+    }
+    const auto last = static_cast<std::size_t>(hits_in_a_row(pd, confidence)) - 1;
+    if (beyond.size() <= last) {
+        return kNan;
+    }
+    std::nth_element(beyond.begin(), beyond.begin() + static_cast<std::ptrdiff_t>(last),
+                     beyond.end());
+    return beyond[last];
+}
+
+double demonstrated_size(const LevelDetection& level, std::span<const double> sizes,
+                         std::span<const int> hit, double pd, double confidence) {
+    const double single = size_beyond_misses(sizes, hit, pd, 1.0 - 0.5 * (1.0 - confidence));
+    const auto group = reliable_size(level, pd);
+    return group ? std::fmin(group->high, single) : single;
 }
 
 }  // namespace gearpod::analysis

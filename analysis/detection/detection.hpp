@@ -1,13 +1,34 @@
-// Detection rates: alarms per fault size at a threshold from an independent healthy sample.
-// MIL-HDBK-1823A, section 4; intervals: Wilson (1927), Clopper and Pearson (1934).
+// Assignment of gearboxes to size groups, and the counts of a group.
 #pragma once
 
+#include <cstddef>
+#include <optional>
 #include <span>
 #include <string>
+#include <vector>
 
 #include "analysis/detection/detection_table.hpp"
 
 namespace gearpod::analysis {
+
+inline constexpr std::size_t kNoGroup = static_cast<std::size_t>(-1);
+
+// Group of a size. A fixed level holds its own size up to the rounding of a unit conversion. A
+// range holds its lower edge; its upper edge belongs to the next group, unless no group begins
+// there.
+std::optional<std::size_t> group_of(double size, const std::vector<SizeGroup>& groups);
+// Group of every gearbox; kNoGroup for none.
+std::vector<std::size_t> groups_of(std::span<const double> sizes,
+                                   const std::vector<SizeGroup>& groups);
+
+// Adds one gearbox. A value that is not finite counts as failed.
+void count(DetectionCell& cell, double value, double threshold, Alarm alarm);
+
+// Sets the rate and its bounds from the counts; NaN if none was tested or without a threshold.
+void rate(DetectionCell& cell, bool has_threshold, double confidence);
+
+// Detection rates: alarms per fault size at a threshold from an independent healthy sample.
+// MIL-HDBK-1823A, section 4; intervals: Wilson (1927), Clopper and Pearson (1934).
 
 // Values of one feature for one set of gearboxes, row-major: values[i * levels + level]. NaN marks
 // a failed gearbox.
@@ -22,10 +43,46 @@ struct FeatureSample {
 
 // Sets thresholds from all of `healthy`, whatever their fault_size (healthy_thresholds.hpp), and
 // computes rates from `graded`. Intervals assume independent values or importance-sampled records;
-// use detect_clustered() (clusters.hpp) for several plain records of each gearbox. Throws
+// use detect_clustered() for several plain records of each gearbox. Throws
 // std::invalid_argument if the shapes disagree, the false-alarm rate is not between 0 and 1, or the
 // size groups do not ascend.
 FeatureDetection detect(const std::string& feature, Alarm alarm, const FeatureSample& healthy,
                         const FeatureSample& graded, const DetectionRequest& request);
+
+// Detection from two-level healthy samples: several recordings of each of fewer gearboxes
+// (healthy_thresholds.hpp).
+
+// Calls detect() and widens the intervals for healthy rows grouped by gearbox. With one row per
+// gearbox, or with importance-sampled records, the result is that of detect().
+FeatureDetection detect_clustered(const std::string& feature, Alarm alarm,
+                                  const FeatureSample& healthy,
+                                  std::span<const std::size_t> gearbox, const FeatureSample& graded,
+                                  const DetectionRequest& request);
+
+// Smallest fault size that a detector finds reliably, demonstrated by tests without a curve.
+
+// Probability of detection that counts as reliable.
+inline constexpr double kReliablePd = 0.9;
+
+// Smallest tested fault size at and above which the lower bound of Pd of every group is at least
+// `pd`. Empty if not reached. The healthy group (size 0) does not count.
+std::optional<SizeGroup> reliable_size(const LevelDetection& level, double pd);
+
+// Number of tests without a miss that demonstrates a probability of `pd` at the confidence: 29 for
+// 0.9 at 0.95, the classic demonstration (MIL-HDBK-1823A, section 4.5.2).
+long hits_in_a_row(double pd, double confidence);
+
+// Demonstrated size from individual gearboxes; `hit`: 1 detected, 0 missed, -1 no value. With N =
+// hits_in_a_row(), returns the N-th smallest detected size above the largest missed size. Testing
+// down from the largest size, one gearbox at a time, is a sequence in an order fixed beforehand
+// that stops at the first failure. The confidence therefore holds for all tests together, if larger
+// faults are not found less often. NaN if there are too few gearboxes.
+double size_beyond_misses(std::span<const double> sizes, std::span<const int> hit, double pd,
+                          double confidence);
+
+// Smaller of two demonstrated sizes: that of the size groups (with two-sided intervals), and that
+// of the individual gearboxes. Each has half of the error probability. NaN if there is neither.
+double demonstrated_size(const LevelDetection& level, std::span<const double> sizes,
+                         std::span<const int> hit, double pd, double confidence);
 
 }  // namespace gearpod::analysis

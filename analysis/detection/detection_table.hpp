@@ -1,15 +1,42 @@
-// Request and results of a detection: thresholds, counts and rates by feature, noise level and
-// fault size.
+// Side of the threshold that raises the alarm.
 #pragma once
 
 #include <optional>
 #include <string>
 #include <vector>
 
-#include "analysis/detection/alarm.hpp"
 #include "analysis/statistics/interval.hpp"
+#include "features/feature.hpp"
 
 namespace gearpod::analysis {
+
+using Alarm = features::AlarmSide;
+
+// Side on which a fault is missed.
+constexpr Alarm opposite(Alarm alarm) {
+    return alarm == Alarm::high ? Alarm::low : Alarm::high;
+}
+
+// Sign that makes the larger value the one nearer to the alarm.
+constexpr double alarm_sign(Alarm alarm) {
+    return alarm == Alarm::high ? 1.0 : -1.0;
+}
+
+// True strictly beyond the threshold; false if either value is NaN.
+constexpr bool is_alarm(double value, double threshold, Alarm alarm) {
+    return alarm == Alarm::high ? value > threshold : value < threshold;
+}
+
+constexpr const char* alarm_name(Alarm alarm) {
+    return alarm == Alarm::high ? "high" : "low";
+}
+// Comparison sign between an alarming value and the threshold.
+constexpr const char* alarm_symbol(Alarm alarm) {
+    return alarm == Alarm::high ? ">" : "<";
+}
+
+// Request and results of a detection: thresholds, counts and rates by feature, noise level and
+// fault size.
 
 // Group of gearboxes whose fault sizes lie in [low, high], in the unit of the request. Both are
 // equal for a fixed level.
@@ -40,7 +67,7 @@ struct TailChoice {
     double rate = 0.0;       // expected rate of this fit beyond the threshold in use
 };
 
-// Threshold extrapolated beyond the healthy sample (tail.hpp).
+// Threshold extrapolated beyond the healthy sample (threshold.hpp).
 struct TailThreshold {
     double extrapolation = 1.0;       // 1 / (rate x sample size)
     std::vector<TailChoice> choices;  // the first gives the threshold; the others fit fewer values
@@ -65,7 +92,7 @@ struct LevelDetection {
         {};                            // set if the threshold is from importance sampling
     std::vector<DetectionCell> cells;  // by ascending size
     // Interval of the false-alarm rate of this threshold from the healthy sample alone, whatever
-    // the feature's distribution (false_alarm_rate.hpp, tail.hpp).
+    // the feature's distribution (false_alarm_rate.hpp, threshold.hpp).
     Interval threshold_rate = {};
     // False-alarm rate of this threshold with the healthy test gearboxes included, its interval,
     // and the interval of the expected rate over repeated studies, threshold scatter included. The

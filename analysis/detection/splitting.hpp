@@ -1,3 +1,25 @@
+// Exchange of random inputs between gearboxes in multilevel splitting (splitting.hpp).
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "analysis/detection/detection_table.hpp"
+#include "analysis/statistics/interval.hpp"
+
+namespace gearpod::analysis {
+
+// Replaces a share s of the random inputs by those of another gearbox. A normal number becomes (1 -
+// s) own + sqrt(1 - (1 - s)^2) other; an input that is not built from normal numbers is replaced
+// with probability s. Both keep the distribution of the inputs and are reversible.
+struct InputExchange {
+    std::uint64_t index = 0;  // number of the other gearbox
+    double share = 0.0;
+};
+
 // Probability of rare values caused by rare gearboxes rather than by noise: multilevel splitting
 // (H. Kahn, T. E. Harris 1951; F. Cerou, A. Guyader, Stoch. Anal. Appl. 25 (2007), 417-443), also
 // known as subset simulation. The quarter of a sample nearest to an alarm is continued: each member
@@ -12,19 +34,6 @@
 // rate follows from its division among families (A. Lee, N. Whiteley, Biometrika 105 (2018),
 // 609-625). Its interval is lognormal, widened for few families by Student's t. There is no
 // estimate from fewer than kLeastFamilies families.
-#pragma once
-
-#include <cstdint>
-#include <functional>
-#include <optional>
-#include <span>
-#include <vector>
-
-#include "analysis/detection/detection_table.hpp"
-#include "analysis/detection/input_exchange.hpp"
-#include "analysis/statistics/interval.hpp"
-
-namespace gearpod::analysis {
 
 inline constexpr double kLeastFamilies = 5.0;
 

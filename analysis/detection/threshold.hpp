@@ -1,16 +1,83 @@
-// Alarm threshold from a healthy sample at a stated false-alarm rate.
+// Alarm thresholds beyond a healthy sample by peaks over threshold. Values above a high order
+// statistic approximately follow a generalised Pareto distribution, whatever the feature's
+// distribution: J. Pickands, Ann. Stat. 3 (1975), 119-131; A. C. Davison, R. L. Smith, J. R. Stat.
+// Soc. B 52 (1990), 393-442.
+//
+// Shape and scale have their posterior under Jeffreys' prior, 1 / (scale (1 + shape) sqrt(1 + 2
+// shape)), shape > -1/2: M. E. Castellanos, S. Cabras, J. Stat. Plan. Inference 137 (2007),
+// 473-483. The share above the order statistic is Beta(k + 1, n - k) distributed with k of n values
+// above (false_alarm_rate.hpp). If the distribution holds, the *expected* rate of a threshold is
+// the requested one, as with an order statistic, and the interval is that of the given threshold.
+// Both are integrals over a grid, without random numbers.
 #pragma once
 
 #include <optional>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "analysis/detection/detection_table.hpp"
 #include "analysis/detection/false_alarm_rate.hpp"
 #include "analysis/detection/importance_sample.hpp"
-#include "analysis/detection/tail.hpp"
+#include "analysis/statistics/interval.hpp"
 
 namespace gearpod::analysis {
+
+// Limits of the fit. The distribution is fitted to the largest tenth of a sample, at most
+// kMostExceedances values; more would add bias faster than they reduce variance. Fewer than
+// kLeastExceedances do not determine the shape. Extrapolation is limited to rates
+// kFarthestExtrapolation times rarer than one in the sample. Within these limits, intervals keep
+// their nominal coverage (tests/analysis/detection/test_tail.cpp).
+inline constexpr long kMostExceedances = 200;
+inline constexpr long kLeastExceedances = 100;
+inline constexpr double kFarthestExtrapolation = 5.0;
+
+long exceedances_of(long sample);
+bool tail_reaches(long sample, double false_alarm_rate);
+// Smallest sample whose tail reaches the rate.
+long sample_for_tail(double false_alarm_rate);
+
+class TailFit {
+  public:
+    // Fits the tail. `largest`: an order statistic followed by the values that exceed it,
+    // ascending, out of `sample` finite values.
+    TailFit(std::span<const double> largest, long sample);
+
+    // Reason why there is no fit (equal healthy values), or "".
+    const std::string& refusal() const { return refusal_; }
+    long exceedances() const { return exceedances_; }
+    double above() const { return above_; }  // the order statistic
+    double shape() const { return shape_; }  // posterior means
+    double scale() const { return scale_; }
+
+    // Rate beyond a value at or above the order statistic: its expected rate, and its rate and
+    // interval updated by `alarms` of `tested` further healthy gearboxes. NaN if that count
+    // contradicts the fit.
+    double rate(double value) const;
+    HealthyRate rate(double value, long alarms, long tested, double confidence) const;
+    // Value whose expected rate is `rate`. The rate must not exceed that of the order statistic;
+    // for a larger one, returns the order statistic.
+    double threshold(double rate) const;
+    // Interval of the value whose rate is exactly `rate`.
+    Interval threshold_interval(double rate, double confidence) const;
+
+  private:
+    struct Node {
+        double shape_over_scale, scale, weight;  // in units of the median excess
+    };
+    std::vector<Node> posterior(const std::vector<double>& excess, double shape_over_scale_low,
+                                double shape_over_scale_high, double log_scale_low,
+                                double log_scale_high) const;
+    // Equally likely values of the share above the order statistic.
+    std::vector<double> shares() const;
+
+    long sample_ = 0, exceedances_ = 0;
+    double above_ = 0.0, unit_ = 1.0, shape_ = kNan, scale_ = kNan;
+    std::vector<Node> nodes_;  // weights sum to 1
+    std::string refusal_;
+};
+
+// Alarm threshold from a healthy sample at a stated false-alarm rate.
 
 struct Threshold {
     double value = 0.0;  // NaN if the sample is too small for the rate
@@ -27,7 +94,7 @@ struct Threshold {
 // healthy gearbox from the same population lies strictly beyond the r-th smallest of n with an
 // expected probability of (n+1-r)/(n+1), whatever the distribution. This is therefore the tightest
 // order statistic that keeps the rate. Where it would need more than n values, the threshold is
-// extrapolated as far as the tail permits (tail.hpp). Values that are not finite are left out.
+// extrapolated as far as the tail permits. Values that are not finite are left out.
 Threshold alarm_threshold(std::vector<double> healthy, Alarm alarm, double false_alarm_rate);
 
 // The same for several rates of one sample, which is sorted and whose tail is fitted once. An

@@ -1,13 +1,4 @@
-// Dependence of the probability of detection on every random input besides the fault size: rates in
-// bins of the input, and the hit/miss curve with the input as a second covariate,
-//
-//   POD(a, z) = floor + (ceiling - floor) F(b0 + b1 x(a) + b2 z + b3 z^2),
-//
-// in the form (link, scale of size, floor, ceiling) of the feature's own curve. b2 = b3 = 0 is
-// tested by the likelihood ratio (McCullagh and Nelder (1989), section 4.4), adjusted over the
-// inputs (Holm). a90 follows as a function of z, with bounds after E. C. Fieller, J. R. Stat. Soc.
-// B 16 (1954), 175-185: the sizes at which POD 0.9 is not rejected. The slope over size is assumed
-// equal at all values of the input.
+// Division of an input's values into bins of equal counts.
 #pragma once
 
 #include <span>
@@ -19,6 +10,26 @@
 #include "analysis/pod/hit_miss_pod.hpp"
 
 namespace gearpod::analysis {
+
+// Bin of each value, 0 to bins - 1 in ascending order of the values. With at most `bins` distinct
+// values, each has its own bin. Otherwise equal values share a bin and the counts are as equal as
+// that allows. Values must be finite.
+struct InputBins {
+    std::vector<std::size_t> of;
+    std::size_t bins = 0;
+};
+InputBins equal_count_bins(std::span<const double> values, std::size_t bins);
+
+// Dependence of the probability of detection on every random input besides the fault size: rates in
+// bins of the input, and the hit/miss curve with the input as a second covariate,
+//
+//   POD(a, z) = floor + (ceiling - floor) F(b0 + b1 x(a) + b2 z + b3 z^2),
+//
+// in the form (link, scale of size, floor, ceiling) of the feature's own curve. b2 = b3 = 0 is
+// tested by the likelihood ratio (McCullagh and Nelder (1989), section 4.4), adjusted over the
+// inputs (Holm). a90 follows as a function of z, with bounds after E. C. Fieller, J. R. Stat. Soc.
+// B 16 (1954), 175-185: the sizes at which POD 0.9 is not rejected. The slope over size is assumed
+// equal at all values of the input.
 
 // Gearboxes whose input lies in [low, high].
 struct InputBin {

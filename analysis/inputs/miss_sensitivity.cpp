@@ -6,9 +6,9 @@
 #include <cmath>
 #include <limits>
 
-#include "analysis/statistics/auc.hpp"
-#include "analysis/statistics/holm.hpp"
+#include "analysis/statistics/difference_tests.hpp"
 #include "analysis/statistics/link.hpp"
+#include "analysis/statistics/rank_statistics.hpp"
 
 namespace gearpod::analysis {
 namespace {

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <utility>
 
-#include "analysis/statistics/clopper_pearson.hpp"
-#include "features/statistics/median.hpp"
+#include "analysis/statistics/interval.hpp"
+#include "features/statistics/signal_statistics.hpp"
 
 namespace gearpod::analysis {
 

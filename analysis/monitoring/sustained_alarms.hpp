@@ -45,7 +45,7 @@ struct HeldOutAlarms {
     // without a threshold, because the detector needs more records than a half has.
     double rate = kNan;
     long alarms = 0, records = 0;
-    // Exact interval of the rate for independent records (clopper_pearson.hpp).
+    // Exact interval of the rate for independent records (interval.hpp).
     Interval bounds{kNan, kNan};
 };
 HeldOutAlarms held_out_alarms(const Detector& detector, std::span<const HealthyLife> lives,

@@ -12,13 +12,12 @@
 #include <string>
 #include <vector>
 
-#include "analysis/pod/bound_rule.hpp"
+#include "analysis/detection/detection.hpp"
 #include "analysis/pod/curve_covariance.hpp"
-#include "analysis/pod/goodness_of_fit.hpp"
 #include "analysis/pod/hit_miss_table.hpp"
 #include "analysis/pod/pod_bounds.hpp"
 #include "analysis/pod/pod_curve.hpp"
-#include "analysis/pod/size_estimate.hpp"
+#include "analysis/pod/pod_likelihood.hpp"
 #include "analysis/statistics/interval.hpp"
 
 namespace gearpod::analysis {
@@ -45,14 +44,14 @@ struct HitMissPod {
     std::vector<PodPoint> band;  // over the tested sizes
     bool doubtful = false;       // the goodness of fit rejects the curve at 5 %
     BoundRule rule;
-    // Clusters of outcomes and the design effect on the bounds (cluster_effect.hpp); 0 and 1
+    // Clusters of outcomes and the design effect on the bounds (curve_covariance.hpp); 0 and 1
     // without.
     long clusters = 0;
     double design_effect = 1.0;
     // Share of tables simulated from the chosen curve in which the bound holds a90. NaN if not
     // simulated.
     double simulated_coverage = kNan;
-    // Covariance of the chosen curve's location and scale (location_scale.hpp). NaN with a fitted
+    // Covariance of the chosen curve's location and scale (curve_covariance.hpp). NaN with a fitted
     // ceiling or without individual outcomes.
     Eigen::Matrix2d covariance = Eigen::Matrix2d::Constant(kNan);
     // Number of specimens needed to bring a90's upper bound to the requested target, as a factor on
@@ -72,7 +71,7 @@ struct HitMissRequest {
     bool fit_ceiling = true;    // also fit curves with a ceiling
     bool firth = false;
     // Individual outcomes, for Wald bounds and the covariance. With more outcomes than clusters the
-    // covariance is robust, and calibrated bounds are those of cluster_effect.hpp.
+    // covariance is robust, and calibrated bounds are those of curve_covariance.hpp.
     std::vector<ClusteredOutcome> outcomes = {};
     std::optional<double> target = {};  // size to which a90's bound should come down
     std::string tested = "faulty gearbox";
@@ -90,5 +89,16 @@ std::vector<std::optional<SizeEstimate>> sizes_by_form(const HitMissTable& table
                                                        std::optional<Side> side);
 
 HitMissPod hit_miss_pod(const HitMissTable& table, const HitMissRequest& request);
+
+// Outcome of every gearbox (detected, missed or without a value), and the POD curve of the
+// outcomes.
+
+// 1 detected, 0 missed, -1 no value.
+std::vector<int> outcomes(std::span<const double> values, double threshold, Alarm alarm);
+
+// Fits the POD curve; refuses without a threshold. The floor is the healthy rate of the detection.
+HitMissPod pod_of_outcomes(std::span<const double> sizes, const std::vector<int>& hit,
+                           const LevelDetection& detection, double confidence,
+                           int band_points = HitMissRequest{}.band_points);
 
 }  // namespace gearpod::analysis

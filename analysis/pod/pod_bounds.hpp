@@ -1,13 +1,12 @@
 // Likelihood-ratio bounds of a POD curve: the parameters whose deviance from the maximum stays
-// within the chi-squared of a rule (bound_rule.hpp). MIL-HDBK-1823A, appendix G.3.5; R. C. H.
+// within the chi-squared of a rule (pod_curve.hpp). MIL-HDBK-1823A, appendix G.3.5; R. C. H.
 // Cheng, T. C. Iles, Technometrics 25 (1983), 77-86.
 #pragma once
 
 #include <vector>
 
-#include "analysis/pod/bound_rule.hpp"
+#include "analysis/pod/pod_curve.hpp"
 #include "analysis/pod/pod_likelihood.hpp"
-#include "analysis/pod/size_estimate.hpp"
 
 namespace gearpod::analysis {
 

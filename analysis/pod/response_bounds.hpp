@@ -4,10 +4,9 @@
 #include <memory>
 #include <vector>
 
-#include "analysis/pod/bound_rule.hpp"
-#include "analysis/pod/location_scale.hpp"
+#include "analysis/pod/curve_covariance.hpp"
+#include "analysis/pod/pod_curve.hpp"
 #include "analysis/pod/response_fit.hpp"
-#include "analysis/pod/size_estimate.hpp"
 
 namespace gearpod::analysis {
 

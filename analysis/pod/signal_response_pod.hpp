@@ -16,9 +16,9 @@
 #include <string>
 #include <vector>
 
+#include "analysis/pod/calibrated_bounds.hpp"
 #include "analysis/pod/response_bounds.hpp"
-#include "analysis/pod/response_scales.hpp"
-#include "analysis/pod/simulated_responses.hpp"
+#include "analysis/pod/response_fit.hpp"
 #include "analysis/statistics/interval.hpp"
 
 namespace gearpod::analysis {

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <cstdint>
 
-#include "analysis/pod/outcomes.hpp"
+#include "analysis/pod/hit_miss_pod.hpp"
 #include "analysis/ranking/feature_ranking.hpp"
 #include "analysis/statistics/binary_regression.hpp"
 #include "analysis/statistics/interval.hpp"

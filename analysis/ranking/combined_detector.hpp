@@ -3,8 +3,8 @@
 // among the healthy training gearboxes, scaled to the training gearboxes' standard deviation. The
 // score is bounded where no healthy value lies beyond, so that a very large fault weighs no more
 // than a small one that is as clear. Half of the gearboxes train the detector; the other half sets
-// its threshold and evaluates it. The best single feature, chosen on the training half, is evaluated on
-// the same gearboxes with a threshold from the same healthy ones.
+// its threshold and evaluates it. The best single feature, chosen on the training half, is
+// evaluated on the same gearboxes with a threshold from the same healthy ones.
 #pragma once
 
 #include <span>
@@ -13,7 +13,7 @@
 
 #include "analysis/detection/detection.hpp"
 #include "analysis/pod/hit_miss_pod.hpp"
-#include "analysis/statistics/auc.hpp"
+#include "analysis/statistics/rank_statistics.hpp"
 
 namespace gearpod::analysis {
 
@@ -54,8 +54,8 @@ struct CombinedDetector {
 // group, so that alternating levels do not fall into one half.
 bool in_training_half(std::size_t instance);
 
-// Trains and evaluates the detector. `request` must have the one noise level of these values. Refuses
-// fewer than two usable features, and fewer than 50 healthy or faulty training gearboxes.
+// Trains and evaluates the detector. `request` must have the one noise level of these values.
+// Refuses fewer than two usable features, and fewer than 50 healthy or faulty training gearboxes.
 CombinedDetector combine_features(const std::vector<CombinedFeature>& features,
                                   std::span<const double> healthy_size,
                                   std::span<const double> graded_size,

@@ -9,7 +9,7 @@
 
 #include "analysis/detection/false_alarm_rate.hpp"
 #include "analysis/detection/importance_sample.hpp"
-#include "analysis/detection/tail.hpp"
+#include "analysis/detection/threshold.hpp"
 #include "analysis/report/json_values.hpp"
 #include "analysis/report/wording.hpp"
 #include "features/feature.hpp"
@@ -25,7 +25,7 @@ long largest_sample(std::span<const FeatureDetection> features, std::size_t leve
     return largest;
 }
 
-// Widest interval that is wider than that of as many independent recordings (clusters.hpp); 0 if
+// Widest interval that is wider than that of as many independent recordings (detection.hpp); 0 if
 // there is none.
 Interval clustered_rate(std::span<const FeatureDetection> features,
                         const DetectionRequest& request) {

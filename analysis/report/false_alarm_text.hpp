@@ -8,7 +8,7 @@
 
 #include "analysis/detection/detection_table.hpp"
 #include "analysis/false_alarm_curve.hpp"
-#include "analysis/report/subject.hpp"
+#include "analysis/report/wording.hpp"
 
 namespace gearpod::analysis {
 

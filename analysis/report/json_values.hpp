@@ -6,7 +6,7 @@
 #include <span>
 #include <string>
 
-#include "analysis/pod/size_estimate.hpp"
+#include "analysis/pod/pod_curve.hpp"
 #include "analysis/statistics/interval.hpp"
 
 namespace gearpod::analysis {

@@ -1,15 +1,25 @@
-// A report: every finding in its final words, as statements and tables in sections. Analysis fills
-// it once; the terminal, the JSON, the page and the PDF render it and word nothing themselves.
+// Lines of the terminal reports.
 #pragma once
 
+#include <cstddef>
 #include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <variant>
 #include <vector>
 
-#include "analysis/report/text_lines.hpp"
-
 namespace gearpod::analysis {
+
+// Width of the reports in columns: 80, or that of a wider terminal. Must be set
+// before anything is written, while the program has one thread.
+std::size_t text_width();
+void set_text_width(std::size_t columns);
+
+// Adds the text and an end of line. Breaks at spaces before the width; further lines are indented.
+void add_wrapped(std::string& out, const std::string& text, std::size_t indent,
+                 std::size_t width = text_width());
+
+// A report: every finding in its final words, as statements and tables in sections. Analysis fills
+// it once; the terminal, the JSON, the page and the PDF render it and word nothing themselves.
 
 // A finding as one or more sentences. Plain text: "noise x 1", "2e-06 m/s^2"; a page may set the
 // signs in its own type.

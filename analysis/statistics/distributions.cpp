@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <boost/math/distributions/beta.hpp>
 #include <boost/math/distributions/binomial.hpp>
+#include <boost/math/distributions/chi_squared.hpp>
+#include <boost/math/distributions/fisher_f.hpp>
 #include <boost/math/distributions/gamma.hpp>
 #include <boost/math/distributions/normal.hpp>
 #include <boost/math/distributions/students_t.hpp>
@@ -80,6 +82,29 @@ double binomial_cdf(double tried, double rate, double found) {
 
 double log_gamma(double value) {
     return boost::math::lgamma(value, QuietPolicy());
+}
+
+namespace {
+
+template <typename Law>
+double upper_tail(const Law& law, double statistic) {
+    if (!(statistic > 0.0)) {
+        return std::isnan(statistic) ? statistic : 1.0;
+    }
+    return std::isinf(statistic) ? 0.0 : boost::math::cdf(boost::math::complement(law, statistic));
+}
+
+}  // namespace
+
+double chi_squared_upper_tail(double statistic, double degrees) {
+    return upper_tail(boost::math::chi_squared_distribution<double, QuietPolicy>(degrees),
+                      statistic);
+}
+
+double f_upper_tail(double statistic, double numerator_degrees, double denominator_degrees) {
+    return upper_tail(boost::math::fisher_f_distribution<double, QuietPolicy>(numerator_degrees,
+                                                                              denominator_degrees),
+                      statistic);
 }
 
 }  // namespace gearpod::analysis

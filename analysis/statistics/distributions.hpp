@@ -28,4 +28,10 @@ double binomial_cdf(double tried, double rate, double found);
 
 double log_gamma(double value);
 
+// Upper tail probabilities. A statistic of infinity gives 0, NaN gives NaN, and a value that
+// rounding left below 0 gives 1.
+
+double chi_squared_upper_tail(double statistic, double degrees);
+double f_upper_tail(double statistic, double numerator_degrees, double denominator_degrees);
+
 }  // namespace gearpod::analysis

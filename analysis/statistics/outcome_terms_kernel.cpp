@@ -4,8 +4,8 @@
 #include <numbers>
 
 #include "analysis/statistics/outcome_terms.hpp"
-#include "machine/kernel.hpp"
-#include "machine/lane_math.hpp"
+#include "machine/elementary_functions.hpp"
+#include "machine/instruction_sets.hpp"
 
 namespace gearpod::analysis {
 namespace {

@@ -7,8 +7,8 @@
 #include <stdexcept>
 #include <vector>
 
+#include "analysis/statistics/distributions.hpp"
 #include "analysis/statistics/link.hpp"
-#include "analysis/statistics/upper_tail.hpp"
 
 namespace gearpod::analysis {
 namespace {

@@ -2,12 +2,12 @@
 
 #include <exception>
 
-#include "mc/accuracy/report.hpp"
 #include "mc/commands/commands.hpp"
-#include "mc/input/exception_text.hpp"
-#include "mc/options/options.hpp"
+#include "mc/commands/options/options.hpp"
+#include "mc/files/input/problems.hpp"
+#include "mc/library/run/command_files.hpp"
+#include "mc/numerics/accuracy/report.hpp"
 #include "mc/report/page.hpp"
-#include "mc/run/support.hpp"
 #include "mc/study/other_sources.hpp"
 
 namespace gearpod::mc {

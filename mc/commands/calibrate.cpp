@@ -1,6 +1,6 @@
 // Command `calibrate STUDY --healthy REC...`: finds the inputs with which simulated healthy
 // gearboxes match measured ones.
-#include "mc/calibration/calibrate.hpp"
+#include "mc/recordings/calibration/calibrate.hpp"
 
 #include <fmt/format.h>
 
@@ -8,16 +8,15 @@
 #include <exception>
 #include <utility>
 
-#include "mc/calibration/calibration_report.hpp"
 #include "mc/commands/commands.hpp"
-#include "mc/ensemble/thread_count.hpp"
+#include "mc/commands/options/options.hpp"
+#include "mc/ensemble/ranks.hpp"
+#include "mc/files/input/problems.hpp"
+#include "mc/files/input/terminal_text.hpp"
 #include "mc/files/json_text.hpp"
 #include "mc/files/signal_file.hpp"
-#include "mc/input/exception_text.hpp"
-#include "mc/input/printable.hpp"
-#include "mc/options/options.hpp"
+#include "mc/library/run/command_files.hpp"
 #include "mc/recordings/measure_recordings.hpp"
-#include "mc/run/support.hpp"
 #include "mc/study/housing.hpp"
 #include "mc/study/noise.hpp"
 #include "mc/study/other_sources.hpp"

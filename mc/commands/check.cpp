@@ -6,10 +6,10 @@
 #include <vector>
 
 #include "mc/commands/commands.hpp"
-#include "mc/input/exception_text.hpp"
-#include "mc/input/printable.hpp"
-#include "mc/options/options.hpp"
-#include "mc/run/support.hpp"
+#include "mc/commands/options/options.hpp"
+#include "mc/files/input/problems.hpp"
+#include "mc/files/input/terminal_text.hpp"
+#include "mc/library/run/command_files.hpp"
 
 namespace gearpod::mc {
 namespace {

@@ -1,6 +1,6 @@
 // Commands of the program. Each add_NAME() adds a command with its options to the command line;
-// when arguments are parsed, the command runs and stores its exit code (mc/run/run_options.hpp) in
-// `code`.
+// when arguments are parsed, the command runs and stores its exit code
+// (mc/library/run/run_options.hpp) in `code`.
 #pragma once
 
 #include <CLI/CLI.hpp>

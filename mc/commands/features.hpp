@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
+#include "mc/library/run/run_options.hpp"
 #include "mc/recordings/recording_baselines.hpp"
-#include "mc/run/run_options.hpp"
 
 namespace gearpod::mc {
 

@@ -1,12 +1,29 @@
-// Runs and reports lives of gearboxes, for `lives` itself and for the commands that call it.
+// Options of `report`.
 #pragma once
 
+#include <optional>
 #include <string>
 
-#include "mc/commands/report_options.hpp"
-#include "mc/run/run_options.hpp"
+#include "mc/library/run/run_options.hpp"
 
 namespace gearpod::mc {
+
+struct ReportOptions {
+    std::string results;
+    std::string json;       // "": none; "-": standard output
+    std::string html, pdf;  // "": none
+    std::string csv;        // folder for every table; "": none
+    std::string figures;    // folder for the page's figures as SVG and PNG; "": none
+    std::string evidence;   // folder for the evidence pack; "": none
+    std::string dataset;    // folder for the dataset; "": none
+    std::string condition;  // random input; each of its values gets its own threshold; "": none
+    // Cost of a false alarm, cost of a missed fault, share of records with a fault: all or none.
+    std::optional<double> alarm_cost, miss_cost, fault_share;
+    bool shows_withheld = false;  // of lives with too large an interpolation error
+    bool force = false;           // replaces outputs of another kind
+};
+
+// Runs and reports lives of gearboxes, for `lives` itself and for the commands that call it.
 
 class Ranks;
 

@@ -6,19 +6,19 @@
 #include <map>
 #include <stdexcept>
 
-#include "machine/wall_clock.hpp"
+#include "machine/clocks.hpp"
 #include "mc/commands/commands.hpp"
+#include "mc/commands/options/options.hpp"
 #include "mc/ensemble/results_check.hpp"
 #include "mc/ensemble/run_store.hpp"
 #include "mc/files/atomic_file.hpp"
-#include "mc/input/exception_text.hpp"
-#include "mc/input/printable.hpp"
-#include "mc/options/options.hpp"
-#include "mc/results/file_rows.hpp"
+#include "mc/files/input/problems.hpp"
+#include "mc/files/input/terminal_text.hpp"
+#include "mc/library/run/command_files.hpp"
+#include "mc/library/run/run.hpp"
+#include "mc/library/run/run_preparation.hpp"
 #include "mc/results/provenance.hpp"
-#include "mc/run/run_checks.hpp"
-#include "mc/run/run_to_end.hpp"
-#include "mc/run/support.hpp"
+#include "mc/results/result_rows.hpp"
 
 namespace gearpod::mc {
 namespace {

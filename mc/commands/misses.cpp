@@ -9,10 +9,10 @@
 
 #include "analysis/report/json_values.hpp"
 #include "mc/commands/commands.hpp"
+#include "mc/commands/options/options.hpp"
 #include "mc/commands/study_results.hpp"
-#include "mc/ensemble/miss_rate.hpp"
-#include "mc/input/wrapped_text.hpp"
-#include "mc/options/options.hpp"
+#include "mc/ensemble/rare_event_rates.hpp"
+#include "mc/files/input/terminal_text.hpp"
 #include "mc/study/noise.hpp"
 #include "mc/study/other_sources.hpp"
 #include "mc/study/schema/schema.hpp"

@@ -7,14 +7,14 @@
 #include <vector>
 
 #include "mc/commands/commands.hpp"
-#include "mc/coupling/coupled_train.hpp"
+#include "mc/commands/options/options.hpp"
+#include "mc/ensemble/coupling/neighbour_stages.hpp"
 #include "mc/files/json_text.hpp"
-#include "mc/library/natural_frequencies.hpp"
-#include "mc/numerics/choice.hpp"
-#include "mc/options/options.hpp"
+#include "mc/library/run/command_files.hpp"
+#include "mc/library/stiffness_modes.hpp"
+#include "mc/numerics/numerics_choice.hpp"
+#include "mc/plan/scene_error.hpp"
 #include "mc/report/page.hpp"
-#include "mc/run/support.hpp"
-#include "mc/scene/scene_error.hpp"
 #include "mc/study/gears.hpp"
 #include "mc/study/other_sources.hpp"
 

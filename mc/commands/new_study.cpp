@@ -5,12 +5,12 @@
 #include <string>
 
 #include "mc/commands/commands.hpp"
-#include "mc/new_study/planetary.hpp"
-#include "mc/new_study/rexs_study.hpp"
-#include "mc/options/options.hpp"
+#include "mc/commands/options/options.hpp"
+#include "mc/library/run/command_files.hpp"
+#include "mc/plan/mesh_loads.hpp"
 #include "mc/report/page.hpp"
-#include "mc/run/support.hpp"
-#include "mc/scene/mesh_loads.hpp"
+#include "mc/study/new/planetary.hpp"
+#include "mc/study/new/rexs_study.hpp"
 
 namespace gearpod::mc {
 namespace {

@@ -5,9 +5,9 @@
 #include <filesystem>
 
 #include "mc/files/atomic_file.hpp"
-#include "mc/input/printable.hpp"
+#include "mc/files/input/terminal_text.hpp"
+#include "mc/library/run/command_files.hpp"
 #include "mc/report/evidence.hpp"
-#include "mc/run/output_kind.hpp"
 
 namespace gearpod::mc {
 namespace {

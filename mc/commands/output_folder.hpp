@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "mc/library/run/command_files.hpp"
 #include "mc/report/tables.hpp"
-#include "mc/run/support.hpp"
 
 namespace gearpod::mc {
 

@@ -6,16 +6,16 @@
 
 #include "analysis/report/inspection_report.hpp"
 #include "mc/commands/commands.hpp"
+#include "mc/commands/options/options.hpp"
 #include "mc/commands/output_folder.hpp"
+#include "mc/files/input/problems.hpp"
+#include "mc/files/input/terminal_text.hpp"
 #include "mc/files/json_text.hpp"
 #include "mc/files/signal_file.hpp"
-#include "mc/input/exception_text.hpp"
-#include "mc/input/printable.hpp"
 #include "mc/library/inspection_table.hpp"
-#include "mc/options/options.hpp"
+#include "mc/library/run/command_files.hpp"
 #include "mc/report/evidence.hpp"
 #include "mc/report/page.hpp"
-#include "mc/run/support.hpp"
 
 namespace gearpod::mc {
 

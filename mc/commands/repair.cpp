@@ -12,11 +12,11 @@
 #include "mc/commands/commands.hpp"
 #include "mc/ensemble/results_check.hpp"
 #include "mc/files/file_descriptor.hpp"
-#include "mc/input/exception_text.hpp"
+#include "mc/files/input/problems.hpp"
+#include "mc/library/run/run_options.hpp"
 #include "mc/results/file_checksum.hpp"
+#include "mc/results/result_rows.hpp"
 #include "mc/results/results_file.hpp"
-#include "mc/results/row_source.hpp"
-#include "mc/run/run_options.hpp"
 
 namespace gearpod::mc {
 namespace {

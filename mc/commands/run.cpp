@@ -2,8 +2,8 @@
 #include <CLI/CLI.hpp>
 
 #include "mc/commands/commands.hpp"
-#include "mc/options/options.hpp"
-#include "mc/run/run_options.hpp"
+#include "mc/commands/options/options.hpp"
+#include "mc/library/run/run_options.hpp"
 
 namespace gearpod::mc {
 

@@ -4,16 +4,15 @@
 #include <span>
 
 #include "mc/commands/commands.hpp"
+#include "mc/commands/options/options.hpp"
 #include "mc/files/atomic_file.hpp"
 #include "mc/files/hdf5_data.hpp"
-#include "mc/input/bad_input.hpp"
-#include "mc/input/exception_text.hpp"
-#include "mc/library/simulated_row.hpp"
-#include "mc/options/options.hpp"
+#include "mc/files/input/problems.hpp"
+#include "mc/library/open_study.hpp"
+#include "mc/library/run/command_files.hpp"
 #include "mc/report/tables.hpp"
 #include "mc/results/layout.hpp"
 #include "mc/results/provenance.hpp"
-#include "mc/run/support.hpp"
 
 namespace gearpod::mc {
 namespace {

@@ -4,11 +4,11 @@
 #include <vector>
 
 #include "mc/commands/commands.hpp"
-#include "mc/description/describe_gearbox.hpp"
-#include "mc/library/stiffness_columns.hpp"
-#include "mc/options/options.hpp"
-#include "mc/run/support.hpp"
-#include "mc/scene/stiffness_curves.hpp"
+#include "mc/commands/options/options.hpp"
+#include "mc/library/run/command_files.hpp"
+#include "mc/library/stiffness_modes.hpp"
+#include "mc/plan/scene.hpp"
+#include "mc/report/description/describe_gearbox.hpp"
 #include "mc/study/gears.hpp"
 #include "mc/study/schema/sizes.hpp"
 

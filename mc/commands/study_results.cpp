@@ -10,11 +10,11 @@
 
 #include "mc/commands/commands.hpp"
 #include "mc/ensemble/results_check.hpp"
+#include "mc/files/input/problems.hpp"
 #include "mc/files/json_text.hpp"
-#include "mc/input/exception_text.hpp"
-#include "mc/results/file_rows.hpp"
+#include "mc/library/run/command_files.hpp"
 #include "mc/results/reliability_of_results.hpp"
-#include "mc/run/support.hpp"
+#include "mc/results/result_rows.hpp"
 #include "mc/study/schema/schema.hpp"
 #include "mc/study/schema/sizes.hpp"
 

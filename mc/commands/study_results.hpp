@@ -12,10 +12,10 @@
 #include "mc/commands/commands.hpp"
 #include "mc/ensemble/progress.hpp"
 #include "mc/ensemble/ranks.hpp"
-#include "mc/input/problems.hpp"
+#include "mc/files/input/problems.hpp"
+#include "mc/library/run/command_files.hpp"
 #include "mc/numerics/study_scene.hpp"
 #include "mc/results/results_file.hpp"
-#include "mc/run/support.hpp"
 
 namespace gearpod::mc {
 

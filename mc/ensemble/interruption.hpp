@@ -6,7 +6,7 @@
 #include <optional>
 #include <string>
 
-#include "machine/cancellation.hpp"
+#include "machine/team.hpp"
 
 namespace gearpod::mc {
 

@@ -10,8 +10,8 @@
 #include <string>
 #include <type_traits>
 
+#include "mc/ensemble/batch_workers.hpp"
 #include "mc/ensemble/ranks.hpp"
-#include "mc/ensemble/worker_team.hpp"
 
 namespace gearpod {
 

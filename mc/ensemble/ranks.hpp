@@ -5,6 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "mc/study/study.hpp"
+
 namespace gearpod::mc {
 
 // Access to the MPI ranks. MPI is initialized only if a launcher is present, so that the program
@@ -63,5 +65,14 @@ class Ranks {
 
 // For example "rank 2 on node17".
 std::string rank_name(const Ranks& ranks);
+
+// Number of threads of one process.
+
+// OMP_NUM_THREADS, or else the processors of this process divided by the ranks on this machine. At
+// most OMP_THREAD_LIMIT.
+int thread_count(int ranks_on_this_machine = 1);
+
+// The same, unless the study's numerics.threads is not 0; then that number.
+int thread_count(const Study& study, int ranks_on_this_machine = 1);
 
 }  // namespace gearpod::mc

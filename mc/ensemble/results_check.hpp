@@ -5,7 +5,7 @@
 #include <optional>
 #include <string>
 
-#include "mc/results/row_source.hpp"
+#include "mc/results/result_rows.hpp"
 
 namespace gearpod::mc {
 

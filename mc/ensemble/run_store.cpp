@@ -6,11 +6,11 @@
 #include <filesystem>
 #include <stdexcept>
 
-#include "mc/ensemble/batch_worker.hpp"
+#include "mc/ensemble/batch_workers.hpp"
+#include "mc/ensemble/gearbox/realization_features.hpp"
 #include "mc/files/atomic_file.hpp"
-#include "mc/gearbox/healthy_reference.hpp"
-#include "mc/results/file_rows.hpp"
 #include "mc/results/provenance.hpp"
+#include "mc/results/result_rows.hpp"
 #include "mc/results/results_file.hpp"
 
 namespace gearpod::mc {

@@ -7,10 +7,10 @@
 #include <string>
 
 #include "mc/ensemble/results_check.hpp"
+#include "mc/plan/scene.hpp"
 #include "mc/results/checkpoint.hpp"
+#include "mc/results/result_rows.hpp"
 #include "mc/results/results_file.hpp"
-#include "mc/results/row_source.hpp"
-#include "mc/scene/scene.hpp"
 
 namespace gearpod::mc {
 

@@ -5,11 +5,11 @@
 #include <algorithm>
 #include <cmath>
 
-#include "analysis/detection/size_groups.hpp"
+#include "analysis/detection/detection.hpp"
 #include "analysis/detection/threshold.hpp"
-#include "analysis/statistics/wilson.hpp"
-#include "mc/ensemble/batch_worker.hpp"
-#include "mc/scene/feature_needs.hpp"
+#include "analysis/statistics/interval.hpp"
+#include "mc/ensemble/batch_workers.hpp"
+#include "mc/plan/feature_needs.hpp"
 #include "mc/study/schema/sizes.hpp"
 
 namespace gearpod::mc {

@@ -6,7 +6,7 @@
 #include <string>
 
 #include "analysis/detection/detection.hpp"
-#include "mc/results/batch_rows.hpp"
+#include "mc/results/result_rows.hpp"
 #include "mc/study/study.hpp"
 
 namespace gearpod::mc {

@@ -5,10 +5,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "mc/files/unit_expression.hpp"
-#include "mc/input/parsed_number.hpp"
-#include "mc/input/printable.hpp"
-#include "mc/input/utf8.hpp"
+#include "mc/files/input/file_text.hpp"
+#include "mc/files/input/number_text.hpp"
+#include "mc/files/input/terminal_text.hpp"
+#include "mc/files/signal_units.hpp"
 
 namespace gearpod::mc {
 namespace {

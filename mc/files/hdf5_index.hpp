@@ -1,4 +1,4 @@
-// Datasets of an HDF5 file of any structure, and the signals among them.
+// Attributes of HDF5 objects that any program may have written.
 #pragma once
 
 #include <map>
@@ -9,10 +9,29 @@
 #include <vector>
 
 #include "mc/files/column_search.hpp"
-#include "mc/files/hdf5_attributes.hpp"
 #include "mc/files/hdf5_data.hpp"
 
 namespace gearpod::mc {
+
+struct Hdf5Attribute {
+    std::string name;
+    // Either texts, of fixed or variable length, or numbers; one for a scalar. Both are empty for
+    // other types.
+    std::vector<std::string> texts;
+    std::vector<double> numbers;
+
+    // The only number, also if it is written as text.
+    std::optional<double> number() const;
+};
+
+// Attributes of an open object, at most a thousand values each. Throws Hdf5Error.
+std::vector<Hdf5Attribute> attributes_of(hid_t object);
+
+// Reason why a file cannot be opened as HDF5: it was not closed, is truncated, or is another kind
+// of file, which is named. Empty if none is found.
+std::string hdf5_open_problem(const std::string& path);
+
+// Datasets of an HDF5 file of any structure, and the signals among them.
 
 // Index of the datasets in all groups. Links are followed within the file only; nothing in other
 // files is ever opened. Names are paths without a slash at their start; those in the group

@@ -1,14 +1,53 @@
-// Selects the reader of a signal file by the extension of its name.
 #include <algorithm>
 #include <filesystem>
 
 #include "mc/files/formats/file_content.hpp"
 #include "mc/files/formats/uff_file.hpp"
-#include "mc/files/isolated_signal.hpp"
+#include "mc/files/input/input_file.hpp"
+#include "mc/files/isolated_reading.hpp"
 #include "mc/files/signal_file.hpp"
-#include "mc/input/input_file.hpp"
 
 namespace gearpod::mc {
+namespace {
+
+class ColumnsInMemory final : public SignalFile {
+  public:
+    explicit ColumnsInMemory(std::shared_ptr<const std::vector<SignalColumn>> columns)
+        : columns_(std::move(columns)) {}
+
+    std::vector<std::string> names() const override {
+        std::vector<std::string> names;
+        for (const SignalColumn& column : *columns_) {
+            names.push_back(column.name);
+        }
+        return names;
+    }
+    std::vector<double> read(const std::string& name) override { return named(name).values; }
+    std::string unit(const std::string& name) override { return named(name).unit; }
+
+  private:
+    const SignalColumn& named(const std::string& name) const {
+        return *std::ranges::find(*columns_, name, &SignalColumn::name);
+    }
+
+    std::shared_ptr<const std::vector<SignalColumn>> columns_;
+};
+
+}  // namespace
+
+SignalSource::SignalSource(std::string message_name, std::vector<SignalColumn> in_memory)
+    : name(std::move(message_name)),
+      columns(std::make_shared<const std::vector<SignalColumn>>(std::move(in_memory))) {}
+
+std::unique_ptr<SignalFile> SignalSource::open(std::optional<std::size_t> row) const {
+    if (columns) {
+        return std::make_unique<ColumnsInMemory>(columns);
+    }
+    return open_signal_file(name, row);
+}
+
+// Selects the reader of a signal file by the extension of its name.
+
 namespace {
 
 bool is_kind_among(const std::string& extension, std::initializer_list<const char*> all) {

@@ -1,4 +1,4 @@
-// Recorded signals in a file: named columns of equal length.
+// Signal with a name and one value per sample.
 #pragma once
 
 #include <memory>
@@ -8,9 +8,16 @@
 #include <vector>
 
 #include "mc/files/formats/signal_error.hpp"
-#include "mc/files/signal_column.hpp"
 
 namespace gearpod::mc {
+
+struct SignalColumn {
+    std::string name;
+    std::string unit;  // may be empty
+    std::vector<double> values;
+};
+
+// Recorded signals in a file: named columns of equal length.
 
 // Choice of a column by its name.
 struct ColumnChoice {
@@ -50,7 +57,7 @@ class SignalFile {
 std::string listed_text(const std::vector<std::string>& texts);
 
 // Opens a file according to the extension of its name. HDF5, MAT, TDMS and sound files are read in
-// a child process (isolated_signal.hpp). Throws SignalError.
+// a child process (isolated_reading.hpp). Throws SignalError.
 //   .csv, .txt   A header line with names and units in brackets ("sensor [m/s^2]"), then a line
 //                of numbers per sample, in any usual form (text_dialect.hpp); also compressed
 //                with gzip (.csv.gz, .txt.gz). Columns that are not read may contain anything.

@@ -6,13 +6,11 @@
 #include <limits>
 
 #include "mc/files/column_search.hpp"
-#include "mc/files/hdf5_attributes.hpp"
 #include "mc/files/hdf5_data.hpp"
 #include "mc/files/hdf5_index.hpp"
+#include "mc/files/input/file_text.hpp"
+#include "mc/files/input/terminal_text.hpp"
 #include "mc/files/signal_units.hpp"
-#include "mc/files/unit_expression.hpp"
-#include "mc/input/printable.hpp"
-#include "mc/input/utf8.hpp"
 
 namespace gearpod::mc {
 namespace {

@@ -8,9 +8,9 @@
 
 #include "mc/files/formats/common_sampling.hpp"
 #include "mc/files/formats/tdms_file.hpp"
+#include "mc/files/input/terminal_text.hpp"
 #include "mc/files/signal_file.hpp"
 #include "mc/files/signal_units.hpp"
-#include "mc/input/printable.hpp"
 
 namespace gearpod::mc {
 namespace {

@@ -10,9 +10,8 @@
 #include <span>
 
 #include "analysis/report/inspection_report.hpp"
-#include "mc/input/bad_input.hpp"
-#include "mc/input/printable.hpp"
-#include "mc/input/problems.hpp"
+#include "mc/files/input/problems.hpp"
+#include "mc/files/input/terminal_text.hpp"
 
 namespace gearpod::mc {
 namespace {

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "analysis/report/inspection_json.hpp"
+#include "analysis/report/inspection_report.hpp"
 #include "mc/files/text/text_table.hpp"
 
 namespace gearpod::mc {
@@ -33,8 +33,8 @@ struct InspectedTable {
     analysis::InspectionNames names;
 };
 
-// Throws BadInput (mc/input/bad_input.hpp) with all problems of the table and the options, or with
-// the reason why there is no result.
+// Throws BadInput (mc/files/input/problems.hpp) with all problems of the table and the options, or
+// with the reason why there is no result.
 InspectedTable inspect_table(const TextTable& table, const InspectionOptions& options);
 
 // Text and JSON of the program for the same.

@@ -1,6 +1,10 @@
 #include "mc/library/open_study.hpp"
 
-#include "mc/input/bad_input.hpp"
+#include <fmt/format.h>
+
+#include "mc/files/input/problems.hpp"
+#include "mc/plan/feature_needs.hpp"
+#include "mc/results/result_rows.hpp"
 
 namespace gearpod::mc {
 
@@ -38,6 +42,27 @@ std::string OpenStudy::text_of(Problems problems) const {
     }
     const std::string text = format(problems);
     return text.substr(0, text.empty() ? 0 : text.size() - 1);
+}
+
+Simulation simulate_row(const Scene& scene, long row, long meshes) {
+    const Study& study = scene.study();
+    const auto rows = static_cast<long>(BatchPlan(study.ensemble).rows());
+    const long simulated = meshes > 0 ? meshes : scene.span().planet_teeth;
+    // A record of given length begins within the span.
+    const int most = scene.signal_meshes() - (has_record_length(study) ? scene.span_meshes() : 0);
+    std::string problems;
+    if (row < 0 || row >= rows) {
+        problems =
+            fmt::format("--instance {}: must be a row of the results, 0 to {}", row, rows - 1);
+    }
+    if (simulated > most) {
+        problems += fmt::format("{}--meshes {}: must be at most {}", problems.empty() ? "" : "\n",
+                                simulated, most);
+    }
+    if (!problems.empty()) {
+        throw BadInput(problems);
+    }
+    return simulate(scene, id_of_row(study, row), simulated);
 }
 
 }  // namespace gearpod::mc

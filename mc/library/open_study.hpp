@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "mc/ensemble/gearbox/simulation.hpp"
 #include "mc/numerics/study_scene.hpp"
 
 namespace gearpod::mc {
@@ -16,7 +17,7 @@ class OpenStudy {
   public:
     // Study file `name`, or the TOML text, which messages then call `name`; overrides are those of
     // read_study(). Without `with_lines` messages have no line numbers. Throws BadInput
-    // (mc/input/bad_input.hpp) with every problem.
+    // (mc/files/input/problems.hpp) with every problem.
     explicit OpenStudy(std::string name, const std::optional<std::string>& text = std::nullopt,
                        const std::vector<std::string>& overrides = {}, bool with_lines = true);
 
@@ -39,5 +40,12 @@ class OpenStudy {
     std::mutex making_;
     std::unique_ptr<const Scene> scene_;
 };
+
+// Simulates the gearbox in a row of the results of a study.
+
+// The first `meshes` mesh periods of the gearbox; 0: one planet turn. Throws BadInput
+// (mc/files/input/problems.hpp) if there is no such row or too many mesh periods are requested, and
+// std::runtime_error if the gearbox fails.
+Simulation simulate_row(const Scene& scene, long row, long meshes = 0);
 
 }  // namespace gearpod::mc

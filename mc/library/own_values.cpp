@@ -7,8 +7,8 @@
 
 #include "analysis/report/detection_json.hpp"
 #include "analysis/report/reliability_json.hpp"
-#include "mc/ensemble/thread_count.hpp"
-#include "mc/input/bad_input.hpp"
+#include "mc/ensemble/ranks.hpp"
+#include "mc/files/input/problems.hpp"
 #include "mc/results/reliability_of_results.hpp"
 #include "mc/results/results_file.hpp"
 

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
-#include "mc/scene/feature_needs.hpp"
+#include "mc/plan/feature_needs.hpp"
 
 namespace gearpod::mc {
 namespace {

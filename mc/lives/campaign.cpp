@@ -3,14 +3,141 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <charconv>
 #include <cmath>
 #include <limits>
 #include <stdexcept>
 
-#include "mc/lives/life_rows.hpp"
+#include "mc/ensemble/ensemble.hpp"
 
 namespace gearpod::mc {
+namespace {
+
+constexpr double kNoNumber = std::numeric_limits<double>::quiet_NaN();
+
+// Columns that follow those of the random inputs.
+struct OwnColumn {
+    const char *name, *unit;
+};
+constexpr std::array<OwnColumn, 5> kOwnColumns{{{"end_h", "h"},
+                                                {"records", ""},
+                                                {"interpolation_first", ""},
+                                                {"interpolation_last", ""},
+                                                {"interpolation_load", ""}}};
+
+// Columns after the features, one value per record.
+struct RecordColumn {
+    const char *name, *unit;
+    double LifeRecord::*member;
+};
+constexpr std::array<RecordColumn, 5> kRecordColumns{{{"crack_depth", "m", &LifeRecord::depth_m},
+                                                      {"record_torque", "", &LifeRecord::torque},
+                                                      {"record_speed", "", &LifeRecord::speed},
+                                                      {"record_gain", "", &LifeRecord::gain},
+                                                      {"record_noise", "", &LifeRecord::noise}}};
+
+}  // namespace
+
+BatchPlan lives_plan(const Study& study) {
+    return {study.ensemble.threshold_instances + study.life.healthy_lives,
+            study.ensemble.instances};
+}
+
+Results lives_frame(const Study& study) {
+    Results frame = results_frame(study_of_gearboxes(study));
+    frame.parameters.pop_back();  // the fault size, which is not constant
+    frame.variants.clear();
+    frame.contact_loss.clear();  // superposed records have no contact loss ratio
+    frame.integration.clear();
+    for (const OwnColumn& column : kOwnColumns) {
+        frame.parameters.push_back({column.name, column.unit, {}});
+    }
+    for (const RecordColumn& column : kRecordColumns) {
+        frame.features.push_back({column.name, column.unit, analysis::Alarm::high, {}});
+    }
+    frame.noise_levels.clear();
+    for (int i = 0; i < study.life.records; ++i) {
+        frame.noise_levels.push_back(i * *study.life.interval_h);
+    }
+    frame.request.groups.clear();
+    frame.provenance.emplace_back("kind", kLivesKind);
+    return frame;
+}
+
+void check_lives(const std::string& path, const Results& frame, const RowSource& rows) {
+    const auto study = read_study_text(frame.provenance_value("study"), path).study;
+    if (!study || !study->life.interval_h) {
+        throw std::runtime_error(path + ": its study cannot be read, or has no [life]");
+    }
+    check_against(path, frame, rows,
+                  ExpectedResults{lives_frame(*study), lives_plan(*study), "lives", true});
+}
+
+bool measures_interpolation(const GearboxId& id) {
+    constexpr std::uint64_t kMeasuredLives = 8;
+    return id.group == Group::graded && id.index < kMeasuredLives;
+}
+
+void add_life(const Study& study, const Realization& gearbox, const GearboxLife& life,
+              const InterpolationErrors& errors, BatchRows& rows) {
+    const auto& records = life.history.records;
+    rows.status.push_back(static_cast<int>(life.status));
+    append_random_inputs(study, gearbox, 1.0, rows.values);
+    rows.values.insert(rows.values.end(), {life.history.end_hours.value_or(kNoNumber),
+                                           static_cast<double>(records.size()), errors.first,
+                                           errors.last, errors.load});
+    const std::size_t missing_records =
+        static_cast<std::size_t>(study.life.records) - records.size();
+    for (std::size_t f = 0; f < study.features.use.size(); ++f) {
+        if (life.status == Status::ok) {
+            rows.values.insert(rows.values.end(), life.values[f].begin(), life.values[f].end());
+        } else {
+            rows.values.insert(rows.values.end(), records.size(), kNoNumber);
+        }
+        rows.values.insert(rows.values.end(), missing_records, kNoNumber);
+    }
+    for (const RecordColumn& column : kRecordColumns) {
+        for (const LifeRecord& record : records) {
+            rows.values.push_back(record.*column.member);
+        }
+        rows.values.insert(rows.values.end(), missing_records, kNoNumber);
+    }
+}
+
+LifeRow life_of_row(const Study& study, const Results& frame, const ResultRow& row) {
+    const RowShape shape = row_shape(frame);
+    const double* values = row.values;
+    const double* own = values + shape.parameters - kOwnColumns.size();
+    if (!(own[1] >= 0.0 && own[1] <= static_cast<double>(shape.levels))) {
+        throw std::runtime_error("/instances/records contains an invalid number");
+    }
+    LifeRow result;
+    result.interpolation = {own[2], own[3], own[4]};
+    GearboxLife& life = result.life;
+    life.status = static_cast<Status>(row.status);
+    LifeHistory& history = life.history;
+    if (!std::isnan(own[0])) {
+        history.end_hours = own[0];
+    }
+    history.records.resize(static_cast<std::size_t>(own[1]));
+    const std::size_t features = study.features.use.size();
+    for (std::size_t r = 0; r < history.records.size(); ++r) {
+        history.records[r].hours = frame.noise_levels[r];
+        for (std::size_t c = 0; c < kRecordColumns.size(); ++c) {
+            history.records[r].*kRecordColumns[c].member = values[shape.value_of(features + c, r)];
+        }
+    }
+    history.first_cracked = row.group == static_cast<int>(Group::graded)
+                                ? static_cast<std::size_t>(study.monitoring.baseline_records)
+                                : history.records.size();
+    for (std::size_t f = 0; life.status == Status::ok && f < features; ++f) {
+        const double* first = values + shape.value_of(f, 0);
+        life.values.emplace_back(first, first + history.records.size());
+    }
+    return result;
+}
+
 namespace {
 
 // Names of entries in a lives file that describe the cost of its rows.

@@ -5,11 +5,10 @@
 #include <cmath>
 #include <numbers>
 
-#include "mc/random/philox.hpp"
-#include "mc/study/fault_places.hpp"
-#include "mc/study/faults/crack_angle.hpp"
+#include "mc/study/faults/crack.hpp"
 #include "mc/study/gears.hpp"
-#include "stiffness/growth/paris_growth.hpp"
+#include "mc/study/random/philox.hpp"
+#include "stiffness/growth/crack_growth.hpp"
 
 namespace gearpod::mc {
 namespace {

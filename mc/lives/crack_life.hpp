@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "mc/lives/record_distributions.hpp"
-#include "mc/scene/scene.hpp"
-#include "stiffness/growth/root_crack.hpp"
+#include "mc/plan/scene.hpp"
+#include "stiffness/growth/crack_growth.hpp"
 
 namespace gearpod::mc {
 

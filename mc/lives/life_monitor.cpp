@@ -5,8 +5,8 @@
 #include <numeric>
 
 #include "analysis/monitoring/baseline_deviations.hpp"
-#include "analysis/monitoring/monitor_ranking.hpp"
-#include "mc/scene/feature_needs.hpp"
+#include "analysis/monitoring/monitor_performance.hpp"
+#include "mc/plan/feature_needs.hpp"
 
 namespace gearpod::mc {
 

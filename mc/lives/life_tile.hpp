@@ -7,11 +7,10 @@
 #include <string>
 #include <vector>
 
-#include "mc/gearbox/healthy_solution.hpp"
+#include "mc/ensemble/gearbox/healthy_solution.hpp"
 #include "mc/lives/crack_life.hpp"
-#include "mc/lives/load_axis.hpp"
 #include "mc/lives/record_distributions.hpp"
-#include "mc/lives/record_span.hpp"
+#include "mc/lives/superposition.hpp"
 #include "mc/results/results_file.hpp"
 
 namespace gearpod::mc {

@@ -1,10 +1,336 @@
 // Implements LifeTiles::run(): integrates gearboxes from depth to depth, and measures the
 // interpolation errors.
-#include "machine/thread_clock.hpp"
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <boost/random/uniform_int_distribution.hpp>
+#include <cmath>
+
+#include "machine/clocks.hpp"
+#include "machine/team.hpp"
+#include "mc/ensemble/gearbox/realization_features.hpp"
+#include "mc/ensemble/gearbox/realization_signals.hpp"
 #include "mc/lives/interpolation.hpp"
-#include "mc/lives/life_lane.hpp"
+#include "mc/lives/life_tile.hpp"
+#include "mc/lives/superposition.hpp"
+#include "mc/plan/feature_needs.hpp"
+#include "mc/study/noise.hpp"
+#include "signals/noise/normals.hpp"
 
 namespace gearpod::mc {
+
+class LifeTiles::Lane {
+  public:
+    using LaneFeatures = std::vector<const features::Feature*>;
+
+    Lane(const LifeTiles& tiles, const Realization& gearbox, bool cracked)
+        : tiles_(tiles),
+          id_(gearbox.id),
+          inputs_(gearbox.inputs),
+          features_(used_features(tiles.scene_.study())),
+          needs_(superposed_needs(features_)),
+          span_(record_span(tiles.scene_, inputs_.speed_rad_s)),
+          record_(tiles.scene_, needs_.record, span_.turns * span_.recordings),
+          change_(tiles.scene_, needs_.change, span_.turns * span_.recordings),
+          reference_(tiles.scene_, needs_.baseline, span_.turns * span_.recordings),
+          python_(tiles.scene_, features_) {
+        life_.history = tiles.crack_.history(gearbox, cracked);
+        life_.values.assign(features_.size(),
+                            std::vector<double>(life_.history.records.size(), 0.0));
+    }
+
+    const InstanceInputs& inputs() const { return inputs_; }
+    GearboxLife take() && { return std::move(life_); }
+    void fail(Status status) {
+        life_.status = status;
+        life_.values.clear();
+    }
+    bool failed() const { return life_.status != Status::ok; }
+
+    // Computes the reference pattern from which changes are measured: the average of as many
+    // records as the baseline has, taken before the first record, each at its own torque and speed.
+    // Recordings shorter than the span count in proportion, with at least one span in total.
+    void compute_reference_pattern(const std::vector<LaneSignals>& healthy) {
+        if (!compares()) {
+            return;
+        }
+        const Study& study = tiles_.scene_.study();
+        const auto records = static_cast<double>(std::max(1, study.monitoring.baseline_records));
+        const double spans = static_cast<double>(span_.turns) * span_.recordings / span_.all_turns;
+        noise_.sensor.resize(healthy.front().sensor.size());
+        noise_.te_turn.assign(healthy.front().te_turn.size(), 0.0);
+        Philox engine = gearbox_stream(study, id_, StreamPurpose::reference_noise);
+        if (noise_by_density(study)) {
+            draw_unit_noise(tiles_.scene_, inputs_, NoiseEngines{engine, engine, engine},
+                            std::span(noise_.sensor));
+        } else {
+            signals::draw_normals(engine, std::span(noise_.sensor));
+        }
+        const double sigma = inputs_.noise_m_s2 * study.sensor.noise_levels.front() /
+                             std::sqrt(std::max(1.0, records * spans)) *
+                             tiles_.distributions_.noise.rms();
+        for (double& value : noise_.sensor) {
+            value *= sigma;
+        }
+        const auto normals = [&](StreamPurpose purpose) {
+            Philox own = gearbox_stream(study, id_, purpose);
+            std::vector<double> unit(static_cast<std::size_t>(records));
+            signals::draw_normals(own, std::span(unit));
+            return unit;
+        };
+        const auto torques = normals(StreamPurpose::reference_torques),
+                   speeds = normals(StreamPurpose::reference_speeds);
+        pattern_.assign(healthy.size(), 0.0);
+        for (std::size_t i = 0; i < torques.size(); ++i) {
+            const auto load_weights =
+                tiles_.load_weights({tiles_.distributions_.torque.factor(torques[i]),
+                                     tiles_.distributions_.speed.factor(speeds[i])});
+            for (std::size_t t = 0; t < load_weights.size(); ++t) {
+                pattern_[t] += inputs_.gain * load_weights[t] / records;
+            }
+        }
+    }
+
+    // Computes the records whose depth lies in (low, high]; for `low` = 0 also those without a
+    // crack. The signals are given by load for zero depth, `low` and `high`. Those at `high` may be
+    // empty if no record is deeper than `low`.
+    void compute_records(double low, double high, const std::vector<LaneSignals>& healthy,
+                         const std::vector<LaneSignals>& at_low,
+                         const std::vector<LaneSignals>& at_high) {
+        std::vector<std::size_t> here;
+        for (std::size_t r = 0; r < life_.history.records.size(); ++r) {
+            const double depth = life_.history.records[r].depth_m;
+            if ((depth > low && depth <= high) || (low == 0.0 && depth == 0.0)) {
+                here.push_back(r);
+            }
+        }
+        if (here.empty()) {
+            return;
+        }
+        const std::vector<LaneSignals> none;
+        const auto basis = basis_of(healthy, low > 0.0 ? at_low : none, at_high);
+        const SuperposedSignals superposed = superpose(basis);
+        for (const std::size_t r : here) {
+            machine::throw_if_cancelled();
+            add_record(r, low, high, superposed, basis.size());
+        }
+    }
+
+    // Basis signals of which records are linear combinations.
+    std::vector<const LaneSignals*> basis_of(const std::vector<LaneSignals>& healthy,
+                                             const std::vector<LaneSignals>& at_low,
+                                             const std::vector<LaneSignals>& at_high) const {
+        std::vector<const LaneSignals*> basis;
+        for (const auto* all : {&healthy, &at_low, &at_high}) {
+            for (const LaneSignals& one : *all) {
+                basis.push_back(&one);
+            }
+        }
+        if (compares()) {
+            basis.push_back(&noise_);
+        }
+        return basis;
+    }
+
+    SuperposedSignals superpose(const std::vector<const LaneSignals*>& basis) const {
+        const std::size_t bins = static_cast<std::size_t>(tiles_.scene_.span().planet_teeth) *
+                                 static_cast<std::size_t>(tiles_.scene_.samples_per_mesh());
+        return {basis, bins, span_.turns >= span_.all_turns};
+    }
+
+  private:
+    // Random streams of single records, far beyond those of all gearboxes. The first record uses
+    // the stream of the gearbox, so that a life of one record equals a record of `run`.
+    static GearboxId record_id(const GearboxId& id, std::size_t record, bool change) {
+        constexpr int kRecordShift = 40;
+        return {id.group, id.index + ((2 * record + (change ? 1 : 0)) << kRecordShift)};
+    }
+
+    // Coefficients of a record's signals.
+    std::vector<double> coefficients_of(const LifeRecord& record, double low, double high,
+                                        std::size_t parts) const {
+        const std::vector<double> load_weights = tiles_.load_weights({record.torque, record.speed});
+        const double depth_fraction =
+            record.depth_m > 0.0 ? (record.depth_m - low) / (high - low) : 0.0;
+        std::vector<double> coefficients(parts, 0.0);
+        const std::size_t n = load_weights.size();
+        for (std::size_t t = 0; t < n; ++t) {
+            const double one = inputs_.gain * record.gain * load_weights[t];
+            coefficients[(low > 0.0 ? n : 0) + t] += (1.0 - depth_fraction) * one;
+            if (depth_fraction > 0.0) {
+                coefficients[(low > 0.0 ? 2 * n : n) + t] += depth_fraction * one;
+            }
+        }
+        return coefficients;
+    }
+
+    // Inputs of a record, with the noise of its sensor.
+    InstanceInputs inputs_of(const LifeRecord& record) const {
+        InstanceInputs inputs = inputs_;
+        if (tiles_.distributions_.sensor_noise_only) {
+            const SensorNoise noise =
+                with_rms_factor(tiles_.scene_.study(), noise_of(inputs), record.noise);
+            inputs.noise_m_s2 = noise.all_m_s2;
+            inputs.white_noise_m_s2 = noise.white_m_s2;
+        } else {
+            inputs.noise_m_s2 *= record.noise;
+            inputs.white_noise_m_s2 *= record.noise;
+            inputs.background_noise_m_s2 *= record.noise;
+            inputs.encoder_noise_rad *= record.noise;
+        }
+        return inputs;
+    }
+
+    void add_record(std::size_t r, double low, double high, const SuperposedSignals& superposed,
+                    std::size_t parts) {
+        const LifeRecord& record = life_.history.records[r];
+        std::vector<double> coefficients = coefficients_of(record, low, high, parts);
+        Realization own_record{record_id(id_, r, false), inputs_of(record)};
+        const std::vector<std::size_t> starts = starts_of(r);
+        LaneSignals own = fold_record(superposed, coefficients, starts);
+        for (double& value : own.te_turn) {
+            value /= inputs_.gain * record.gain;  // the gain belongs to the sensor only
+        }
+        record_.load(own, own_record);
+        features::FeatureInput input = record_.at(0), change, reference;
+        LaneSignals changed, before;
+        if (!needs_.baseline.empty()) {
+            std::vector<double> pattern(parts, 0.0);
+            std::ranges::copy(pattern_, pattern.begin());
+            pattern.back() = 1.0;
+            before = fold_record(superposed, pattern, starts);
+            for (double& value : before.te_turn) {
+                value /= inputs_.gain;
+            }
+            reference_.load(before, own_record.inputs, no_noise(before));
+            reference = reference_.at(0);
+            input.baseline = &reference;
+        }
+        if (!needs_.change.empty()) {
+            for (std::size_t t = 0; t < pattern_.size(); ++t) {
+                coefficients[t] -= pattern_[t];
+            }
+            coefficients.back() = -1.0;
+            changed = fold_record(superposed, coefficients, starts);
+            if (uses_samples()) {
+                change_.load(changed, own_record.inputs,
+                             noise_of_change(tiles_.scene_, changed, record_.noise(), {}));
+            } else {
+                own_record.id = record_id(id_, r, true);
+                change_.load(changed, own_record);
+            }
+            change = change_.at(0);
+            input.change = &change;
+        }
+        set_values(r, own_record.inputs, input);
+    }
+
+    // Noise of signals that already contain theirs.
+    static RealizationNoise no_noise(const LaneSignals& signals) {
+        const std::vector<double> bins(signals.folded.size(), 0.0);
+        return {{bins, bins},
+                std::vector<double>(signals.sensor.size(), 0.0),
+                std::vector<double>(signals.te_turn.size(), 0.0)};
+    }
+
+    // Computes the features of a record. The transmission error is averaged over the whole span, so
+    // that those in Python do not get it if records have another length.
+    void set_values(std::size_t r, InstanceInputs inputs, features::FeatureInput& input) {
+        const LifeRecord& record = life_.history.records[r];
+        for (std::size_t f = 0; f < features_.size(); ++f) {
+            if (!features_[f]->external) {
+                set_value(f, r, features_[f]->value(input));
+            }
+        }
+        if (python_.empty()) {
+            return;
+        }
+        inputs.torque_N_m *= record.torque;
+        inputs.speed_rad_s *= record.speed;
+        if (life_record_length(tiles_.scene_.study()).given()) {
+            input.get<features::TeTurn>() = {};
+        }
+        python_.add(tiles_.scene_.study().sensor.noise_levels.front(), inputs, input);
+        const std::string work =
+            fmt::format("{} gearbox {}, record {} of its life",
+                        id_.group == Group::threshold ? "healthy" : "cracked", id_.index, r + 1);
+        const std::vector<double> own = python_.compute(work);
+        print_python_problems(python_.problems(), work);
+        for (std::size_t f = 0, next = 0; f < features_.size(); ++f) {
+            if (features_[f]->external) {
+                set_value(f, r, own[next++]);
+            }
+        }
+    }
+
+    void set_value(std::size_t feature, std::size_t r, double value) {
+        life_.values[feature][r] = std::isfinite(value) ? value : std::nan("");
+    }
+
+    // True if records are compared with the reference pattern.
+    bool compares() const { return !needs_.change.empty() || !needs_.baseline.empty(); }
+    bool uses_samples() const {
+        return needs_samples(needs_.record) || needs_samples(needs_.change);
+    }
+
+    // First turns of the recordings of a record; empty if each recording contains all turns.
+    std::vector<std::size_t> starts_of(std::size_t r) const {
+        std::vector<std::size_t> starts;
+        if (!span_.whole()) {
+            Philox engine = gearbox_stream(tiles_.scene_.study(), record_id(id_, r, false),
+                                           StreamPurpose::life_recording_starts);
+            boost::random::uniform_int_distribution<std::size_t> turn(
+                0, static_cast<std::size_t>(span_.all_turns) - 1);
+            for (int i = 0; i < span_.recordings; ++i) {
+                starts.push_back(turn(engine));
+            }
+        }
+        return starts;
+    }
+
+    // Signals folded over all recordings of a record.
+    LaneSignals fold_record(const SuperposedSignals& superposed,
+                            std::span<const double> coefficients,
+                            const std::vector<std::size_t>& starts) const {
+        const int spans = span_.turns / span_.all_turns * span_.recordings;
+        LaneSignals sum = superposed.at(coefficients);
+        for (double& value : sum.folded) {
+            value *= spans;
+        }
+        for (const std::size_t start : starts) {
+            superposed.add_turns(coefficients, start,
+                                 static_cast<std::size_t>(span_.turns % span_.all_turns),
+                                 sum.folded);
+        }
+        if (uses_samples() || noise_by_density(tiles_.scene_.study())) {
+            sum.turns = span_.turns * span_.recordings;
+            add_samples(superposed, coefficients, starts, sum.sensor);
+        }
+        return sum;
+    }
+
+    // Appends the samples of all recordings.
+    void add_samples(const SuperposedSignals& superposed, std::span<const double> coefficients,
+                     const std::vector<std::size_t>& starts, std::vector<double>& samples) const {
+        for (int i = 0; i < span_.recordings; ++i) {
+            superposed.append_turns(coefficients,
+                                    starts.empty() ? 0 : starts[static_cast<std::size_t>(i)],
+                                    static_cast<std::size_t>(span_.turns), samples);
+        }
+    }
+
+    const LifeTiles& tiles_;
+    const GearboxId id_;
+    const InstanceInputs inputs_;
+    const LaneFeatures features_;
+    const ComparedNeeds needs_;
+    const RecordSpan span_;
+    RealizationSignals record_, change_, reference_;
+    PythonFeatures python_;
+    GearboxLife life_;
+    LaneSignals noise_;            // noise of the reference pattern
+    std::vector<double> pattern_;  // coefficients of the healthy signals
+};
 
 std::vector<GearboxLife> LifeTiles::run(std::span<const Realization> gearboxes, bool cracked,
                                         LifeCosts& costs,
@@ -72,6 +398,42 @@ std::vector<GearboxLife> LifeTiles::run(std::span<const Realization> gearboxes, 
     costs.gearbox_count += static_cast<long>(gearboxes.size());
     lap(costs.gearboxes);
     return lives;
+}
+
+// Measures the time for computing records, for forecasts.
+
+LaneSignals LifeTiles::synthetic_signals(std::uint64_t number) const {
+    const auto samples = [&](int of_mesh, int meshes) {
+        return static_cast<std::size_t>(of_mesh) * static_cast<std::size_t>(meshes);
+    };
+    LaneSignals all;
+    Philox engine =
+        gearbox_stream(scene_.study(), {Group::graded, number}, StreamPurpose::forecast_signals);
+    all.sensor.resize(samples(scene_.samples_per_mesh(), scene_.span_meshes()));
+    signals::draw_normals(engine, std::span(all.sensor));
+    all.te_turn.resize(samples(scene_.te_samples_per_mesh(), scene_.span().planet_teeth));
+    signals::draw_normals(engine, std::span(all.te_turn));
+    return all;
+}
+
+RecordTimes LifeTiles::time_records() const {
+    const std::vector<LaneSignals> none, healthy(load_count(), synthetic_signals(0)),
+        low(load_count(), synthetic_signals(1)), high(load_count(), synthetic_signals(2));
+    Lane lane(*this, draw({Group::graded, 0}), false);
+    lane.compute_reference_pattern(healthy);
+    const auto seconds = [](const auto& work) {
+        const double start = thread_processor_s();
+        work();
+        return thread_processor_s() - start;
+    };
+    const double first_s = seconds([&] { lane.superpose(lane.basis_of(healthy, none, high)); });
+    const double step_s = seconds([&] { lane.superpose(lane.basis_of(healthy, low, high)); });
+    const double all_s = seconds([&] { lane.compute_records(0.0, depth(1), healthy, none, high); });
+    return {step_s, std::max(0.0, all_s - first_s) / scene_.study().life.records};
+}
+
+LifeHistory LifeTiles::history(const GearboxId& id) const {
+    return crack_.history(draw(id), true);
 }
 
 }  // namespace gearpod::mc

@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "mc/input/problems.hpp"
+#include "mc/files/input/problems.hpp"
 #include "mc/numerics/time_budget.hpp"
-#include "mc/scene/scene_error.hpp"
+#include "mc/plan/scene_error.hpp"
 #include "mc/study/fluctuations.hpp"
 #include "mc/study/gears.hpp"
 

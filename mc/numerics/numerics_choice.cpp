@@ -2,6 +2,20 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <utility>
+#include <vector>
+
+#include "lockstep/integrators/facts.hpp"
+#include "mc/ensemble/batch_workers.hpp"
+#include "mc/numerics/numerical_error.hpp"
+#include "mc/numerics/pilot.hpp"
+#include "mc/numerics/reference.hpp"
+#include "mc/numerics/solver_setting.hpp"
+
 namespace gearpod::mc {
 
 std::string NumericsChoice::text() const {
@@ -11,6 +25,427 @@ std::string NumericsChoice::text() const {
     return fmt::format("{} (features within {:.2g}{} on {} pilot gearboxes; the worst is {})",
                        setting.text(), error, of_scatter ? " of their scatter" : "", gearboxes,
                        worst_feature);
+}
+
+namespace {
+
+constexpr std::uint64_t kHealthyPilots = 16;
+constexpr int kMostTries = 6;  // of a limit of the mass scaling
+// Half of normally distributed errors lie within this share of their root mean square.
+constexpr double kHalf = 0.6745;
+
+void check_free(const Study& study) {
+    const auto refuse = [](const char* key, const std::string& what) {
+        throw SceneError(key, what, "remove it, or numerics.scatter_tolerance");
+    };
+    const Numerics& n = study.numerics;
+    if (study.effects.quasi_static()) {
+        refuse("effects.motion", "a quasi-static gearbox has no time steps to be chosen");
+    }
+    if (n.integrator && !lockstep::facts(*n.integrator).scales_mass) {
+        refuse("numerics.integrator",
+               fmt::format("numerics.scatter_tolerance chooses steps of {}",
+                           lockstep::names_of(&lockstep::IntegratorFacts::scales_mass)));
+    }
+    if ((n.steps_per_mesh > 0) != (n.mass_scaling_Hz > 0.0)) {
+        refuse(n.steps_per_mesh > 0 ? "numerics.steps_per_mesh" : "numerics.mass_scaling_Hz",
+               "is chosen by numerics.scatter_tolerance, unless both it and the other of "
+               "steps_per_mesh and mass_scaling_Hz are given");
+    }
+    if (n.tolerance > 0.0) {
+        refuse("numerics.tolerance", "chooses the steps, too");
+    }
+}
+
+class ScatterChoice {
+  public:
+    explicit ScatterChoice(const Study& study)
+        : study_(study), shape_(row_shape(study)), own_(own_study(study)) {
+        for (std::uint64_t i = 0; i < kHealthyPilots; ++i) {
+            ids_.push_back({Group::threshold, i});
+        }
+        reference_ = rows_of_gearboxes(own_, ids_);
+        for (std::size_t at = 0; at < shape_.features * shape_.levels; ++at) {
+            scatter_.push_back(standard_deviation(column(reference_, at)));
+        }
+    }
+
+    NumericsChoice run() {
+        NumericsChoice made;
+        made.gearboxes = static_cast<int>(ids_.size());
+        made.of_scatter = true;
+        made.setting = {own_.study().numerics, {}};
+        const auto keeps = [&](const Scene& scene) {
+            const auto [error, feature] = error_of(scene);
+            made.error = error;
+            made.worst_feature = study_.features.use[feature];
+            made.setting = {scene.study().numerics, {"mass_scaling_Hz"}};
+            return error <= study_.numerics.scatter_tolerance;
+        };
+        if (study_.numerics.mass_scaling_Hz > 0.0) {
+            Numerics given = study_.numerics;
+            given.scatter_tolerance = 0.0;
+            if (!keeps(own_.with(given))) {
+                throw SceneError("numerics.scatter_tolerance",
+                                 fmt::format("the steps given change {} by {:.2g} of its scatter",
+                                             made.worst_feature, made.error),
+                                 "remove steps_per_mesh and mass_scaling_Hz, so that they are "
+                                 "chosen, or use a larger tolerance");
+            }
+            return made;
+        }
+        const NumericsChoice own = made;
+        const int own_steps = steps_of(own_), samples = own_.samples_per_mesh();
+        for (int a_sample = 1; a_sample * samples < own_steps; ++a_sample) {
+            const auto numerics = scaled_numerics(own_, a_sample * samples);
+            if (numerics && keeps(own_.with(*numerics))) {
+                return made;
+            }
+        }
+        made = own;
+        return made;
+    }
+
+  private:
+    static Study own_study(Study study) {
+        study.numerics.integrator = lockstep::Integrator::central_difference;
+        study.numerics.scatter_tolerance = study.numerics.mass_scaling_Hz = 0.0;
+        study.numerics.steps_per_mesh = 0;
+        return study;
+    }
+
+    static int steps_of(const Scene& scene) {
+        return static_cast<int>(scene.plan().grid.steps.size());
+    }
+
+    std::vector<double> column(const BatchRows& rows, std::size_t at) const {
+        std::vector<double> values;
+        for (std::size_t row = 0; row < rows.count(); ++row) {
+            values.push_back(rows.values[row * shape_.values() + shape_.parameters + at]);
+        }
+        return values;
+    }
+
+    // Largest error over all features and noise levels: the median over the gearboxes, as a root
+    // mean square of normally distributed errors, over the scatter. Where a feature jumps, because
+    // another tooth has the largest value, a few gearboxes do not decide.
+    struct Error {
+        double error = 0.0;
+        std::size_t feature = 0;
+    };
+    Error error_of(const Scene& scene) const {
+        const BatchRows rows = rows_of_gearboxes(scene, ids_);
+        Error worst;
+        for (std::size_t at = 0; at < scatter_.size(); ++at) {
+            const std::vector<double> here = column(rows, at), there = column(reference_, at);
+            std::vector<double> errors;
+            for (std::size_t i = 0; i < here.size(); ++i) {
+                if (std::isfinite(there[i])) {
+                    errors.push_back(std::isfinite(here[i]) ? std::abs(here[i] - there[i])
+                                                            : INFINITY);
+                }
+            }
+            if (errors.empty() || !(scatter_[at] > 0.0)) {
+                continue;
+            }
+            const auto middle = errors.begin() + static_cast<std::ptrdiff_t>(errors.size() / 2);
+            std::ranges::nth_element(errors, middle);
+            const double error = *middle / kHalf / scatter_[at];
+            if (error > worst.error) {
+                worst = {error, at / shape_.levels};
+            }
+        }
+        return worst;
+    }
+
+    const Study& study_;
+    const RowShape shape_;
+    const Scene own_;
+    std::vector<GearboxId> ids_;
+    BatchRows reference_;
+    std::vector<double> scatter_;  // by feature and noise level
+};
+
+double fastest_mode_Hz(const Scene& scene) {
+    return dynamics::natural_frequencies_Hz(
+               dynamics::assemble(scene.plan().layout, scene.inputs(nominal_inputs(scene.study())),
+                                  scene.mean_pairs()))
+        .back();
+}
+
+}  // namespace
+
+std::optional<Numerics> scaled_numerics(const Scene& own, int steps) {
+    Numerics numerics = own.study().numerics;
+    numerics.steps_per_mesh = 0;
+    double limit_Hz = fastest_mode_Hz(own);
+    for (int i = 0; i < kMostTries && limit_Hz > own.study().sensor.low_pass_Hz + 1.0; ++i) {
+        numerics.mass_scaling_Hz = limit_Hz;
+        const double needed = 1.0 / own.with(numerics).longest_step();
+        if (needed <= steps) {
+            numerics.steps_per_mesh = steps;
+            numerics.mass_scaling_Hz = std::floor(limit_Hz);
+            return numerics;
+        }
+        limit_Hz *= 0.98 * steps / needed;
+    }
+    return std::nullopt;
+}
+
+NumericsChoice choose_by_scatter(const Study& study) {
+    check_free(study);
+    try {
+        return ScatterChoice(study).run();
+    } catch (const SceneError& error) {
+        if (error.key() == "numerics.mass_scaling_Hz" && study.numerics.mass_scaling_Hz == 0.0) {
+            throw SceneError("numerics.scatter_tolerance", error.what(), error.remedy());
+        }
+        throw;
+    }
+}
+
+namespace {
+
+constexpr double kNever = std::numeric_limits<double>::infinity();
+// The reference changes by at most this fraction of the tolerance when its steps are halved.
+constexpr double kReferenceShare = 0.1;
+
+// Candidates have up to this many times the steps of an integrator's own rule, which aims at 0.1 %.
+constexpr double kBeyondOwnRule = 16.0;
+
+// Result of a candidate setting on the pilot.
+struct Trial {
+    double error = kNever;  // relative, of the worst feature
+    int worst = 0;          // index of that feature
+    double cost = kNever;   // in rk4 steps per gearbox
+    bool was_run = false;   // false: too expensive to be chosen, or invalid for the study
+};
+
+class Search {
+  public:
+    explicit Search(const Study& study)
+        : study_(study),
+          tolerance_(study.numerics.tolerance),
+          own_(with_setting(study, own_setting(study))),
+          last_(std::make_unique<const Scene>(own_)),
+          pilot_(own_) {
+        ReferenceRequest request;
+        request.agreement = kReferenceShare * tolerance_;
+        request.convergence_tolerance = std::min(1e-10, 1e-3 * tolerance_);
+        reference_ = self_converged_reference(study, pilot_, request);
+        if (!reference_.reached) {
+            refuse_tolerance(request);
+        }
+    }
+
+    NumericsChoice run() {
+        std::vector<SolverFamily> all = solver_families(study_, kBeyondOwnRule);
+        std::erase_if(all, [&](const SolverFamily& f) {
+            const bool never_chosen = lockstep::facts(*f.common.numerics.integrator).never_chosen;
+            return f.size() == 0 || (never_chosen && !study_.numerics.integrator);
+        });
+        // The least expensive families first: candidates that cost more than the best so far are
+        // not tried.
+        std::stable_sort(all.begin(), all.end(), [&](const SolverFamily& a, const SolverFamily& b) {
+            return cost_of(a) * a.own_steps < cost_of(b) * b.own_steps;
+        });
+        for (const SolverFamily& family : all) {
+            family.graded() ? search_graded(family) : search(family);
+        }
+        if (!std::isfinite(best_.cost)) {
+            throw SceneError(
+                "numerics.tolerance",
+                fmt::format(
+                    "no solver setting keeps the features within {:g} (smallest error: {:.2g})",
+                    tolerance_, least_error_),
+                "use a larger tolerance, or remove integrator and steps_per_mesh");
+        }
+        return choice();
+    }
+
+  private:
+    // Throws SceneError with the reason why the reference does not verify the tolerance.
+    [[noreturn]] void refuse_tolerance(const ReferenceRequest& request) const {
+        const int finest = reference_.first.numerics.steps_per_mesh;
+        if (reference_.agreement.relative.empty()) {
+            throw SceneError(
+                "numerics.tolerance",
+                fmt::format("{:g} cannot be verified: the check would double the {} steps per mesh "
+                            "period over {:.0f} mesh periods, more than {:g} steps",
+                            tolerance_, finest, reference_.record.tile_meshes,
+                            request.most_tile_steps),
+                "use numerics.scatter_tolerance, or shorter records (sensor.record_turns)");
+        }
+        throw SceneError(
+            "numerics.tolerance",
+            fmt::format("{:g} cannot be verified: with this study's integrator the features "
+                        "still change by {:.2g} from {} steps per mesh period to twice as many",
+                        tolerance_, reference_.agreement.largest_feature(), finest / 2),
+            "use a larger tolerance");
+    }
+
+    double cost_of(const SolverFamily& family) const {
+        return step_cost(study_, family.common).value();
+    }
+
+    Trial trial(const SolverFamily& family, std::size_t step, double convergence) {
+        const SolverSetting setting = family.setting(step, convergence);
+        const auto known =
+            std::ranges::find(trials_, setting, &std::pair<SolverSetting, Trial>::first);
+        if (known != trials_.end()) {
+            return known->second;
+        }
+        const Trial result = run(family, setting);
+        least_error_ = std::min(least_error_, result.error);
+        if (result.error <= tolerance_ && result.cost < best_.cost) {
+            best_ = result;
+            best_setting_ = setting;
+        }
+        return trials_.emplace_back(setting, result).second;
+    }
+
+    Trial run(const SolverFamily& family, const SolverSetting& setting) {
+        const Numerics numerics = with_setting(study_, setting).numerics;
+        Trial result;
+        try {
+            last_ = std::make_unique<const Scene>(last_->with(numerics));
+            if (family.graded() && !is_affordable(family, last_->plan().grid.steps.size())) {
+                return result;
+            }
+            const PilotRecord record = pilot_.run(*last_);
+            const PilotError error = pilot_error(record, reference_.record);
+            result.error = error.largest_feature();
+            result.worst = error.worst_feature(reference_.record.levels);
+            result.cost = cost_of(family) * record.steps * record.meshes_per_tile();
+            result.was_run = true;
+        } catch (const SceneError&) {  // invalid for this study: infinite error
+        }
+        return result;
+    }
+
+    // Finds the smallest number of steps that keeps the tolerance, then for it and the next one the
+    // loosest convergence tolerance.
+    void search(const SolverFamily& family) {
+        const std::vector<double>& convergence = convergence_tolerances();
+        if (!may_be_cheapest(family, 0)) {
+            return;
+        }
+        const auto keeps = [&](std::size_t step, double tolerance) {
+            return trial(family, step, tolerance).error <= tolerance_;
+        };
+        std::size_t low = 0, high = family.steps.size();
+        while (low < high) {
+            const std::size_t middle = (low + high) / 2;
+            // Candidates more expensive than the best one are not tried; fewer steps may still
+            // suffice.
+            if (!may_be_cheapest(family, middle) || keeps(middle, convergence.front())) {
+                high = middle;
+            } else {
+                low = middle + 1;
+            }
+        }
+        for (std::size_t step = low; step < std::min(low + 2, family.steps.size()); ++step) {
+            if (may_be_cheapest(family, step) && keeps(step, convergence.front())) {
+                loosen_convergence(family, step);
+            }
+        }
+    }
+
+    // Finds the loosest convergence tolerance that keeps the tolerance, for steps that keep it.
+    void loosen_convergence(const SolverFamily& family, std::size_t step) {
+        const std::vector<double>& convergence = convergence_tolerances();
+        std::size_t tight = 0, loose = convergence.size();
+        while (loose - tight > 1) {
+            const std::size_t middle = (tight + loose) / 2;
+            (trial(family, step, convergence[middle]).error <= tolerance_ ? tight : loose) = middle;
+        }
+    }
+
+    // Finds the coarsest graded grid that keeps the tolerance. Every grid costs a pilot, so only
+    // grid tolerances near the tolerance are tried. None is tried if the fewest possible steps
+    // would already be too expensive.
+    void search_graded(const SolverFamily& family) {
+        constexpr double kNear = 30.0;
+        if (!is_affordable(family,
+                           static_cast<std::size_t>(kFewestGradedFraction * family.own_steps))) {
+            return;
+        }
+        for (std::size_t i = 0; i < family.size(); ++i) {
+            const double ratio = family.grid_tolerances[i] / tolerance_;
+            if (family.size() > 1 && (ratio > kNear || ratio < 1.0 / kNear)) {
+                continue;
+            }
+            const Trial found = trial(family, i, convergence_tolerances().front());
+            if (found.error <= tolerance_) {
+                loosen_convergence(family, i);
+            }
+            if (found.error <= tolerance_ || !found.was_run) {
+                return;
+            }
+        }
+    }
+
+    // Lower bound of the cost: with the loosest convergence tolerance, at least this many mesh
+    // periods are integrated.
+    bool may_be_cheapest(const SolverFamily& family, std::size_t step) {
+        return is_affordable(family, static_cast<std::size_t>(family.steps[step]));
+    }
+
+    bool is_affordable(const SolverFamily& family, std::size_t steps) {
+        if (least_meshes_ == 0.0) {
+            SolverSetting setting = own_setting(study_);
+            setting.numerics.convergence_tolerance = convergence_tolerances().back();
+            const Scene loose = own_.with(with_setting(study_, setting).numerics);
+            least_meshes_ = pilot_.run(loose).meshes_per_tile();
+        }
+        return cost_of(family) * static_cast<double>(steps) * least_meshes_ < best_.cost;
+    }
+
+    NumericsChoice choice() const {
+        NumericsChoice made;
+        made.setting = best_setting_;
+        made.error = best_.error;
+        made.worst_feature = study_.features.use[static_cast<std::size_t>(best_.worst)];
+        made.cost = best_.cost;
+        made.gearboxes = static_cast<int>(pilot_.size());
+        return made;
+    }
+
+    const Study& study_;
+    const double tolerance_;
+    const Scene own_;  // steps by the integrator's own rule
+    // Last scene tried: the next one often differs only in its convergence tolerance and shares the
+    // plan.
+    std::unique_ptr<const Scene> last_;
+    const Pilot pilot_;
+    Reference reference_;
+    std::vector<std::pair<SolverSetting, Trial>> trials_;
+    Trial best_;
+    SolverSetting best_setting_;
+    double least_error_ = kNever, least_meshes_ = 0.0;
+};
+
+}  // namespace
+
+ResolvedStudy resolve_numerics(Study study) {
+    std::optional<NumericsChoice> choice;
+    const double tolerance = study.numerics.tolerance, share = study.numerics.scatter_tolerance;
+    if (share > 0.0) {
+        choice = choose_by_scatter(study);
+    } else if (tolerance > 0.0) {
+        choice = Search(study).run();
+    }
+    if (choice) {
+        study.numerics = choice->setting.numerics;
+        study.numerics.tolerance = tolerance;
+        study.numerics.scatter_tolerance = share;
+    }
+    return {std::move(study), std::move(choice)};
+}
+
+Study without_tolerance(Study study) {
+    study.numerics.tolerance = study.numerics.scatter_tolerance = 0.0;
+    return study;
 }
 
 }  // namespace gearpod::mc

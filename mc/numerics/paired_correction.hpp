@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "analysis/reliability.hpp"
-#include "mc/results/row_source.hpp"
+#include "mc/results/result_rows.hpp"
 
 namespace gearpod::mc {
 

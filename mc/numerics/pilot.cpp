@@ -5,13 +5,12 @@
 #include <limits>
 #include <span>
 
-#include "lockstep/kernels/built_kernels.hpp"
-#include "lockstep/steps/step_pilot.hpp"
-#include "machine/thread_clock.hpp"
-#include "mc/gearbox/gearbox_tile.hpp"
-#include "mc/gearbox/healthy_reference.hpp"
-#include "mc/gearbox/realization_features.hpp"
-#include "signals/sensor/sensor.hpp"
+#include "lockstep/kernels/kernel_table.hpp"
+#include "lockstep/steps/graded_grid.hpp"
+#include "machine/clocks.hpp"
+#include "mc/ensemble/gearbox/gearbox_tile.hpp"
+#include "mc/ensemble/gearbox/realization_features.hpp"
+#include "signals/sensor/sensor_signal.hpp"
 
 namespace gearpod::mc {
 namespace {

@@ -6,9 +6,9 @@
 #include <span>
 #include <vector>
 
-#include "mc/gearbox/gearbox_tile.hpp"
-#include "mc/scene/sampling.hpp"
-#include "mc/scene/scene.hpp"
+#include "mc/ensemble/gearbox/gearbox_tile.hpp"
+#include "mc/plan/sampling.hpp"
+#include "mc/plan/scene.hpp"
 
 namespace gearpod::mc {
 

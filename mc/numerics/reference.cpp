@@ -5,8 +5,8 @@
 #include <optional>
 
 #include "lockstep/integrators/facts.hpp"
-#include "machine/thread_clock.hpp"
-#include "mc/numerics/solver_families.hpp"
+#include "machine/clocks.hpp"
+#include "mc/numerics/solver_setting.hpp"
 
 namespace gearpod::mc {
 namespace {

@@ -2,10 +2,10 @@
 
 #include <stdexcept>
 
-#include "lockstep/kernels/built_kernels.hpp"
-#include "mc/coupling/coupling_checks.hpp"
+#include "lockstep/kernels/kernel_table.hpp"
+#include "mc/ensemble/coupling/neighbour_stages.hpp"
 #include "mc/files/python/python_worker.hpp"
-#include "mc/scene/mesh_loads.hpp"
+#include "mc/plan/mesh_loads.hpp"
 #include "mc/study/gears.hpp"
 #include "mc/study/other_sources.hpp"
 

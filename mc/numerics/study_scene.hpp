@@ -5,8 +5,8 @@
 #include <optional>
 #include <string>
 
-#include "mc/numerics/choice.hpp"
-#include "mc/scene/scene.hpp"
+#include "mc/numerics/numerics_choice.hpp"
+#include "mc/plan/scene.hpp"
 
 namespace gearpod::mc {
 

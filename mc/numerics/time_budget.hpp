@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "machine/thread_clock.hpp"
+#include "machine/clocks.hpp"
 
 namespace gearpod::mc {
 

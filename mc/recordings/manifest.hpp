@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "mc/files/input/problems.hpp"
 #include "mc/files/text/text_table.hpp"
-#include "mc/input/problems.hpp"
 
 namespace gearpod::mc {
 

@@ -7,12 +7,12 @@
 #include <limits>
 #include <utility>
 
-#include "features/statistics/worst_tooth.hpp"
+#include "features/statistics/signal_statistics.hpp"
+#include "mc/ensemble/gearbox/realization_features.hpp"
+#include "mc/ensemble/gearbox/span_analysis.hpp"
 #include "mc/files/signal_file.hpp"
-#include "mc/gearbox/python_features.hpp"
-#include "mc/gearbox/span_analysis.hpp"
+#include "mc/plan/feature_needs.hpp"
 #include "mc/recordings/quantisation.hpp"
-#include "mc/scene/feature_needs.hpp"
 #include "signals/spectra/order_spectrum.hpp"
 #include "signals/spectra/synchronous_average.hpp"
 #include "signals/windowing/folded_signal.hpp"
@@ -24,7 +24,7 @@ namespace {
 using features::Feature;
 using PlanetRms = features::ToothRms<features::Gear::planet>;
 
-constexpr int kFewestOfParts = 4;  // samples per mesh period that mesh_separation.hpp needs
+constexpr int kFewestOfParts = 4;  // samples per mesh period that order_spectrum.hpp needs
 
 // Reason why a feature cannot be computed from this signal; "" if it can.
 std::string why_unavailable(const Feature& feature, const Scene& scene,

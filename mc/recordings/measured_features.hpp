@@ -7,9 +7,9 @@
 #include <vector>
 
 #include "features/feature.hpp"
-#include "mc/gearbox/healthy_reference.hpp"
-#include "mc/recordings/measured_change.hpp"
-#include "mc/scene/scene.hpp"
+#include "mc/ensemble/gearbox/realization_features.hpp"
+#include "mc/plan/scene.hpp"
+#include "mc/recordings/measured_signal.hpp"
 
 namespace gearpod::mc {
 

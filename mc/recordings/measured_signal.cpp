@@ -4,22 +4,54 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <mutex>
 #include <numbers>
+#include <span>
 
 #include "features/feature.hpp"
+#include "mc/files/input/terminal_text.hpp"
+#include "mc/files/signal_file.hpp"
 #include "mc/files/signal_units.hpp"
-#include "mc/input/printable.hpp"
+#include "mc/plan/feature_needs.hpp"
 #include "mc/recordings/quantisation.hpp"
 #include "mc/recordings/recording_columns.hpp"
-#include "mc/recordings/recording_rate.hpp"
-#include "mc/recordings/sample_times.hpp"
-#include "mc/scene/feature_needs.hpp"
 #include "signals/rotation/shaft_motion.hpp"
-#include "signals/spectra/mesh_speed.hpp"
-#include "signals/spectra/order_tracking.hpp"
+#include "signals/spectra/alignment.hpp"
+#include "signals/spectra/recording_checks.hpp"
+#include "signals/spectra/resampling.hpp"
 
 namespace gearpod::mc {
+
+std::vector<std::string> rate_problems(std::span<const double> phase, const Scene& scene,
+                                       RecordedSignals has) {
+    constexpr double kFewestSamples = 2.0;  // per mesh period
+    constexpr double kRateTolerance = 1.02;
+    const double per_mesh = static_cast<double>(phase.size() - 1) / (phase.back() - phase.front());
+    const double mesh_Hz = scene.nominal_mesh_frequency_Hz();
+    const double low_pass = scene.study().sensor.low_pass_Hz;
+    std::vector<std::string> problems;
+    if (has.te && per_mesh < kFewestSamples) {
+        problems.push_back(
+            fmt::format("{:.6g} samples per mesh period do not resolve the mesh frequency of "
+                        "the transmission error; check the speed and the sampling rate",
+                        per_mesh));
+    }
+    if (has.sensor && per_mesh > kRateTolerance * scene.samples_per_mesh()) {
+        problems.push_back(
+            fmt::format("{:.6g} samples per mesh period, but the study's grid has {}; set "
+                        "sensor.sampling_Hz to that of the recording, about {:.6g} Hz",
+                        per_mesh, scene.samples_per_mesh(), per_mesh * mesh_Hz));
+    }
+    if (has.sensor && per_mesh * mesh_Hz < 2.0 * low_pass) {
+        problems.push_back(
+            fmt::format("{:.6g} Hz ({:.6g} samples per mesh period) is too low for signals up "
+                        "to {:.6g} Hz; set sensor.low_pass_Hz to at most {:.6g}",
+                        per_mesh * mesh_Hz, per_mesh, low_pass, 0.5 * per_mesh * mesh_Hz));
+    }
+    return problems;
+}
+
 namespace {
 
 constexpr const char* kSensor = "sensor";
@@ -272,6 +304,72 @@ class SignalReader : RecordingColumns {
 MeasuredSignal read_measured_signal(const SignalSource& source, const SignalColumns& columns,
                                     const Scene& scene) {
     return SignalReader(source, columns, scene).read();
+}
+
+namespace {
+
+// Factor on `before` that leaves the least squares of now - factor before.
+double best_scale(std::span<const double> now, std::span<const double> before) {
+    double both = 0.0, squares = 0.0;
+    for (std::size_t i = 0; i < now.size(); ++i) {
+        both += now[i] * before[i];
+        squares += before[i] * before[i];
+    }
+    return both / squares;
+}
+
+}  // namespace
+
+MeasuredChange measured_change(const Scene& scene, const MeasuredSignal& record,
+                               const MeasuredBaseline& from) {
+    const MeasuredSignal& baseline = from.signal;
+    const std::string& baseline_file = from.file;
+    const int teeth = scene.span().planet_teeth, of_span = scene.span().ring_teeth;
+    const int turns =
+        std::min({record.sensor_meshes / teeth, baseline.sensor_meshes / teeth, of_span});
+    if (!record.has_sensor || !baseline.has_sensor || turns < 1) {
+        throw SignalError(
+            fmt::format("{}: the baseline and the recording must both have at least {} mesh "
+                        "periods of sensor signal",
+                        baseline_file, teeth));
+    }
+    const auto per_mesh = static_cast<std::size_t>(scene.samples_per_mesh());
+    const auto meshes = static_cast<std::size_t>(turns) * static_cast<std::size_t>(teeth);
+    const auto now = std::span(record.sensor).first(meshes * per_mesh);
+    std::vector<double> before(baseline.sensor.begin(),
+                               baseline.sensor.begin() + static_cast<std::ptrdiff_t>(now.size()));
+    MeasuredChange change;
+    if (turns == of_span || turns == 1) {
+        const signals::Shift shift = signals::align(now, before).shift;
+        before = signals::shifted(before, shift);
+        const double turned = shift.total() / static_cast<double>(per_mesh);
+        change.meshes = turned < 0.0 ? turned + static_cast<double>(meshes) : turned;
+    }
+    change.correlation = signals::correlation(now, before);
+    if (!(change.correlation >= kLeastCorrelation)) {
+        throw SignalError(fmt::format(
+            "{}: the recording does not resemble this baseline (correlation {:.2f}): another "
+            "gearbox or speed{}",
+            baseline_file, change.correlation,
+            turns == of_span || turns == 1
+                ? ""
+                : fmt::format(", or another start position, which is allowed only for recordings "
+                              "of {} mesh periods or of one averaged planet turn",
+                              scene.span_meshes())));
+    }
+    if (from.scaled) {
+        change.scale = best_scale(now, before);
+        for (double& value : before) {
+            value *= change.scale;
+        }
+    }
+    std::transform(now.begin(), now.end(), before.begin(), before.begin(), std::minus<>());
+    change.signal.sensor_rounding =
+        std::hypot(record.sensor_rounding, change.scale * baseline.sensor_rounding);
+    change.signal.sensor = std::move(before);
+    change.signal.has_sensor = true;
+    change.signal.sensor_meshes = static_cast<int>(meshes);
+    return change;
 }
 
 }  // namespace gearpod::mc

@@ -1,13 +1,26 @@
-// Measured signal on the mesh-phase grid of a study.
+// Sampling rate of a recording compared with the grid of a study.
 #pragma once
 
+#include <span>
 #include <string>
 #include <vector>
 
+#include "mc/plan/scene.hpp"
 #include "mc/recordings/recording_columns.hpp"
-#include "mc/scene/scene.hpp"
 
 namespace gearpod::mc {
+
+struct RecordedSignals {
+    bool sensor = false, te = false;
+};
+
+// Problems of the number of samples per mesh period: too few to resolve the mesh frequency or the
+// sensor's frequency range, or so many that the study's grid would alias high frequencies. `phase`
+// has the mesh phase of every sample.
+std::vector<std::string> rate_problems(std::span<const double> phase, const Scene& scene,
+                                       RecordedSignals has);
+
+// Measured signal on the mesh-phase grid of a study.
 
 struct MeasuredSignal {
     // Mesh periods that features use, as far as the recording has them.
@@ -36,9 +49,40 @@ struct MeasuredSignal {
 //
 // and its time from sampling_Hz, from the column time (s), or from the sampling rate in the file.
 // Units are converted (signal_units.hpp). Problems are unknown units, missing and clipped samples
-// (sample_times.hpp, signals/spectra/lost_samples.hpp), and a speed that does not fit the mesh
+// (recording_columns.hpp, signals/spectra/recording_checks.hpp), and a speed that does not fit the mesh
 // lines. Throws SignalError with one line per problem. Thread-safe: one thread reads at a time.
 MeasuredSignal read_measured_signal(const SignalSource& source, const SignalColumns& columns,
                                     const Scene& scene);
+
+// Change of a measured gearbox since an earlier recording of it.
+
+struct MeasuredChange {
+    // Difference of the two sensor signals, over the planet turns that both have. No transmission
+    // error.
+    MeasuredSignal signal;
+    // Mesh periods by which the baseline was shifted to align it with the recording. Only
+    // recordings of the whole span or of one averaged planet turn are periodic and can be shifted.
+    double meshes = 0.0;
+    double correlation = 0.0;  // of both signals after alignment
+    double scale = 1.0;        // factor on the baseline before the subtraction
+};
+
+// Least correlation of a recording with its baseline.
+inline constexpr double kLeastCorrelation = 0.2;
+
+// Earlier recording of the gearbox in healthy condition, or the mean of several.
+struct MeasuredBaseline {
+    std::string file;  // its name in messages
+    MeasuredSignal signal;
+    // True if the baseline is multiplied by the factor that leaves the least change (least
+    // squares). A gain that drifts then leaves no change; the part of a fault that resembles the
+    // baseline does not either.
+    bool scaled = false;
+};
+
+// Throws SignalError if a recording has less than one planet turn of sensor signal, or if the
+// correlation is below kLeastCorrelation.
+MeasuredChange measured_change(const Scene& scene, const MeasuredSignal& record,
+                               const MeasuredBaseline& baseline);
 
 }  // namespace gearpod::mc

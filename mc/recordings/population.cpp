@@ -8,8 +8,8 @@
 #include <stdexcept>
 
 #include "analysis/detection/threshold.hpp"
-#include "analysis/statistics/auc.hpp"
-#include "mc/input/printable.hpp"
+#include "analysis/statistics/rank_statistics.hpp"
+#include "mc/files/input/terminal_text.hpp"
 #include "mc/results/results_file.hpp"
 #include "mc/study/gears.hpp"
 

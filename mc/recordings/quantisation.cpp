@@ -8,8 +8,8 @@
 #include <limits>
 #include <vector>
 
-#include "features/sideband_index.hpp"
-#include "features/statistics/median.hpp"
+#include "features/modulation_indicators.hpp"
+#include "features/statistics/signal_statistics.hpp"
 
 namespace gearpod::mc {
 namespace {

@@ -7,9 +7,9 @@
 #include <map>
 #include <utility>
 
-#include "features/statistics/median.hpp"
+#include "features/statistics/signal_statistics.hpp"
+#include "mc/files/input/terminal_text.hpp"
 #include "mc/files/signal_file.hpp"
-#include "mc/input/printable.hpp"
 #include "signals/spectra/alignment.hpp"
 
 namespace gearpod::mc {
@@ -20,7 +20,7 @@ bool marked(const RecordingList& list) {
 }
 
 // Moves the recording to the baseline's start. Recordings that cannot be shifted stay as they are
-// (measured_change.hpp).
+// (measured_signal.hpp).
 AlignedSensor aligned_with(std::span<const double> mean, std::span<const double> record,
                            bool periodic) {
     AlignedSensor aligned{{record.begin(), record.end()}, 0.0};

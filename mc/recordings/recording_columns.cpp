@@ -2,12 +2,380 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <array>
+#include <charconv>
 #include <cmath>
+#include <limits>
 
-#include "mc/input/printable.hpp"
-#include "mc/recordings/sample_times.hpp"
+#include "machine/upper_median.hpp"
+#include "mc/files/input/terminal_text.hpp"
+#include "signals/spectra/recording_checks.hpp"
 
 namespace gearpod::mc {
+namespace {
+
+constexpr double kEven = 1e-3;  // relative to a step
+// Largest unit of rounded times, relative to a step. Steps are whole numbers of units: one or two
+// where no sample is missing, three or more over a missing sample.
+constexpr double kCoarsest = 1.0 / 1.5;
+
+// Rounding of written times: its unit grows with the value, except that of decimals.
+class WrittenPrecision {
+  public:
+    // Finds the coarsest precision with which all values may have been written: decimals, three to
+    // nine significant digits, or single precision. Double precision is the finest.
+    explicit WrittenPrecision(const std::vector<double>& values) {
+        for (const double value : values) {
+            largest_ = std::max(largest_, std::abs(value));
+        }
+        find_decimals(values);
+        find_digits(values);
+        find_single(values);
+    }
+
+    // Distance of neighbouring values of the format at this value.
+    double unit(double value) const {
+        const double digits = digits_ > 0 ? digit_unit(value, digits_) : 0.0;
+        return std::max({decimals_, digits, single_ * ulp(static_cast<float>(value))}) + ulp(value);
+    }
+    double largest_unit() const { return unit(largest_); }
+
+  private:
+    template <class Number>
+    static Number ulp(Number value) {
+        const Number size = std::abs(value);
+        return std::nextafter(size, std::numeric_limits<Number>::infinity()) - size;
+    }
+    // Exponent of ten of the last of `digits` significant digits.
+    static int last_digit(double value, int digits) {
+        return static_cast<int>(std::floor(std::log10(std::abs(value)) + 1e-12)) + 1 - digits;
+    }
+    static double digit_unit(double value, int digits) {
+        return value == 0.0 ? 0.0 : std::pow(10.0, last_digit(value, digits));
+    }
+    // True if a value is a multiple of a power of ten, to within double precision.
+    static bool is_multiple(double value, int exponent) {
+        const long double power = std::pow(10.0L, std::abs(exponent));
+        const long double multiple = exponent < 0 ? value * power : value / power;
+        const double one = std::pow(10.0, exponent), off = 8.0 * ulp(value) / one;
+        // Computed values are off by some units of double precision, written ones by one.
+        const double blur = off < 0.05 ? off : 1.01 * ulp(value) / one;
+        return blur < 0.3 && std::abs(multiple - std::round(multiple)) <= blur;
+    }
+
+    void find_decimals(const std::vector<double>& values) {
+        for (int digits = 0; digits <= 9 && decimals_ == 0.0; ++digits) {
+            if (std::ranges::all_of(values, [&](double v) { return is_multiple(v, -digits); })) {
+                decimals_ = std::pow(10.0, -digits);
+            }
+        }
+    }
+    void find_digits(const std::vector<double>& values) {
+        for (int digits = 3; digits <= 9 && digits_ == 0; ++digits) {
+            if (std::ranges::all_of(values, [&](double v) {
+                    return v == 0.0 || is_multiple(v, last_digit(v, digits));
+                })) {
+                digits_ = digits;
+            }
+        }
+    }
+    // Numbers of single precision, written exactly, with enough digits, or with the fewest digits
+    // that distinguish them.
+    void find_single(const std::vector<double>& values) {
+        const auto shortest = [](double value) {
+            std::array<char, 32> text{};
+            const auto end =
+                std::to_chars(text.data(), text.data() + text.size(), static_cast<float>(value));
+            double read = 0.0;
+            std::from_chars(text.data(), end.ptr, read);
+            return read == value;
+        };
+        const auto near = [&](double value) {
+            const bool nine = is_multiple(value, last_digit(value, 9));
+            const double written =
+                std::max(decimals_, nine ? digit_unit(value, 9) : 0.0) + ulp(value);
+            return written < 0.25 * ulp(static_cast<float>(value)) &&
+                   std::abs(value - static_cast<float>(value)) <= 0.51 * written;
+        };
+        if (std::ranges::all_of(values, [&](double value) {
+                return value == static_cast<float>(value) || near(value);
+            })) {
+            single_ = 1.0;
+        } else if (std::ranges::all_of(values, shortest)) {
+            single_ = 2.0;
+        }
+    }
+
+    double largest_ = 0.0;
+    double decimals_ = 0.0;  // unit of the last decimal; 0: none
+    int digits_ = 0;         // significant digits; 0: none
+    double single_ = 0.0;    // largest rounding error of single precision, in half units; 0: none
+};
+
+// Line through the times by least squares.
+struct TimeLine {
+    double start = 0.0, step = 0.0;
+    double at(std::size_t i) const { return start + static_cast<double>(i) * step; }
+};
+
+TimeLine fitted_line(const std::vector<double>& time) {
+    const auto last = static_cast<double>(time.size() - 1);
+    // From the first time: sums of large times would be less accurate.
+    double mean = 0.0, slope = 0.0, squares = 0.0;
+    for (const double value : time) {
+        mean += (value - time.front()) / (last + 1.0);
+    }
+    for (std::size_t i = 0; i < time.size(); ++i) {
+        const double from_middle = static_cast<double>(i) - 0.5 * last;
+        slope += from_middle * (time[i] - time.front() - mean);
+        squares += from_middle * from_middle;
+    }
+    TimeLine line;
+    line.step = slope / squares;
+    line.start = time.front() + (mean - 0.5 * last * line.step);
+    return line;
+}
+
+// Largest deviation from even spacing.
+double unevenness(const std::vector<double>& time, const TimeLine& line) {
+    double most = 0.0;
+    for (std::size_t i = 0; i < time.size(); ++i) {
+        most = std::max(most, std::abs(time[i] - line.at(i)));
+    }
+    return most;
+}
+
+// First step, from 1, that rounding does not explain; 0 if there is none.
+std::size_t unexplained_step(const std::vector<double>& time, double step,
+                             const WrittenPrecision& precision) {
+    for (std::size_t i = 1; i < time.size(); ++i) {
+        const double rounding = 0.5005 * (precision.unit(time[i - 1]) + precision.unit(time[i]));
+        if (std::abs(time[i] - time[i - 1] - step) > std::max(rounding, kEven * step)) {
+            return i;
+        }
+    }
+    return 0;
+}
+
+std::vector<double> steps_of(const std::vector<double>& time, double factor) {
+    std::vector<double> steps;
+    for (std::size_t i = 1; i < time.size(); ++i) {
+        steps.push_back((time[i] - time[i - 1]) * factor);
+    }
+    return steps;
+}
+
+// Reports times that are rounded so coarsely that a missing sample would not show.
+std::string coarse_problem(double unit, double step) {
+    return fmt::format(
+        "the times are rounded to {:.3g} s, too coarse for samples every {:.6g} s: a missing "
+        "sample "
+        "would not show; write more digits, or state the rate with --sampling-Hz",
+        unit, step);
+}
+
+// Mean of the steps about as long as their median.
+double usual_step(const std::vector<double>& steps, double unit) {
+    const double median = machine::upper_median(steps);
+    double sum = 0.0, count = 0.0;
+    for (const double step : steps) {
+        if (std::abs(step - median) <= std::max(0.5 * median, 1.01 * unit)) {
+            sum += step;
+            count += 1.0;
+        }
+    }
+    return sum / count;
+}
+
+// Reports steps that are too long, too short or negative; `unit` is that of the rounding, s.
+std::string spacing_problem(const std::vector<double>& steps, double unit) {
+    const auto back =
+        std::find_if(steps.begin(), steps.end(), [&](double step) { return step < -1.01 * unit; });
+    if (back != steps.end()) {
+        return fmt::format(
+            "decreases by {:.6g} s from sample {} to the next; the samples must be evenly spaced",
+            -*back, back - steps.begin() + 1);
+    }
+    const double usual = usual_step(steps, unit);
+    const bool coarse = unit > kCoarsest * usual;
+    const double allowed = std::max(0.5 * usual, coarse ? 0.0 : 1.001 * unit);
+    for (std::size_t i = 0; i < steps.size() && usual > unit * 0.5; ++i) {
+        if (std::abs(steps[i] - usual) <= allowed) {
+            continue;
+        }
+        const double samples = std::round(steps[i] / usual) - 1.0;
+        return fmt::format(
+            "there are {:.6g} s between sample {} and the next, and {:.6g} s between most "
+            "samples{}{}",
+            steps[i], i + 1, usual,
+            samples >= 1.0 ? fmt::format(": {:.0f} sample(s) are missing; use only the part before "
+                                         "or after",
+                                         samples)
+                           : "; the samples must be evenly spaced",
+            coarse ? fmt::format("; or the times, which are rounded to {:.3g} s, are too coarse: "
+                                 "then state the rate with --sampling-Hz",
+                                 unit)
+                   : "");
+    }
+    if (coarse) {
+        return coarse_problem(unit, usual);
+    }
+    const auto worst = std::max_element(steps.begin(), steps.end(), [&](double a, double b) {
+        return std::abs(a - usual) < std::abs(b - usual);
+    });
+    return fmt::format(
+        "{:.6g} s from sample {} to the next, but {:.6g} s on average; the samples "
+        "must be evenly spaced",
+        *worst, worst - steps.begin() + 1, usual);
+}
+
+}  // namespace
+
+SampleTimes sample_times(std::vector<double> column, double factor) {
+    const auto [low, high] = std::ranges::minmax(column);
+    if (low == high) {
+        return {{}, fmt::format("is {:.17g} at all samples", low)};
+    }
+    const double average =
+        (column.back() - column.front()) / static_cast<double>(column.size() - 1);
+    bool even = average > 0.0;
+    for (std::size_t i = 1; i < column.size() && even; ++i) {
+        even = std::abs(column[i] - column[i - 1] - average) <= kEven * average;
+    }
+    if (!even) {
+        // A fitted line is more accurate than rounded times.
+        const WrittenPrecision precision(column);
+        const TimeLine line = fitted_line(column);
+        const double unit = precision.largest_unit();
+        const double allowed = std::max(kEven * line.step, 1.01 * unit);
+        if (!(line.step > 0.0) || unit > kCoarsest * line.step ||
+            unevenness(column, line) > allowed ||
+            unexplained_step(column, line.step, precision) > 0) {
+            return {{}, spacing_problem(steps_of(column, factor), unit * factor)};
+        }
+        for (std::size_t i = 0; i < column.size(); ++i) {
+            column[i] = line.at(i);
+        }
+    }
+    for (double& value : column) {
+        value *= factor;
+    }
+    return {std::move(column), ""};
+}
+
+std::vector<double> evenly_spaced(std::size_t samples, double rate) {
+    std::vector<double> values(samples);
+    for (std::size_t i = 0; i < samples; ++i) {
+        values[i] = static_cast<double>(i) / rate;
+    }
+    return values;
+}
+
+std::string sign_change_text(std::span<const double> speed) {
+    const auto other =
+        std::ranges::find_if(speed, [&](double value) { return value * speed.front() < 0.0; });
+    return other == speed.end()
+               ? ""
+               : fmt::format("changes its sign at sample {}; cut the recording there",
+                             other - speed.begin() + 1);
+}
+
+std::vector<double> integral(std::span<const double> time, std::span<const double> rate) {
+    std::vector<double> sum(time.size(), 0.0);
+    for (std::size_t i = 1; i < time.size(); ++i) {
+        sum[i] = sum[i - 1] + 0.5 * (time[i] - time[i - 1]) * (rate[i - 1] + rate[i]);
+    }
+    return sum;
+}
+
+void extend_periodically(const std::vector<std::vector<double>*>& signals,
+                         std::vector<double>& phase, double samples_per_turn) {
+    constexpr std::size_t kMore = 8;
+    const double turns = static_cast<double>(phase.size()) / samples_per_turn;
+    if (std::abs(turns - std::round(turns)) > 1e-9 || phase.size() < kMore) {
+        return;
+    }
+    const double step = phase[1] - phase[0];
+    for (std::size_t i = 0; i < kMore; ++i) {
+        phase.push_back(step * static_cast<double>(phase.size()));
+        for (std::vector<double>* signal : signals) {
+            if (!signal->empty()) {
+                signal->push_back((*signal)[i]);
+            }
+        }
+    }
+}
+
+std::string bad_values(std::span<const double> values) {
+    constexpr double kLargest = 1e18;
+    const auto is_bad = [](double value) { return !std::isfinite(value); };
+    const auto bad = std::find_if(values.begin(), values.end(), is_bad);
+    if (bad != values.end()) {
+        return fmt::format(
+            "{} of {} samples are not finite, the first is sample {}; cut them off or fill the "
+            "gaps",
+            std::count_if(values.begin(), values.end(), is_bad), values.size(),
+            bad - values.begin() + 1);
+    }
+    const auto huge = std::find_if(values.begin(), values.end(),
+                                   [](double value) { return std::abs(value) > kLargest; });
+    return huge == values.end()
+               ? ""
+               : fmt::format("sample {} is {:g}; numbers above {:g} are not supported",
+                             huge - values.begin() + 1, *huge, kLargest);
+}
+
+std::string clipping(std::span<const double> samples) {
+    constexpr std::size_t kRun = 3;
+    constexpr long kFewestRuns = 2;
+    constexpr double kJump = 4.0;  // times the smallest difference between samples
+    const auto [low, high] = std::minmax_element(samples.begin(), samples.end());
+    double resolution = std::numeric_limits<double>::infinity();
+    for (std::size_t i = 1; i < samples.size(); ++i) {
+        const double difference = std::abs(samples[i] - samples[i - 1]);
+        resolution = difference > 0.0 ? std::min(resolution, difference) : resolution;
+    }
+    long runs = 0, clipped = 0;
+    double level = 0.0;
+    for (std::size_t i = 0; i < samples.size();) {
+        std::size_t end = i + 1;  // starts at i + 1 because a NaN does not equal itself
+        while (end < samples.size() && samples[end] == samples[i]) {
+            ++end;
+        }
+        const bool extreme = samples[i] == *high || samples[i] == *low;
+        const bool steep = i > 0 && end < samples.size() &&
+                           std::abs(samples[i] - samples[i - 1]) > kJump * resolution &&
+                           std::abs(samples[i] - samples[end]) > kJump * resolution;
+        if (extreme && steep && end - i >= kRun && *high > *low) {
+            ++runs;
+            clipped += static_cast<long>(end - i);
+            level = samples[i];
+        }
+        i = end;
+    }
+    return runs >= kFewestRuns ? fmt::format(
+                                     "clipped: {} samples in {} runs have the extreme value "
+                                     "{:.6g}; record with a larger range",
+                                     clipped, runs, level)
+                               : "";
+}
+
+std::string losses_text(std::span<const double> samples, int per_mesh, int turn_meshes,
+                        bool& detectable) {
+    const auto lost = signals::lost_samples(samples, per_mesh, turn_meshes);
+    detectable = lost.has_value();
+    if (!lost || !lost->found) {
+        return "";
+    }
+    return fmt::format(
+        "the meshes are {:.2f} periods too {} (plus any number of whole periods) after mesh period "
+        "{} to {}: samples were lost or repeated, which the times do not show; cut the recording "
+        "there",
+        std::abs(lost->meshes), lost->meshes > 0.0 ? "early" : "late", lost->first_mesh,
+        lost->last_mesh);
+}
+
 namespace {
 
 constexpr const char* kTimeColumn = "time";

@@ -7,9 +7,9 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
+#include "mc/files/input/terminal_text.hpp"
 #include "mc/files/json_text.hpp"
 #include "mc/files/sha256.hpp"
-#include "mc/input/printable.hpp"
 #include "mc/report/page.hpp"
 #include "mc/results/provenance.hpp"
 #include "mc/study/faults/fault_kind.hpp"

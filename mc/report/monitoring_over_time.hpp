@@ -10,7 +10,7 @@
 
 #include "analysis/monitoring/sustained_alarms.hpp"
 #include "analysis/report/report.hpp"
-#include "mc/results/row_source.hpp"
+#include "mc/results/result_rows.hpp"
 
 namespace gearpod::mc {
 

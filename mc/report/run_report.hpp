@@ -1,19 +1,18 @@
 // Report of a run, and its computing times for the terminal.
 #pragma once
 
+#include <nlohmann/json_fwd.hpp>
 #include <optional>
 
 #include "analysis/reliability.hpp"
 #include "analysis/report/report.hpp"
 #include "mc/ensemble/ensemble.hpp"
-#include "mc/report/alarms_over_time.hpp"
-#include "mc/report/contact_loss.hpp"
-#include "mc/report/failures.hpp"
+#include "mc/report/alarm_rates.hpp"
+#include "mc/report/gearbox_values.hpp"
 #include "mc/report/monitoring_over_time.hpp"
-#include "mc/report/numerical_section.hpp"
-#include "mc/report/other_fault.hpp"
+#include "mc/report/numerical_quality.hpp"
 #include "mc/report/sensors.hpp"
-#include "mc/results/row_source.hpp"
+#include "mc/results/result_rows.hpp"
 #include "mc/study/study.hpp"
 
 namespace gearpod::mc {
@@ -50,5 +49,16 @@ std::string headline_text(const analysis::Report& report);
 // Prints the computing time by task, summed over all threads, with the least, mean and largest
 // value of a rank.
 void print_computing_times(const EnsembleOutcome& outcome);
+
+// Complete report of a run as JSON, for other programs and for the page (analysis/report).
+
+// Returns the report; docs/reference/report-json.md lists the keys. The arguments are those of
+// findings_of_run(), and its result. Computes two gearboxes again for their signals
+// (example_gearboxes.hpp).
+nlohmann::json report_json(const Results& frame, const RowSource& rows,
+                           const std::optional<analysis::Reliability>& reliability,
+                           const RunFindings& run);
+nlohmann::json report_json(const Results& frame, const RowSource& rows,
+                           const std::optional<analysis::Reliability>& reliability);
 
 }  // namespace gearpod::mc

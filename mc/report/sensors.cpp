@@ -8,11 +8,11 @@
 
 #include "analysis/ranking/combined_detector.hpp"
 #include "analysis/report/wording.hpp"
-#include "analysis/statistics/holm.hpp"
+#include "analysis/statistics/difference_tests.hpp"
 #include "analysis/statistics/learned_sum.hpp"
 #include "features/feature.hpp"
-#include "features/statistics/median.hpp"
-#include "mc/ensemble/thread_count.hpp"
+#include "features/statistics/signal_statistics.hpp"
+#include "mc/ensemble/ranks.hpp"
 #include "mc/results/reliability_of_results.hpp"
 
 namespace gearpod::mc {

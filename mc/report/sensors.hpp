@@ -6,9 +6,9 @@
 #include <vector>
 
 #include "analysis/comparison/comparison.hpp"
+#include "analysis/reliability.hpp"
 #include "analysis/report/report.hpp"
-#include "analysis/smallest_fault.hpp"
-#include "mc/results/row_source.hpp"
+#include "mc/results/result_rows.hpp"
 
 namespace gearpod::mc {
 

@@ -10,9 +10,9 @@
 #include <stdexcept>
 
 #include "mc/files/atomic_file.hpp"
+#include "mc/files/input/document.hpp"
 #include "mc/files/json_text.hpp"
 #include "mc/files/text/text_table.hpp"
-#include "mc/input/document.hpp"
 
 namespace gearpod::mc {
 namespace {

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "mc/files/signal_column.hpp"
+#include "mc/files/signal_file.hpp"
 
 namespace gearpod::mc {
 

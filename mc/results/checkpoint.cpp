@@ -13,7 +13,7 @@
 #include <stdexcept>
 
 #include "mc/files/atomic_file.hpp"
-#include "mc/random/fnv.hpp"
+#include "mc/study/random/fnv.hpp"
 
 namespace gearpod::mc {
 namespace {

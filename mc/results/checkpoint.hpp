@@ -19,8 +19,8 @@
 #include <vector>
 
 #include "mc/files/file_descriptor.hpp"
-#include "mc/results/batch_rows.hpp"
-#include "mc/results/run_identity.hpp"
+#include "mc/results/provenance.hpp"
+#include "mc/results/result_rows.hpp"
 
 namespace gearpod::mc {
 

@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "mc/files/file_descriptor.hpp"
-#include "mc/random/fnv.hpp"
+#include "mc/study/random/fnv.hpp"
 
 namespace gearpod::mc {
 namespace {

@@ -8,12 +8,11 @@
 #include <sstream>
 
 #include "mc/files/hdf5_data.hpp"
-#include "mc/files/isolated_trial.hpp"
-#include "mc/input/input_file.hpp"
-#include "mc/input/printable.hpp"
+#include "mc/files/input/input_file.hpp"
+#include "mc/files/input/terminal_text.hpp"
+#include "mc/files/isolated_reading.hpp"
 #include "mc/results/file_checksum.hpp"
 #include "mc/results/layout.hpp"
-#include "mc/results/numerical_groups.hpp"
 #include "mc/study/study.hpp"
 
 namespace gearpod::mc {

@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "analysis/reliability.hpp"
-#include "analysis/report/subject.hpp"
-#include "mc/results/row_source.hpp"
+#include "analysis/report/wording.hpp"
+#include "mc/results/result_rows.hpp"
 
 namespace gearpod::mc {
 

@@ -39,7 +39,7 @@
 
 #include "analysis/detection/detection.hpp"
 #include "mc/files/atomic_file.hpp"  // why_not_writable(path), to check before a long run
-#include "mc/files/signal_column.hpp"
+#include "mc/files/signal_file.hpp"
 
 namespace gearpod::mc {
 
@@ -49,7 +49,7 @@ inline constexpr int kResultsFormatVersion = 3, kOldestFormatVersion = 2;
 
 // Result of the integration. diverged: the reason is unknown. supercritical, parametric,
 // step_too_long: the reason is known, whether the solution diverged or did not converge
-// (lockstep/steps/instability.hpp). no_equilibrium: quasi-static solution in which no tooth carries
+// (lockstep/steps/stability.hpp). no_equilibrium: quasi-static solution in which no tooth carries
 // the load.
 enum class Status {
     ok = 0,
@@ -200,7 +200,7 @@ struct Results {
     std::optional<std::size_t> parameter_index(const std::string& name) const;
 };
 
-class RowSource;  // row_source.hpp
+class RowSource;  // result_rows.hpp
 
 // Writes a results file to F.h5.new in the same folder, flushes, syncs and renames it: the file at
 // `path` is either the old or the complete new one. The rows come from `rows` and everything else
@@ -216,7 +216,7 @@ void write_results(const std::string& path, const Results& results);
 // version. A file without integrity hash is read with a note on stderr.
 Results read_results(const std::string& path);
 
-// The same without the columns; FileRows (mc/results/file_rows.hpp) reads the rows.
+// The same without the columns; FileRows (mc/results/result_rows.hpp) reads the rows.
 Results read_frame(const std::string& path);
 
 // Reads a results file whatever its integrity hash. Throws as read_results() for all other reasons.

@@ -10,8 +10,7 @@
 #include "mc/files/hdf5_data.hpp"
 #include "mc/results/file_checksum.hpp"
 #include "mc/results/layout.hpp"
-#include "mc/results/numerical_groups.hpp"
-#include "mc/results/row_source.hpp"
+#include "mc/results/result_rows.hpp"
 
 namespace gearpod::mc {
 namespace {

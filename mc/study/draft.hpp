@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "mc/input/document.hpp"
+#include "mc/files/input/document.hpp"
 #include "mc/study/study.hpp"
 
 namespace gearpod::mc {

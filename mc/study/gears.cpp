@@ -9,7 +9,7 @@
 #include <utility>
 
 #include "dynamics/helical_pair.hpp"
-#include "stiffness/foundation/gear_blank.hpp"
+#include "stiffness/iso_6336.hpp"
 
 namespace gearpod::mc {
 namespace {
@@ -332,6 +332,39 @@ double overlap_ratio(const Study& study) {
     const Gearbox& g = study.gearbox;
     return g.face_width_m.value() * std::tan(g.helix_angle_rad) /
            (std::numbers::pi * g.transverse_module_m().value());
+}
+
+namespace {
+
+std::vector<FaultPlace> places_on_planet(FaultSide side) {
+    switch (side) {
+        case FaultSide::sun:
+            return {{0, 2}};
+        case FaultSide::ring:
+            return {{1, 1}};
+        case FaultSide::both:
+            return {{0, 2}, {1, 1}};
+    }
+    return {};
+}
+
+}  // namespace
+
+std::vector<FaultPlace> fault_places(const Fault& fault) {
+    switch (fault.member.value()) {
+        case Member::planet:
+            return places_on_planet(fault.side.value());
+        case Member::ring:
+            return {{1, 2}};
+        case Member::gear:
+            return {{0, 2}};
+        case Member::sun:
+        case Member::pinion:
+            return {{0, 1}};
+        case Member::carrier:
+            return {};
+    }
+    return {};
 }
 
 }  // namespace gearpod::mc

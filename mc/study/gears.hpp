@@ -1,6 +1,7 @@
 // Gears that a study describes.
 #pragma once
 
+#include <cstddef>
 #include <optional>
 #include <span>
 #include <string>
@@ -9,8 +10,8 @@
 
 #include "dynamics/effects/mesh_law.hpp"
 #include "gears/gear.hpp"
+#include "gears/mesh_geometry.hpp"
 #include "gears/planetary.hpp"
-#include "gears/working_pair.hpp"
 #include "mc/study/study.hpp"
 #include "stiffness/teeth/material.hpp"
 #include "stiffness/teeth/tooth_profile.hpp"
@@ -104,7 +105,7 @@ gears::Gear gear_of(const Study& study, Member member);
 stiffness::Profile profile_of(const Study& study);
 
 // Gear blank factor: stiffness of a mesh with rims and webs relative to that of solid discs
-// (stiffness/foundation/gear_blank.hpp). For a mesh, the smaller of its two gears' factors. 1 for
+// (stiffness/iso_6336.hpp). For a mesh, the smaller of its two gears' factors. 1 for
 // discs, and for a ring, whose rim is modelled as an elastic ring.
 double blank_factor(const Study& study, Member member);
 double blank_factor(const Study& study, const MeshMembers& mesh);
@@ -117,5 +118,14 @@ stiffness::Material material_of(const Study& study, const MeshMembers& mesh);
 // Overlap ratio: number of mesh periods by which helical teeth engage later at one end of the face
 // width than at the other.
 double overlap_ratio(const Study& study);
+
+// Meshes in which a fault acts.
+
+// Mesh of meshes_of(kind) in which the faulty tooth acts, and its gear in that mesh, 1 or 2.
+struct FaultPlace {
+    std::size_t mesh;
+    int gear;
+};
+std::vector<FaultPlace> fault_places(const Fault& fault);
 
 }  // namespace gearpod::mc

@@ -1,16 +1,43 @@
-// Response of a study's sensors to the vibration that reaches them: of the housing, by natural
-// modes or a measured frequency response, and of the measuring chain of an additional sensor.
+// Bearings of a planetary gearbox whose forces act on the housing, and the keys that state how the
+// sensors respond to them.
 #pragma once
 
 #include <cstddef>
 #include <optional>
 #include <vector>
 
-#include "mc/study/housing_bearings.hpp"
+#include "mc/study/sensor.hpp"
 #include "mc/study/study.hpp"
-#include "signals/path/housing_response.hpp"
+#include "signals/path/frequency_response.hpp"
 
 namespace gearpod::mc {
+
+struct HousingBearing {
+    Member shaft;
+    double HousingMode::*per_kg;
+    std::vector<double> Sensor::*gain;
+    std::vector<double> Sensor::*phase_rad;
+    std::vector<double> AdditionalSensor::*own_per_kg;
+    std::vector<double> AdditionalSensor::*own_gain;
+    std::vector<double> AdditionalSensor::*own_phase_deg;
+    // Names of the keys: of a mode, and of sensors with a measured response.
+    const char* per_kg_name;
+    const char* gain_name;
+    const char* phase_name;
+};
+
+inline constexpr HousingBearing kHousingBearings[] = {
+    {Member::sun, &HousingMode::sun_bearing_per_kg, &Sensor::sun_response_gain,
+     &Sensor::sun_response_phase_rad, &AdditionalSensor::sun_bearing_per_kg,
+     &AdditionalSensor::sun_response_gain, &AdditionalSensor::sun_response_phase_deg,
+     "sun_bearing_per_kg", "sun_response_gain", "sun_response_phase_deg"},
+    {Member::carrier, &HousingMode::carrier_bearing_per_kg, &Sensor::carrier_response_gain,
+     &Sensor::carrier_response_phase_rad, &AdditionalSensor::carrier_bearing_per_kg,
+     &AdditionalSensor::carrier_response_gain, &AdditionalSensor::carrier_response_phase_deg,
+     "carrier_bearing_per_kg", "carrier_response_gain", "carrier_response_phase_deg"}};
+
+// Response of a study's sensors to the vibration that reaches them: of the housing, by natural
+// modes or a measured frequency response, and of the measuring chain of an additional sensor.
 
 // True if the housing changes the vibration on its way to the sensors.
 bool has_housing(const Study& study);

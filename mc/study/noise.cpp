@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "signals/noise/low_pass_noise.hpp"
+#include "signals/noise/coloured_noise.hpp"
 
 namespace gearpod::mc {
 

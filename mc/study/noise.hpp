@@ -7,7 +7,7 @@
 #include <string>
 
 #include "mc/study/study.hpp"
-#include "signals/noise/shaped_noise.hpp"
+#include "signals/noise/coloured_noise.hpp"
 
 namespace gearpod::mc {
 

@@ -73,7 +73,7 @@ struct NeighbourStage {
 };
 
 // Natural mode of the housing between the gearbox and the sensors
-// (signals/path/housing_response.hpp).
+// (signals/path/frequency_response.hpp).
 struct HousingMode {
     double frequency_Hz = 0.0, damping = 0.0;
     double participation = 0.0;  // at the first sensor
@@ -100,8 +100,8 @@ struct AdditionalSensor {
     // The same for the forces in the bearings of sun and carrier.
     std::vector<double> sun_bearing_per_kg, sun_response_gain, sun_response_phase_deg;
     std::vector<double> carrier_bearing_per_kg, carrier_response_gain, carrier_response_phase_deg;
-    // Measuring chain of its own (signals/path/measuring_chain.hpp); without a value, that of the
-    // first one.
+    // Measuring chain of its own (signals/path/frequency_response.hpp); without a value, that of
+    // the first one.
     std::optional<double> sampling_Hz, low_pass_Hz, mounting_Hz;
     double mounting_damping = 0.03;
     double delay_s = 0.0;                     // of its samples

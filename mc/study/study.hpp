@@ -1,5 +1,4 @@
-// Study: the content of a study file (TOML), checked, in SI units and radians. The table in
-// schema/*_keys.cpp lists the keys with units, defaults and ranges.
+// Feature of a study that a function in a Python file computes.
 #pragma once
 
 #include <array>
@@ -7,26 +6,167 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "dynamics/effects/mesh_damping.hpp"
-#include "gears/flank_relief.hpp"
+#include "gears/flank_gaps.hpp"
 #include "lockstep/plan/fault_pattern.hpp"
-#include "mc/input/problems.hpp"
+#include "lockstep/plan/integrator.hpp"
+#include "machine/instruction_sets.hpp"
+#include "mc/files/input/problems.hpp"
+#include "mc/files/input/python_hashes.hpp"
+#include "mc/study/distributions/distribution.hpp"
 #include "mc/study/fault_shapes.hpp"
-#include "mc/study/life.hpp"
 #include "mc/study/member.hpp"
-#include "mc/study/numerics.hpp"
-#include "mc/study/python_feature.hpp"
-#include "mc/study/random_input.hpp"
 #include "mc/study/sensor.hpp"
-#include "signals/path/path_window.hpp"
-#include "stiffness/contact/hertz_contact.hpp"
+#include "signals/path/transmission_path.hpp"
+#include "stiffness/contact/load_sharing.hpp"
 #include "stiffness/foundation/fillet_foundation.hpp"
 
+namespace gearpod::features {
+struct Feature;
+}
+
 namespace gearpod::mc {
+
+struct PythonFeature {
+    std::string file;  // absolute path
+    PythonHashes hashes;
+    const features::Feature* feature = nullptr;  // external
+
+    bool operator==(const PythonFeature&) const = default;
+};
+
+// Numerical settings of a study.
+
+using lockstep::Precision;
+enum class StepGrid { uniform, graded };
+// Strategy of time integration. `periodic`: the periodic orbit and a fault's passages are
+// integrated. `superposed`: the effect of each gear's tooth errors is integrated separately, as
+// long as no tooth pair loses contact. `full`: every mesh period is integrated.
+enum class Horizon { periodic, superposed, full };
+
+// Number of lanes that fill a 512-bit register.
+constexpr int full_lanes(Precision precision) {
+    return precision == Precision::single_precision ? 16 : 8;
+}
+
+// Fewest healthy and faulty gearboxes from which the error of the steps is fitted.
+inline constexpr int kFewestPairs = 8;
+
+struct Numerics {
+    std::optional<lockstep::Integrator> integrator;  // empty: chosen by the program
+    Precision precision = Precision::double_precision;
+    StepGrid grid = StepGrid::uniform;
+    double grid_tolerance = 1e-3;  // rms error of the signals on a graded grid
+    int steps_per_mesh = 0;        // 0: chosen from pilot gearboxes of the ensemble
+    // Relative tolerance of every feature, from which integrator, steps and convergence tolerance
+    // are chosen; 0: they are not chosen.
+    double tolerance = 0.0;
+    // Error of every feature over its scatter between healthy gearboxes, for which the steps and
+    // mass_scaling_Hz are chosen; 0: they are not chosen.
+    double scatter_tolerance = 0.0;
+    bool verify = false;  // repeat some gearboxes with finer steps; always with a tolerance
+    int paired_gearboxes =
+        0;  // healthy and faulty ones each that are repeated; 0: eight faulty ones
+    // Natural frequency to which faster modes of the nominal gearbox are lowered by additional
+    // inertia (lockstep/plan/mode_inertia.hpp); 0: none.
+    double mass_scaling_Hz = 0.0;
+    double convergence_tolerance = 1e-10;
+    double stiffness_tolerance = 0.0;  // of the stiffness curves; 0: the smallest that is possible
+    int face_slices = 0;               // slices across a face with varying gaps; 0: chosen
+    int max_meshes = 0;                // 0: derived from the damping
+    Horizon horizon = Horizon::periodic;
+    int lanes = full_lanes(Precision::double_precision);     // 16 (single only), 8, 4 or 1
+    int threads = 0;                                         // 0: all
+    std::optional<machine::InstructionSet> instruction_set;  // empty: the processor's widest set
+
+    bool operator==(const Numerics&) const = default;
+};
+
+// Section [life]: gearboxes that are measured repeatedly while a crack grows.
+
+// Lives of gearboxes that are measured repeatedly while a crack grows. Absent without interval_h.
+struct Life {
+    std::optional<double> interval_h;  // between records
+    int records = 200;        // largest number of records of a life, baseline records included
+    int healthy_lives = 100;  // used to count false alarms, not to set thresholds
+    // Depth of the crack when the baseline is known, and depth at which a life ends.
+    std::optional<double> first_depth_m, last_depth_m;
+    // Replaces the first depth and Paris' law: hours since the crack started and its depth then,
+    // linear in between. One hour of a gearbox is `curve_pace` hours of the curve.
+    std::vector<double> curve_h, curve_depth_m;
+    std::optional<double> curve_pace;
+    // Paris' law: C in mm a cycle at 1 MPa m^(1/2), and m.
+    std::optional<double> paris_factor, paris_exponent;
+    // Stress intensity at which the remaining ligament breaks.
+    std::optional<double> fracture_toughness_Pa_m05;
+    // Number of depth steps from 0 to the last depth. A gearbox is integrated at their ends;
+    // signals in between are interpolated.
+    int depth_steps = 8;
+    // Scatter of a record about its gearbox's value: standard deviation of the logarithm. Short
+    // form of the record distributions of torque, speed, gain and noise in [random].
+    double torque_scatter = 0.0, speed_scatter = 0.0, gain_scatter = 0.0, noise_scatter = 0.0;
+    // Number of torques and speeds at which a gearbox is integrated if its records' values differ,
+    // by default as many as interpolation_tolerance needs. Signals between them are interpolated.
+    std::optional<int> given_torques, given_speeds;
+    // The same with nodes of one polynomial, which converges faster (record_distributions.hpp).
+    std::optional<int> polynomial_torques, polynomial_speeds;
+    // Instead of that: number of torques and speeds, equally frequent, that records have at all.
+    std::optional<int> distinct_torques, distinct_speeds;
+    // Largest error of signals between them, relative to the change made by the smallest crack of
+    // interest. Numbers that are not given are raised until pilots keep it.
+    double interpolation_tolerance = 0.1;
+    std::optional<double> smallest_depth_m;  // by default half the last depth
+    // Length of a recording, in seconds or in carrier turns; by default every tooth of a planet
+    // meets every tooth of the ring once. A record averages `recordings` recordings.
+    std::optional<double> record_s, record_turns;
+    int recordings = 1;
+
+    bool operator==(const Life&) const = default;
+};
+inline int integrated_torques(const Life& life) {
+    return life.given_torques.value_or(2);
+}
+inline int integrated_speeds(const Life& life) {
+    return life.given_speeds.value_or(2);
+}
+// Smallest crack of interest. Precondition: the last depth is given.
+inline double smallest_depth_m(const Life& life) {
+    return life.smallest_depth_m.value_or(0.5 * *life.last_depth_m);
+}
+// Depth of the crack at the start of a life.
+double crack_begin_m(const Life& life);
+
+// Random inputs of the section [random]: their distributions and correlations.
+
+struct RandomInput {
+    std::string key;            // "gearbox.planet_bearing_stiffness_N_m"
+    std::string unit;           // of the key and of the distribution, e.g. "N/m"
+    Distribution distribution;  // in that unit
+    double to_si = 1.0;         // SI value = drawn value * to_si
+
+    bool operator==(const RandomInput&) const = default;
+};
+
+// Quantities that may vary from record to record.
+enum class RecordQuantity { torque, speed, gain, noise };
+// Record quantity that a key gives; empty for keys whose values belong to the gearbox.
+std::optional<RecordQuantity> record_quantity(std::string_view key);
+
+// Rank correlation (Spearman's) of two random inputs.
+struct Correlation {
+    std::string first, second;  // keys of random inputs
+    double rank = 0.0;
+
+    bool operator==(const Correlation&) const = default;
+};
+
+// Study: the content of a study file (TOML), checked, in SI units and radians. The table in
+// schema/*_keys.cpp lists the keys with units, defaults and ranges.
 
 class FaultKind;  // mc/study/faults/fault_kind.hpp
 
@@ -286,7 +426,7 @@ struct Until {
 };
 
 // Sampling of the gearboxes' random inputs: independent, or as points of a scrambled Sobol sequence
-// (mc/scene/sampling_plan).
+// (mc/plan/sampling_plan).
 enum class SamplingKind { plain, sobol };
 
 struct Ensemble {
@@ -361,5 +501,11 @@ StudyReading read_study_text(const std::string& text, const std::string& name,
 
 // Complete study as TOML with all defaults. It reads back to the same study, bit for bit.
 std::string resolved_text(const Study& study);
+
+// Checks of the numerics of a study that was not read from a file.
+
+// Problems of the study's numerics that reading would report if the keys of [numerics] named in
+// `keys` were given with their present values.
+Problems numerics_problems(const Study& study, std::span<const std::string_view> keys);
 
 }  // namespace gearpod::mc

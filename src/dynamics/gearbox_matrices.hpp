@@ -1,5 +1,5 @@
-// Equations of motion of a gearbox of any kind, M q'' + (C + G) q' + (K + K_inertial) q = f.
-// Includes static equilibrium and natural frequencies.
+// Matrices of a gearbox and their factorizations. The Eigen templates are instantiated only in the
+// source of this header, because they take longer to compile than a kernel.
 #pragma once
 
 #include <Eigen/Core>
@@ -7,6 +7,28 @@
 #include <vector>
 
 namespace gearpod::dynamics {
+
+struct EigenPairs {
+    Eigen::VectorXcd values;
+    Eigen::MatrixXcd vectors;  // one per column
+};
+
+struct Modes {
+    Eigen::VectorXd squares;  // natural angular frequencies squared, (rad/s)^2, ascending
+    Eigen::MatrixXd shapes;   // one per column
+};
+
+Eigen::VectorXcd eigenvalues(const Eigen::MatrixXd& matrix);
+EigenPairs eigen_pairs(const Eigen::MatrixXd& matrix);
+Eigen::MatrixXd inverse(const Eigen::MatrixXd& matrix);
+// Minimum-norm solution.
+Eigen::VectorXd solve(const Eigen::MatrixXd& matrix, const Eigen::VectorXd& right);
+// Undamped modes; both matrices must be symmetric.
+Modes modes(const Eigen::MatrixXd& stiffness, const Eigen::MatrixXd& mass);
+bool positive_definite(const Eigen::MatrixXd& matrix);
+
+// Equations of motion of a gearbox of any kind, M q'' + (C + G) q' + (K + K_inertial) q = f.
+// Includes static equilibrium and natural frequencies.
 
 // Spring and damper in parallel on the deflection d = row . q. It adds k row row^T to K and c row
 // row^T to C, so both stay symmetric, and motions without deflection need no energy.
@@ -33,5 +55,13 @@ Eigen::VectorXd static_equilibrium(const GearboxMatrices& matrices);
 // Undamped natural frequencies without rotation of the frame, Hz, ascending; that of a rigid
 // rotation is 0.
 std::vector<double> natural_frequencies_Hz(const GearboxMatrices& matrices);
+
+// Natural frequencies of a gearbox whose frame of reference turns with the carrier.
+
+// Natural frequencies, Hz, ascending, one per degree of freedom: undamped, as seen in the turning
+// frame, with gyroscopic and centrifugal terms. 0 for motions that do not oscillate. The
+// eigenvalues of M q'' + G q' + (K + K_inertial) q = 0 follow from its first-order form (L.
+// Meirovitch, Methods of Analytical Dynamics).
+std::vector<double> rotating_frequencies_Hz(const GearboxMatrices& matrices);
 
 }  // namespace gearpod::dynamics

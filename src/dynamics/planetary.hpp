@@ -14,7 +14,7 @@
 #include "dynamics/effects/mesh_law.hpp"
 #include "dynamics/eigen_forward.hpp"
 #include "gears/planetary.hpp"
-#include "machine/dispatch.hpp"
+#include "machine/instruction_sets.hpp"
 
 namespace gearpod::dynamics {
 

@@ -29,25 +29,25 @@ template <Gear kGear>
 struct ToothRms {
     std::span<const double> rms;
 };
-// Other statistics of the same signals: signals/windowing/tooth_signals.hpp.
+// Other statistics of the same signals: signals/windowing/vibration_separation.hpp.
 template <Gear kGear>
 struct ToothMoments {
     std::span<const double> kurtosis, crest, m8a;
 };
 
 // RMS of the windowed sensor signal of every planet tooth after cepstral pre-whitening of the
-// record, in arbitrary units: signals/prediction/prewhitening.hpp.
+// record, in arbitrary units: signals/prediction/inverse_filters.hpp.
 struct WhitenedToothRms {
     std::span<const double> rms;
 };
 
 // Averaged turns of the single planets and their difference signals, m/s^2; none without passages
-// of all teeth: signals/windowing/planet_separation.hpp.
+// of all teeth: signals/windowing/vibration_separation.hpp.
 struct SeparatedPlanets {
     std::span<const std::vector<double>> turn, difference;
 };
 
-// Signal averaged over planet turns, and its parts: signals/spectra/mesh_separation.hpp.
+// Signal averaged over planet turns, and its parts: signals/spectra/order_spectrum.hpp.
 struct SeparatedTurn {
     std::span<const double> turn;  // mean not removed
     std::span<const double> regular, residual, difference, envelope;

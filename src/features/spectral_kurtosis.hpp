@@ -20,6 +20,7 @@
 #include <vector>
 
 #include "features/signals.hpp"
+#include "signals/demodulation/demodulation.hpp"
 #include "signals/spectra/fourier_transform.hpp"
 
 namespace gearpod::features {
@@ -55,6 +56,25 @@ inline double spectral_kurtosis(const SensorTurn& sensor) {
         }
     }
     return std::isfinite(largest) ? largest : std::numeric_limits<double>::quiet_NaN();
+}
+
+// Largest kurtosis of the complex envelope of the sensor samples over the bands of the kurtogram
+// (signals/demodulation/demodulation.hpp). Antoni (2007).
+//
+// The levels end before the bands become narrower than a mesh order, so that an envelope still
+// resolves single teeth. The value is 0 for stationary Gaussian noise, apart from the scatter of
+// the largest of the bands: 2 / sqrt(C) for one band of C orders. NaN for a signal of rounding
+// errors.
+
+inline signals::Kurtogram kurtogram_of(const SensorSamples& sensor, const SensorTurn& average) {
+    const std::size_t per_mesh = average.turn.size() / static_cast<std::size_t>(average.mesh_order);
+    return {sensor.samples, per_mesh / 2};
+}
+
+inline double kurtogram_peak(const SensorSamples& sensor, const SensorTurn& average) {
+    const signals::Kurtogram kurtogram = kurtogram_of(sensor, average);
+    return kurtogram.peak() == nullptr ? std::numeric_limits<double>::quiet_NaN()
+                                       : kurtogram.peak()->kurtosis;
 }
 
 }  // namespace gearpod::features

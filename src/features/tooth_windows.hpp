@@ -3,7 +3,7 @@
 #pragma once
 
 #include "features/signals.hpp"
-#include "features/statistics/worst_tooth.hpp"
+#include "features/statistics/signal_statistics.hpp"
 
 namespace gearpod::features {
 
@@ -15,7 +15,7 @@ inline double window_ratio(const ToothRms<kGear>& teeth) {
 }
 
 // Robust standard score of the worst tooth's RMS against the other teeth of the same gear
-// (worst_tooth.hpp).
+// (signal_statistics.hpp).
 template <Gear kGear>
 inline double window_z(const ToothRms<kGear>& teeth) {
     return worst_score(teeth.rms);
@@ -43,9 +43,9 @@ inline double window_m8a(const ToothMoments<kGear>& teeth) {
 }
 
 // window_ratio of the sensor samples after cepstral pre-whitening
-// (signals/prediction/prewhitening.hpp): Borghesani et al. (2013), with the tooth windows of Liang
-// (2016). The mesh lines, which hide weak impulses of a tooth, then count no more than any other
-// order. NaN for a zero signal.
+// (signals/prediction/inverse_filters.hpp): Borghesani et al. (2013), with the tooth windows of
+// Liang (2016). The mesh lines, which hide weak impulses of a tooth, then count no more than any
+// other order. NaN for a zero signal.
 inline double whitened_window_ratio(const WhitenedToothRms& teeth) {
     return worst_to_median(teeth.rms);
 }

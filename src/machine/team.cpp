@@ -3,13 +3,33 @@
 #include <omp.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cstdlib>
 #include <exception>
 #include <mutex>
 
-#include "machine/cancellation.hpp"
-
 namespace gearpod::machine {
+namespace {
+
+std::atomic<const CancellationSource*> active_source{nullptr};
+
+}  // namespace
+
+CancellationSource::CancellationSource() {
+    active_source = this;
+}
+
+CancellationSource::~CancellationSource() {
+    active_source = nullptr;
+}
+
+void throw_if_cancelled() {
+    const CancellationSource* const present = active_source.load(std::memory_order_acquire);
+    if (present != nullptr && present->stop()) {
+        throw Cancelled{};
+    }
+}
+
 namespace {
 
 // Keeps the last exception thrown inside a parallel region, which no exception may leave, and

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "stiffness/teeth/chebyshev.hpp"
-#include "stiffness/teeth/position_range.hpp"
+#include "stiffness/teeth/positions.hpp"
 #include "stiffness/teeth/tooth_compliance.hpp"
 
 namespace gearpod::stiffness {

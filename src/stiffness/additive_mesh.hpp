@@ -12,10 +12,10 @@
 
 #include "gears/mesh_geometry.hpp"
 #include "stiffness/mesh_stiffness.hpp"
+#include "stiffness/piecewise_curves.hpp"
 #include "stiffness/teeth/chebyshev.hpp"
 #include "stiffness/teeth/material.hpp"
 #include "stiffness/teeth/tooth_profile.hpp"
-#include "stiffness/tooth_pair_curve.hpp"
 
 namespace gearpod::stiffness {
 

@@ -8,10 +8,10 @@
 #include <stdexcept>
 
 #include "stiffness/foundation/foundation_models.hpp"
+#include "stiffness/piecewise_curves.hpp"
 #include "stiffness/teeth/chebyshev.hpp"
-#include "stiffness/teeth/stretch.hpp"
+#include "stiffness/teeth/positions.hpp"
 #include "stiffness/teeth/tooth_compliance.hpp"
-#include "stiffness/tooth_pair_curve.hpp"
 
 namespace gearpod::stiffness {
 

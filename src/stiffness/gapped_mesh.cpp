@@ -8,8 +8,7 @@
 
 #include "stiffness/helical_mesh.hpp"
 #include "stiffness/loaded_mesh.hpp"
-#include "stiffness/teeth/position_range.hpp"
-#include "stiffness/teeth/stretch.hpp"
+#include "stiffness/teeth/positions.hpp"
 
 namespace gearpod::stiffness {
 

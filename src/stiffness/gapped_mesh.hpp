@@ -1,5 +1,5 @@
 // Gear pair whose tooth pairs have gaps: relief, crowning, wear, and contact that starts before and
-// ends after the nominal path of contact (gears/corner_contact.hpp). Wear differs between
+// ends after the nominal path of contact (gears/flank_gaps.hpp). Wear differs between
 // gearboxes, so the mesh gives only its distribution over the flank (slice_wear).
 //
 // Each slice of each tooth pair is a unilateral spring, which carries compression only. A spur pair
@@ -20,7 +20,7 @@
 #include "stiffness/helical_slices.hpp"
 #include "stiffness/mesh_stiffness.hpp"
 #include "stiffness/pair_gap.hpp"
-#include "stiffness/tooth_pair_curve.hpp"
+#include "stiffness/piecewise_curves.hpp"
 
 namespace gearpod::stiffness {
 

@@ -7,7 +7,7 @@
 #include <mutex>
 #include <stdexcept>
 
-#include "stiffness/teeth/position_range.hpp"
+#include "stiffness/teeth/positions.hpp"
 
 namespace gearpod::stiffness {
 

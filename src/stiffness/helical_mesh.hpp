@@ -28,7 +28,7 @@
 #include <vector>
 
 #include "stiffness/mesh_stiffness.hpp"
-#include "stiffness/running_integral.hpp"
+#include "stiffness/piecewise_curves.hpp"
 
 namespace gearpod::stiffness {
 

@@ -18,9 +18,8 @@
 #include <vector>
 
 #include "stiffness/pair_gap.hpp"
-#include "stiffness/running_integral.hpp"
+#include "stiffness/piecewise_curves.hpp"
 #include "stiffness/teeth/tooth_fault.hpp"
-#include "stiffness/tooth_pair_curve.hpp"
 
 namespace gearpod::stiffness {
 

@@ -5,8 +5,7 @@
 #include <cmath>
 #include <functional>
 
-#include "stiffness/teeth/position_range.hpp"
-#include "stiffness/teeth/stretch.hpp"
+#include "stiffness/teeth/positions.hpp"
 
 namespace gearpod::stiffness {
 

@@ -8,10 +8,9 @@
 
 #include "analysis/detection/false_alarm_rate.hpp"
 #include "analysis/reliability.hpp"
-#include "analysis/statistics/clopper_pearson.hpp"
+#include "analysis/statistics/distributions.hpp"
+#include "analysis/statistics/interval.hpp"
 #include "analysis/statistics/link.hpp"
-#include "analysis/statistics/upper_tail.hpp"
-#include "analysis/statistics/wilson.hpp"
 
 namespace test_extreme_values {
 

@@ -7,10 +7,10 @@
 #include <sstream>
 #include <tuple>
 
+#include "analysis/reliability.hpp"
 #include "analysis/report/findings/findings.hpp"
 #include "analysis/report/reliability_json.hpp"
-#include "analysis/report/text_lines.hpp"
-#include "analysis/smallest_fault.hpp"
+#include "analysis/report/report.hpp"
 
 namespace test_reliability {
 

@@ -4,10 +4,9 @@
 #include <cmath>
 #include <random>
 
-#include "analysis/detection/reliable_size.hpp"
-#include "analysis/detection/size_groups.hpp"
-#include "analysis/pod/outcomes.hpp"
-#include "analysis/smallest_fault.hpp"
+#include "analysis/detection/detection.hpp"
+#include "analysis/pod/hit_miss_pod.hpp"
+#include "analysis/reliability.hpp"
 
 namespace test_smallest_fault {
 

@@ -8,10 +8,9 @@
 #include <vector>
 
 #include "bench_scene.hpp"
-#include "lockstep/tile/excited_integrator.hpp"
-#include "lockstep/tile/mesh_integrator.hpp"
 #include "lockstep/tile/rigid_rotation.hpp"
-#include "mc/gearbox/tile_random_inputs.hpp"
+#include "lockstep/tile/tile_integrators.hpp"
+#include "mc/ensemble/gearbox/tile_random_inputs.hpp"
 
 namespace {
 

@@ -4,7 +4,7 @@
 
 #include <stdexcept>
 
-#include "mc/numerics/choice.hpp"
+#include "mc/numerics/numerics_choice.hpp"
 
 namespace gearpod::bench {
 

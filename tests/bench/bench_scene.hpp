@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "mc/scene/scene.hpp"
+#include "mc/plan/scene.hpp"
 
 namespace gearpod::bench {
 

@@ -15,10 +15,10 @@
 #include "bench_scene.hpp"
 #include "fma_peak.hpp"
 #include "lockstep/kernels/kernel_table.hpp"
-#include "lockstep/tile/mesh_integrator.hpp"
 #include "lockstep/tile/rigid_rotation.hpp"
-#include "machine/dispatch.hpp"
-#include "machine/thread_clock.hpp"
+#include "lockstep/tile/tile_integrators.hpp"
+#include "machine/clocks.hpp"
+#include "machine/instruction_sets.hpp"
 #include "median.hpp"
 #include "operations.hpp"
 
@@ -141,15 +141,14 @@ void measure_steps(benchmark::State& state, const Setting& setting) {
 }
 
 void add(const Setting& setting) {
-    benchmark::RegisterBenchmark(
-        setting.text().c_str(),
-        [setting](benchmark::State& state) {
-            try {
-                measure_steps(state, setting);
-            } catch (const lockstep::MissingKernel& error) {
-                state.SkipWithError(error.what());
-            }
-        })
+    benchmark::RegisterBenchmark(setting.text().c_str(),
+                                 [setting](benchmark::State& state) {
+                                     try {
+                                         measure_steps(state, setting);
+                                     } catch (const lockstep::MissingKernel& error) {
+                                         state.SkipWithError(error.what());
+                                     }
+                                 })
         ->UseManualTime()
         ->Unit(benchmark::kMillisecond);
 }

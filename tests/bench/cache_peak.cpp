@@ -1,8 +1,8 @@
 #include "cache_peak.hpp"
 
-#include "machine/dispatch.hpp"
+#include "machine/clocks.hpp"
+#include "machine/instruction_sets.hpp"
 #include "machine/lanes.hpp"
-#include "machine/thread_clock.hpp"
 
 namespace gearpod::bench {
 namespace {

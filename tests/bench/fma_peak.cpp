@@ -4,8 +4,8 @@
 
 #include <cstring>
 
-#include "machine/dispatch.hpp"
-#include "machine/thread_clock.hpp"
+#include "machine/clocks.hpp"
+#include "machine/instruction_sets.hpp"
 
 namespace gearpod::bench {
 namespace {

@@ -3,11 +3,10 @@
 #include <memory>
 #include <variant>
 
-#include "dynamics/torsional_motion.hpp"
-#include "dynamics/translational_motion.hpp"
+#include "dynamics/planetary_motion.hpp"
 #include "lockstep/integrators/central_difference.hpp"
 #include "lockstep/integrators/facts.hpp"
-#include "lockstep/integrators/generalized_alpha.hpp"
+#include "lockstep/integrators/newmark.hpp"
 #include "lockstep/integrators/runge_kutta.hpp"
 
 namespace gearpod::lockstep {
@@ -91,7 +90,7 @@ Operations central_difference_operations(const lockstep::IntegrationPlan& plan) 
     return of_planetary<lockstep::CentralDifference>(plan, i);
 }
 
-// Same order as lockstep/integrators/generalized_alpha.hpp and implicit_stage.hpp.
+// Same order as lockstep/integrators/newmark.hpp and implicit_stage.hpp.
 Operations generalized_alpha_operations(const lockstep::IntegrationPlan& plan,
                                         const dynamics::GearboxInputs& inputs) {
     const auto lanes =

@@ -4,7 +4,6 @@
 #include <random>
 #include <vector>
 
-#include "dynamics/dense_algebra.hpp"
 #include "dynamics/fixed_shaft_motion.hpp"
 #include "dynamics/gearbox.hpp"
 #include "dynamics/gearbox_matrices.hpp"

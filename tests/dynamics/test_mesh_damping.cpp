@@ -2,7 +2,6 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
-#include "dynamics/dense_algebra.hpp"
 #include "dynamics/gearbox.hpp"
 #include "dynamics/gearbox_matrices.hpp"
 

@@ -1,5 +1,5 @@
 // Checks a train whose carrier drives, so that the other flanks are in contact. The model computes
-// its mirror image (gears/power_flow.hpp). This test assembles the real train, with springs along
+// its mirror image (gears/planetary.hpp). This test assembles the real train, with springs along
 // the other flanks' line of action.
 #include <catch2/catch.hpp>
 #include <cmath>

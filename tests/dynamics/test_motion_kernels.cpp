@@ -6,10 +6,8 @@
 #include <random>
 #include <vector>
 
-#include "dynamics/dense_algebra.hpp"
 #include "dynamics/gearbox_matrices.hpp"
-#include "dynamics/torsional_motion.hpp"
-#include "dynamics/translational_motion.hpp"
+#include "dynamics/planetary_motion.hpp"
 
 namespace test_motion_kernels {
 

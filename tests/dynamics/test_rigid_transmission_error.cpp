@@ -5,7 +5,7 @@
 
 #include "dynamics/gearbox_matrices.hpp"
 #include "dynamics/planetary.hpp"
-#include "gears/power_flow.hpp"
+#include "gears/planetary.hpp"
 
 namespace test_rigid_transmission_error {
 

@@ -5,15 +5,12 @@
 #include <random>
 #include <vector>
 
-#include "features/crest_factor.hpp"
-#include "features/difference_moments.hpp"
-#include "features/energy_ratio.hpp"
-#include "features/frms.hpp"
-#include "features/healthy_trend.hpp"
-#include "features/nsds.hpp"
-#include "features/sideband_index.hpp"
-#include "features/statistics/standardised_moment.hpp"
+#include "features/healthy_comparison.hpp"
+#include "features/modulation_indicators.hpp"
+#include "features/residual_indicators.hpp"
+#include "features/statistics/signal_statistics.hpp"
 #include "features/tooth_windows.hpp"
+#include "features/vibration_statistics.hpp"
 
 namespace test_condition_indicators {
 

@@ -5,11 +5,10 @@
 #include <random>
 #include <vector>
 
-#include "features/cyclic_coherence.hpp"
-#include "features/envelope_order.hpp"
+#include "features/cyclostationarity.hpp"
 #include "features/feature.hpp"
-#include "features/kurtogram_peak.hpp"
-#include "features/separated_fm4.hpp"
+#include "features/residual_indicators.hpp"
+#include "features/spectral_kurtosis.hpp"
 
 namespace test_cyclic_features {
 

@@ -5,9 +5,9 @@
 #include <vector>
 
 #include "features/feature.hpp"
-#include "features/fm0.hpp"
-#include "features/mesh_demodulation.hpp"
-#include "signals/spectra/mesh_separation.hpp"
+#include "features/modulation_indicators.hpp"
+#include "features/vibration_statistics.hpp"
+#include "signals/spectra/order_spectrum.hpp"
 
 namespace test_mesh_demodulation {
 

@@ -6,11 +6,10 @@
 #include <random>
 #include <vector>
 
-#include "features/ar_residual_kurtosis.hpp"
-#include "features/energy_operator.hpp"
 #include "features/feature.hpp"
-#include "features/med_kurtosis.hpp"
-#include "features/statistics/standardised_moment.hpp"
+#include "features/prediction_features.hpp"
+#include "features/residual_indicators.hpp"
+#include "features/statistics/signal_statistics.hpp"
 
 namespace test_prediction_features {
 

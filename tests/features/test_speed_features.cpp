@@ -5,9 +5,7 @@
 #include <vector>
 
 #include "features/feature.hpp"
-#include "features/te_speed_fault_order.hpp"
-#include "features/te_speed_kurtosis.hpp"
-#include "features/te_speed_window_ratio.hpp"
+#include "features/speed_features.hpp"
 #include "signals/spectra/order_spectrum.hpp"
 
 namespace test_speed_features {

@@ -4,10 +4,7 @@
 #include <random>
 #include <vector>
 
-#include "features/te_fc.hpp"
-#include "features/te_fm0.hpp"
-#include "features/te_kurtosis.hpp"
-#include "features/te_rms.hpp"
+#include "features/te_features.hpp"
 
 namespace test_te_features {
 

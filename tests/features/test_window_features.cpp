@@ -3,9 +3,9 @@
 #include <random>
 #include <vector>
 
-#include "features/sensor_rms.hpp"
-#include "features/statistics/median.hpp"
+#include "features/statistics/signal_statistics.hpp"
 #include "features/tooth_windows.hpp"
+#include "features/vibration_statistics.hpp"
 
 namespace test_window_features {
 

@@ -21,9 +21,9 @@
 #include <thread>
 #include <vector>
 
-#include "mc/numerics/choice.hpp"
-#include "mc/scene/sampling.hpp"
-#include "mc/scene/scene.hpp"
+#include "mc/numerics/numerics_choice.hpp"
+#include "mc/plan/sampling.hpp"
+#include "mc/plan/scene.hpp"
 #include "mc/study/schema/schema.hpp"
 #include "mutation.hpp"
 #include "tests/shipped_studies.hpp"

@@ -13,7 +13,7 @@
 #include "mc/files/signal_file.hpp"
 #include "mc/recordings/manifest.hpp"
 #include "mc/report/run_report.hpp"
-#include "mc/results/file_rows.hpp"
+#include "mc/results/result_rows.hpp"
 #include "mc/study/study.hpp"
 #include "tests/mc/edited_results.hpp"
 

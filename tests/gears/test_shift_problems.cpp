@@ -7,7 +7,6 @@
 
 #include "gears/mesh_geometry.hpp"
 #include "gears/planetary.hpp"
-#include "gears/working_pair.hpp"
 
 namespace test_shift_problems {
 

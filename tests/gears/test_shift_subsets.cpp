@@ -5,7 +5,7 @@
 #include <numbers>
 #include <random>
 
-#include "gears/working_pair.hpp"
+#include "gears/mesh_geometry.hpp"
 
 namespace test_shift_subsets {
 

@@ -4,7 +4,6 @@
 #include <numbers>
 
 #include "gears/mesh_geometry.hpp"
-#include "gears/working_pair.hpp"
 
 namespace test_working_pair {
 

@@ -5,7 +5,7 @@
 #include "dynamics/gearbox_matrices.hpp"
 #include "lockstep/integrators/facts.hpp"
 #include "lockstep/integrators/sensor_filter.hpp"
-#include "lockstep/tile/mesh_integrator.hpp"
+#include "lockstep/tile/tile_integrators.hpp"
 #include "tests/lockstep/liang_train.hpp"
 #include "tests/lockstep/tian_gearbox.hpp"
 

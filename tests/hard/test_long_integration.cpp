@@ -6,7 +6,7 @@
 
 #include "lockstep/integrators/facts.hpp"
 #include "lockstep/integrators/sdirk3.hpp"
-#include "lockstep/steps/instability.hpp"
+#include "lockstep/steps/stability.hpp"
 #include "tests/lockstep/pair_of_masses.hpp"
 
 namespace test_long_integration {

@@ -4,8 +4,8 @@
 #include <numbers>
 #include <unsupported/Eigen/MatrixFunctions>
 
-#include "dynamics/dense_algebra.hpp"
-#include "lockstep/steps/instability.hpp"
+#include "dynamics/gearbox_matrices.hpp"
+#include "lockstep/steps/stability.hpp"
 #include "tests/lockstep/liang_train.hpp"
 #include "tests/lockstep/pair_of_masses.hpp"
 

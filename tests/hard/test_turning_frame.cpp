@@ -2,9 +2,8 @@
 #include <catch2/catch.hpp>
 #include <numbers>
 
-#include "dynamics/dense_algebra.hpp"
 #include "dynamics/gearbox_matrices.hpp"
-#include "lockstep/steps/instability.hpp"
+#include "lockstep/steps/stability.hpp"
 #include "tests/lockstep/liang_train.hpp"
 
 namespace test_turning_frame {

@@ -1,8 +1,8 @@
 """Checks the order of the sources from their includes: python3 house.py TREE [FLOORS]
 
 Prints one line per problem of the sources below TREE and exits with 1 if there are any. Problems
-are includes against the order of floors.txt or in a circle, missing headers, files and folders that
-are too long, names of missing files in comments, constants of one name in two sources of a
+are includes against the order of floors.txt or in a circle, missing headers,
+names of missing files in comments, constants of one name in two sources of a
 library, and scripts that cannot be run.
 """
 
@@ -15,7 +15,6 @@ import re
 import sys
 
 PARTS = ("src", "analysis", "mc")  # folders of the library, the lowest first
-MOST_LINES, MOST_FILES = 400, 40
 CODE = (".cpp", ".hpp")
 SCRIPTS = (".py", ".sh", ".cmake", ".txt")
 INCLUDE = re.compile(r'\s*#\s*include\s*["<]([^">]+)[">]')
@@ -169,17 +168,6 @@ def circles(tree, node_of, what):
                                 + [text_of(arrow) for arrow in way])
 
 
-def too_long(tree):
-    for file in tree.files:
-        if file.endswith(CODE + SCRIPTS) and len(tree.lines(file)) > MOST_LINES:
-            yield f"{file}: {len(tree.lines(file))} lines, at most {MOST_LINES}"
-    in_folder = collections.Counter(folder(file) for file in tree.files
-                                    if file.endswith(CODE + SCRIPTS))
-    for room, count in sorted(in_folder.items()):
-        if count > MOST_FILES:
-            yield f"{room}: {count} files, at most {MOST_FILES}"
-
-
 def comment_of(file, line):
     if file.endswith(".md"):
         return line
@@ -247,7 +235,6 @@ def complaints(root, floors):
     yield from unresolved(tree)
     yield from circles(tree, module, "modules")
     yield from circles(tree, folder, "folders")
-    yield from too_long(tree)
     yield from missing_names(tree)
     yield from missing_folders(tree)
     yield from clashing_constants(tree)

@@ -8,7 +8,7 @@
 
 #include "lockstep/integrators/facts.hpp"
 #include "lockstep/integrators/sensor_filter.hpp"
-#include "lockstep/tile/mesh_integrator.hpp"
+#include "lockstep/tile/tile_integrators.hpp"
 
 namespace gearpod::test {
 

@@ -2,7 +2,6 @@
 #include <atomic>
 #include <catch2/catch.hpp>
 
-#include "machine/cancellation.hpp"
 #include "machine/team.hpp"
 
 namespace test_cancellation {

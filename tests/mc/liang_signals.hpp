@@ -7,7 +7,7 @@
 #include <kissfft/kissfft.hh>
 #include <vector>
 
-#include "signals/sensor/sensor.hpp"
+#include "signals/sensor/sensor_signal.hpp"
 #include "study_file.hpp"
 
 namespace gearpod::test {

@@ -8,9 +8,9 @@
 #include <vector>
 
 #include "mc/ensemble/ensemble.hpp"
-#include "mc/gearbox/gearbox_tile.hpp"
-#include "mc/gearbox/realization_features.hpp"
-#include "mc/scene/scene.hpp"
+#include "mc/ensemble/gearbox/gearbox_tile.hpp"
+#include "mc/ensemble/gearbox/realization_features.hpp"
+#include "mc/plan/scene.hpp"
 #include "tests/shipped_studies.hpp"
 
 namespace gearpod::test {

@@ -5,7 +5,7 @@
 #include <cstddef>
 #include <string>
 
-#include "mc/input/problems.hpp"
+#include "mc/files/input/problems.hpp"
 
 namespace gearpod::tests {
 

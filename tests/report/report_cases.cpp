@@ -4,8 +4,8 @@
 #include <limits>
 #include <random>
 
-#include "mc/random/philox.hpp"
-#include "mc/results/row_source.hpp"
+#include "mc/results/result_rows.hpp"
+#include "mc/study/random/philox.hpp"
 
 namespace gearpod::tests {
 namespace {

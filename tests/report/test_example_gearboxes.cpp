@@ -6,9 +6,9 @@
 #include <nlohmann/json.hpp>
 #include <numbers>
 
-#include "mc/gearbox/simulation.hpp"
+#include "mc/ensemble/gearbox/simulation.hpp"
+#include "mc/library/run/command_files.hpp"
 #include "mc/report/example_gearboxes.hpp"
-#include "mc/run/support.hpp"
 #include "tests/mc/program.hpp"
 
 namespace test_example_gearboxes {

@@ -2,7 +2,7 @@
 #include <catch2/catch.hpp>
 #include <sstream>
 
-#include "mc/report/feature_values.hpp"
+#include "mc/report/gearbox_values.hpp"
 #include "tests/mc/program.hpp"
 #include "tests/report/report_cases.hpp"
 

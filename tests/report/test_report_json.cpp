@@ -5,7 +5,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "mc/report/json.hpp"
+#include "mc/report/run_report.hpp"
 #include "mc/results/reliability_of_results.hpp"
 #include "tests/report/report_cases.hpp"
 

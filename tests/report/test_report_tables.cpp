@@ -4,7 +4,7 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
-#include "mc/report/json.hpp"
+#include "mc/report/run_report.hpp"
 #include "mc/report/tables.hpp"
 #include "mc/results/reliability_of_results.hpp"
 #include "tests/mc/program.hpp"

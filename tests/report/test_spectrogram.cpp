@@ -5,7 +5,7 @@
 #include <numbers>
 #include <vector>
 
-#include "mc/report/signal_json.hpp"
+#include "mc/report/example_gearboxes.hpp"
 
 namespace test_spectrogram {
 

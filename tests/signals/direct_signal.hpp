@@ -1,13 +1,14 @@
 // Reference sensor signal directly from Liang (2016), Eq. 4.3.1, sample by sample with the
-// library's functions, for comparison with the folded signal (sum of the squared signal over all planet turns at the
-// same phase of the turn) and the synthesized signal. k is the mesh period, p the phase index within it.
+// library's functions, for comparison with the folded signal (sum of the squared signal over all
+// planet turns at the same phase of the turn) and the synthesized signal. k is the mesh period, p
+// the phase index within it.
 #pragma once
 
 #include <cmath>
 #include <numbers>
 #include <vector>
 
-#include "signals/path/path_window.hpp"
+#include "signals/path/transmission_path.hpp"
 #include "signals/tile_signals.hpp"
 
 namespace gearpod::signals {

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "gears/working_pair.hpp"
+#include "gears/mesh_geometry.hpp"
 #include "stiffness/coupled_mesh.hpp"
 #include "tests/stiffness/finite_element_tables.hpp"
 #include "tests/stiffness/gear_pairs.hpp"

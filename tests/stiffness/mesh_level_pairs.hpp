@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "gears/mesh_geometry.hpp"
-#include "stiffness/contact/hertz_contact.hpp"
+#include "stiffness/contact/load_sharing.hpp"
 #include "stiffness/foundation/fillet_foundation.hpp"
 #include "stiffness/mesh_stiffness.hpp"
 #include "stiffness/teeth/material.hpp"

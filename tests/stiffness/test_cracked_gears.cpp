@@ -9,11 +9,11 @@
 #include <string>
 #include <vector>
 
-#include "gears/working_pair.hpp"
+#include "gears/mesh_geometry.hpp"
 #include "stiffness/coupled_mesh.hpp"
 #include "stiffness/faults/spatial_crack.hpp"
 #include "stiffness/faults/tooth_crack.hpp"
-#include "stiffness/teeth/crack_compliance.hpp"
+#include "stiffness/teeth/fracture_mechanics.hpp"
 #include "stiffness/teeth/tooth_compliance.hpp"
 #include "tests/stiffness/finite_element_tables.hpp"
 #include "tests/stiffness/gear_pairs.hpp"

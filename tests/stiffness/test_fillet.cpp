@@ -2,7 +2,6 @@
 #include <cmath>
 
 #include "stiffness/teeth/crack.hpp"
-#include "stiffness/teeth/section_moments.hpp"
 #include "stiffness/teeth/tooth_compliance.hpp"
 #include "tests/stiffness/gear_pairs.hpp"
 #include "tests/stiffness/yang_forms.hpp"

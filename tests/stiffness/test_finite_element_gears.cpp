@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "gears/working_pair.hpp"
+#include "gears/mesh_geometry.hpp"
 #include "stiffness/additive_mesh.hpp"
 #include "stiffness/coupled_mesh.hpp"
 #include "stiffness/faults/tooth_crack.hpp"

@@ -2,10 +2,8 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "stiffness/foundation/annulus.hpp"
 #include "stiffness/foundation/elastic_ring.hpp"
 #include "stiffness/foundation/foundation_models.hpp"
-#include "stiffness/foundation/sainsot.hpp"
 #include "tests/stiffness/yang_gears.hpp"
 
 namespace test_foundation {

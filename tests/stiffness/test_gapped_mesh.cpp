@@ -3,7 +3,7 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
-#include "gears/corner_contact.hpp"
+#include "gears/flank_gaps.hpp"
 #include "stiffness/additive_mesh.hpp"
 #include "stiffness/coupled_mesh.hpp"
 #include "stiffness/faults/losses.hpp"

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "gears/flank_relief.hpp"
+#include "gears/flank_gaps.hpp"
 #include "stiffness/additive_mesh.hpp"
 #include "stiffness/gapped_mesh.hpp"
 #include "stiffness/loaded_mesh.hpp"

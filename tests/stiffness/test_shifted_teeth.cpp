@@ -5,7 +5,6 @@
 #include <numbers>
 
 #include "gears/mesh_geometry.hpp"
-#include "gears/working_pair.hpp"
 #include "stiffness/additive_mesh.hpp"
 #include "stiffness/teeth/tooth_compliance.hpp"
 

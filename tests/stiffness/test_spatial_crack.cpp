@@ -3,7 +3,7 @@
 #include <stdexcept>
 
 #include "stiffness/additive_mesh.hpp"
-#include "stiffness/faults/slice_rule.hpp"
+#include "stiffness/faults/spatial_crack.hpp"
 #include "stiffness/faults/tooth_crack.hpp"
 #include "stiffness/teeth/tooth_compliance.hpp"
 #include "tests/stiffness/yang_gears.hpp"

@@ -3,7 +3,7 @@
 #include <random>
 #include <stdexcept>
 
-#include "machine/dispatch.hpp"
+#include "machine/instruction_sets.hpp"
 #include "stiffness/additive_mesh.hpp"
 #include "stiffness/faults/tooth_crack.hpp"
 #include "stiffness/teeth/tooth_compliance.hpp"

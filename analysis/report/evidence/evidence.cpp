@@ -9,7 +9,7 @@
 #include <span>
 #include <string_view>
 
-#include "analysis/detection/alarm.hpp"
+#include "analysis/detection/detection_table.hpp"
 #include "analysis/report/wording.hpp"
 #include "features/feature.hpp"
 

@@ -5,7 +5,7 @@
 #include <map>
 #include <utility>
 
-#include "analysis/detection/reliable_size.hpp"
+#include "analysis/detection/detection.hpp"
 #include "analysis/report/findings/findings.hpp"
 #include "analysis/report/wording.hpp"
 
@@ -193,6 +193,286 @@ Section rates_section(const Findings& findings) {
     }
     section.add(tail_table(findings));
     add_warnings(section, findings);
+    return section;
+}
+
+namespace {
+
+std::string curve_text(const HitMissPod& pod) {
+    std::string form = form_text(pod.chosen.curve.form);
+    if (pod.chosen.curve.form.free_ceiling) {
+        const std::string fitted = "ceiling fitted";
+        form.replace(form.find(fitted), fitted.size(),
+                     "ceiling " + number_text(pod.chosen.curve.ceiling));
+    }
+    return form + (pod.chosen.fit.test == GoodnessOfFit::Test::none
+                       ? "; fit not testable"
+                       : fmt::format("; fit p {}{}", p_text(pod.chosen.fit.p_value),
+                                     pod.doubtful ? " (rejected)" : ""));
+}
+
+Table curve_table(const Findings& findings, std::size_t n) {
+    const SizeUnit& unit = findings.request.size;
+    Table table{
+        fmt::format("curves.{}", n),
+        has_sizes(findings.request)
+            ? fmt::format("Probability of detection against {}{}: sizes with POD 50 % and 90 "
+                          "%, and the latter's upper bound, one-sided at {} (likelihood "
+                          "ratio); AUC with DeLong's interval at {}",
+                          unit.name, findings.at_noise(n), findings.percent(), findings.percent())
+            : fmt::format("Area under the ROC, healthy against faulty, with DeLong's "
+                          "interval at {}",
+                          findings.percent()),
+        {"feature", "AUC"},
+        {}};
+    if (has_sizes(findings.request)) {
+        table.columns.insert(table.columns.end(), {in_unit("a50", unit), in_unit("a90", unit),
+                                                   in_unit(findings.bound(), unit), "POD curve"});
+    }
+    for (const std::size_t f : findings.order[n]) {
+        const LevelReliability& level = findings.reliable(f, n);
+        const HitMissPod& pod = level.hit_miss;
+        std::vector<std::string> row{findings.name(f), area_text(level.auc.auc, level.auc.bounds)};
+        if (has_sizes(findings.request)) {
+            const bool curve = pod.refusal.empty();
+            row.push_back(curve ? findings.size(pod.a50.estimate, pod) : "-");
+            row.push_back(curve ? findings.size(pod.a90.estimate, pod) : "-");
+            row.push_back(curve ? findings.size(pod.a90.upper, pod) : "-");
+            row.push_back(curve ? curve_text(pod) : "no curve, because " + pod.refusal);
+        }
+        table.rows.push_back(std::move(row));
+    }
+    return table;
+}
+
+std::string ranking_text(const Findings& findings, const FeatureRanking& ranking, std::size_t n) {
+    if (!ranking.refusal.empty()) {
+        return fmt::format("No ranking{}: {}.", findings.at_noise(n), ranking.refusal);
+    }
+    if (ranking.ranks.size() < 2) {
+        return "";
+    }
+    std::vector<std::string> same;
+    for (std::size_t i = 1; i < ranking.ranks.size(); ++i) {
+        if (!(ranking.ranks.front().p_values[i] < kTestLevel)) {
+            same.push_back(ranking.ranks[i].name);
+        }
+    }
+    return fmt::format("{} has the largest area under the ROC, {}.", ranking.ranks.front().name,
+                       same.empty() ? "significantly larger than all others"
+                                    : "not significantly larger than " + joined(same));
+}
+
+void add_ranking(Section& section, const Findings& findings, std::size_t n) {
+    const FeatureRanking& ranking = findings.reliability->rankings[n];
+    section.state(fmt::format("ranking.{}", n), ranking_text(findings, ranking, n));
+    Table table{fmt::format("ranks.{}", n),
+                fmt::format("Ranking{}, {} healthy and {} faulty {}", findings.at_noise(n),
+                            ranking.healthy, ranking.faulty, many(findings.subject)),
+                {"rank", "feature", "area", "p against the first"},
+                {},
+                true};
+    for (std::size_t i = 0; i < ranking.ranks.size(); ++i) {
+        const FeatureRank& rank = ranking.ranks[i];
+        table.rows.push_back({fmt::format("{}", i + 1), rank.name,
+                              area_text(rank.auc.auc, rank.auc.bounds),
+                              i == 0 ? "" : p_text(ranking.ranks.front().p_values[i])});
+    }
+    section.add(std::move(table));
+    for (std::size_t i = 0; i < ranking.left_out.size(); ++i) {
+        section.state(fmt::format("unranked.{}.{}", n, i),
+                      fmt::format("Not ranked: {}.", ranking.left_out[i]));
+    }
+}
+
+void add_responses(Section& section, const Findings& findings, std::size_t n) {
+    const SizeUnit& unit = findings.request.size;
+    Table table{fmt::format("responses.{}", n),
+                "The feature itself over the size (a-hat against a)",
+                {"feature", "scale", in_unit("a50", unit), in_unit("a90", unit),
+                 in_unit(findings.bound(), unit)},
+                {}};
+    std::vector<std::string> refused;
+    for (const std::size_t f : findings.order[n]) {
+        const SignalResponsePod& pod = findings.reliable(f, n).signal_response;
+        if (!pod.refusal.empty()) {
+            refused.push_back(findings.name(f));
+            continue;
+        }
+        const auto text = [&](const SizeEstimate& estimate) {
+            return size_estimate_text(estimate, pod.band.front().size, pod.band.back().size, unit);
+        };
+        table.rows.push_back({findings.name(f), pod.candidates[pod.chosen].scale.text(),
+                              text(pod.a50.estimate), text(pod.a90.estimate), text(pod.a90.upper)});
+    }
+    section.add(std::move(table));
+    section.state(fmt::format("responses_refused.{}", n),
+                  refused.empty() ? ""
+                                  : fmt::format("No line through the values (a-hat against a) of "
+                                                "{}; reasons: report --json.",
+                                                joined(refused)));
+}
+
+std::string beyond_text(double extrapolation, bool importance_sampled) {
+    return extrapolation > 0.0 ? number_text(extrapolation, 2) + " times" +
+                                     (importance_sampled ? ", by importance sampling" : "")
+                               : "";
+}
+
+// a90 by false-alarm rate, for the best ranked features that have one; on the terminal at the
+// reference level only.
+void add_false_alarms(Section& section, const Findings& findings, std::size_t n) {
+    constexpr int kMostFeatures = 3;
+    const SizeUnit& unit = findings.request.size;
+    Table table{fmt::format("false_alarms.{}", n),
+                fmt::format("a90 by false-alarm rate{}, with bounds at {} that include the "
+                            "uncertainty of the threshold; the healthy sample is too small for "
+                            "rarer false alarms",
+                            findings.at_noise(n), findings.percent()),
+                {"feature", "false-alarm rate", "alarm beyond", "rarer than one in the sample",
+                 in_unit("a90", unit), "lower bound", "upper bound"},
+                {},
+                n != findings.reference,
+                2};
+    int features = 0;
+    for (const std::size_t f : findings.order[n]) {
+        const LevelReliability& level = findings.reliable(f, n);
+        const auto& points = level.by_rate.points;
+        if (features == kMostFeatures ||
+            std::none_of(points.begin(), points.end(), [](const RatePoint& point) {
+                return point.a90.estimate.where == SizeEstimate::Where::reached;
+            })) {
+            continue;
+        }
+        ++features;
+        const auto text = [&](const SizeEstimate& estimate) {
+            return findings.size(estimate, level.hit_miss);
+        };
+        for (const RatePoint& point : points) {
+            table.rows.push_back({findings.name(f), number_text(point.false_alarm_rate),
+                                  number_text(point.threshold, 4),
+                                  beyond_text(point.extrapolation, point.importance_sampled),
+                                  text(point.a90.estimate), text(point.a90.lower),
+                                  text(point.a90.upper)});
+        }
+    }
+    const std::size_t best = findings.order[n].front();
+    const FalseAlarmCurve& curve = findings.reliable(best, n).by_rate;
+    std::vector<std::string> unfitted;
+    for (const double rate : curve.unfitted) {
+        unfitted.push_back(number_text(rate));
+    }
+    section.state(fmt::format("no_false_alarms.{}", n),
+                  !curve.refusal.empty() && features == 0
+                      ? fmt::format("No a90 of {} by false-alarm rate: {}.", findings.name(best),
+                                    curve.refusal)
+                  : !unfitted.empty()
+                      ? fmt::format("No curve of {} fits at a false-alarm rate of {}.",
+                                    findings.name(best), joined(unfitted))
+                      : "");
+    section.add(std::move(table));
+}
+
+void add_costs(Section& section, const Findings& findings, std::size_t n) {
+    Table table{fmt::format("costs.{}", n),
+                fmt::format("Thresholds of least expected cost per record{}, for the study's "
+                            "faults; joint bounds at {}",
+                            findings.at_noise(n), findings.percent()),
+                {"feature", "alarm beyond", "false-alarm rate", "Pd", "cost", "without any alarm"},
+                {}};
+    table.labels = 2;
+    std::vector<std::string> rarest;
+    for (const std::size_t f : findings.order[n]) {
+        const auto& least = findings.reliable(f, n).least_cost;
+        if (!least) {
+            continue;
+        }
+        if (least->rarest) {
+            rarest.push_back(findings.name(f));
+        }
+        table.rows.push_back(
+            {findings.name(f), number_text(least->threshold, 4),
+             rate_text(least->false_alarm_rate, least->rate_bounds),
+             rate_text(least->pd, least->pd_bounds),
+             fmt::format("{} [{}, {}]", number_text(least->cost), number_text(least->bounds.lower),
+                         number_text(least->bounds.upper)),
+             number_text(least->without)});
+    }
+    section.add(std::move(table));
+    section.state(fmt::format("costs_rarest.{}", n),
+                  rarest.empty() ? ""
+                                 : fmt::format("Rarer alarms of {} may cost even less, but the "
+                                               "healthy sample is too small for them.",
+                                               joined(rarest)));
+}
+
+std::string condition_title(const Findings& findings, const ConditionDetection& detection,
+                            const ConditionLevel& level, std::size_t n) {
+    std::vector<std::string> thresholds;
+    for (const ConditionThreshold& one : level.thresholds) {
+        thresholds.push_back(fmt::format(
+            "{}: {}", quantity_text(one.condition, detection.unit),
+            std::isnan(one.threshold)
+                ? "none"
+                : quantity_text(one.threshold, findings.unit(findings.feature(detection.feature)),
+                                4)));
+    }
+    return fmt::format("{}{}; thresholds at {} {}", detection.feature, findings.at_noise(n),
+                       input_name(detection.input, detection.unit), joined(thresholds));
+}
+
+}  // namespace
+
+void add_curves(Section& section, const Findings& findings, std::size_t level) {
+    section.add(curve_table(findings, level));
+    add_ranking(section, findings, level);
+    if (has_sizes(findings.request)) {
+        section.state(fmt::format("unknown.{}", level), unknown_text(findings, level));
+        add_responses(section, findings, level);
+        add_false_alarms(section, findings, level);
+        add_costs(section, findings, level);
+    }
+}
+
+Section conditions_section(const Findings& findings) {
+    const auto none = std::vector<ConditionDetection>{};
+    const auto& all = findings.has_curves() ? findings.reliability->conditions : none;
+    if (all.empty()) {
+        return {};
+    }
+    const std::string name = input_name(all.front().input, all.front().unit);
+    Section section{"conditions", "Thresholds by " + name, {}};
+    section.state("conditions.how",
+                  fmt::format("Each value of {} has its own threshold, set by healthy {} with that "
+                              "value.",
+                              name, many(findings.subject)));
+    std::string refusal;
+    for (std::size_t f = 0; f < all.size(); ++f) {
+        if (!all[f].refusal.empty()) {
+            refusal = all[f].refusal;  // reason from the input, so the same for all features
+            continue;
+        }
+        for (std::size_t n = 0; n < all[f].levels.size(); ++n) {
+            const ConditionLevel& level = all[f].levels[n];
+            Table table{fmt::format("conditions.{}.{}", f, n),
+                        condition_title(findings, all[f], level, n),
+                        {in_unit("size", findings.request.size), "detection rate"},
+                        {}};
+            for (const DetectionCell& cell : level.cells) {
+                if (cell.tested > 0) {
+                    table.rows.push_back({range_text(cell.size, findings.request.size),
+                                          rate_text(cell.pd, cell.lower, cell.upper)});
+                }
+            }
+            section.add(std::move(table));
+        }
+        for (std::size_t i = 0; i < all[f].warnings.size(); ++i) {
+            section.state(fmt::format("conditions.warning.{}.{}", f, i),
+                          fmt::format("Warning: {} ({}).", all[f].warnings[i], all[f].feature));
+        }
+    }
+    section.state("conditions.none",
+                  refusal.empty() ? "" : fmt::format("No thresholds by {}: {}.", name, refusal));
     return section;
 }
 

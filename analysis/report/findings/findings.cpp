@@ -159,4 +159,284 @@ void add_detection_sections(Report& report, const Findings& findings) {
     report.add(conditions_section(findings));
 }
 
+namespace {
+
+std::string source_text(const Findings& findings, const SmallestFault& found) {
+    return findings.subject == Subject::recordings
+               ? found.source.feature
+               : fmt::format("{} at noise x {}", found.source.feature,
+                             number_text(found.source.noise_level));
+}
+
+// Feature that finds most of the largest faults, the best ranked one of several, with its cell.
+struct BestRate {
+    std::string feature;
+    const DetectionCell* cell = nullptr;
+};
+
+BestRate best_rate(const Findings& findings, std::size_t level) {
+    BestRate best;
+    for (const std::size_t f : findings.order[level]) {
+        const FeatureDetection& feature = findings.detection[f];
+        const auto& cells = feature.levels[level].cells;
+        const auto last = std::find_if(cells.rbegin(), cells.rend(), [](const DetectionCell& cell) {
+            return cell.size.high > 0.0 && !std::isnan(cell.pd);
+        });
+        if (last != cells.rend() && (best.cell == nullptr || last->pd > best.cell->pd)) {
+            best = {feature.feature, &*last};
+        }
+    }
+    return best;
+}
+
+// Number of features without a threshold, whose detection is therefore unknown; "" if all have one.
+std::string silent_text(const Findings& findings, std::size_t level) {
+    const auto silent = std::ranges::count_if(findings.detection, [&](const FeatureDetection& f) {
+        return std::isnan(f.levels[level].threshold);
+    });
+    return silent == 0 ? ""
+                       : fmt::format(
+                             " {} of the {} features {} no threshold, so their detection is "
+                             "unknown.",
+                             silent, findings.detection.size(), silent == 1 ? "has" : "have");
+}
+
+// "28.3 mm, 70 % of the tooth section,"
+std::string size_and_share(const Findings& findings, double size) {
+    const std::string share = findings.share ? findings.share(size) : "";
+    return with_unit(size, findings.request.size) + (share.empty() ? "" : ", " + share + ",");
+}
+
+Table smallest_table(const Findings& findings) {
+    const DetectionRequest& request = findings.request;
+    const bool noise = findings.subject == Subject::gearboxes;
+    Table table{
+        "smallest_fault",
+        fmt::format("Smallest {} found with {}", findings.fault_name(), findings.probability()),
+        {noise ? "noise" : "", in_unit("size", request.size), "feature", "alarm if",
+         fmt::format("false alarms [{}]", findings.percent())},
+        {}};
+    for (std::size_t n = 0; n < findings.levels(); ++n) {
+        const std::string label =
+            noise ? "x " + number_text(request.noise_levels[n]) : "recordings";
+        const auto& found = findings.smallest[n];
+        if (!found) {
+            table.rows.push_back(
+                {label, without_threshold(findings.detection, n) ? "no threshold" : "none", "-",
+                 "-", "-"});
+            continue;
+        }
+        const std::size_t f = findings.feature(found->feature);
+        const LevelDetection& level = findings.detection[f].levels[n];
+        table.rows.push_back({label,
+                              number_text(found->size / request.size.per_unit()) +
+                                  (found->from_curve ? "" : "*") + (found->own ? "" : "+"),
+                              found->feature, findings.alarm_if(f, n, 4),
+                              rate_text(request.false_alarm_rate, level.threshold_rate)});
+    }
+    return table;
+}
+
+// Explanation of the marks in the table.
+void add_notes(Section& section, const Findings& findings) {
+    std::vector<std::string> carried;
+    bool tested = false;
+    for (const auto& found : findings.smallest) {
+        tested |= found && !found->from_curve;
+        if (found && !found->own &&
+            std::ranges::count(carried, source_text(findings, *found)) == 0) {
+            carried.push_back(source_text(findings, *found));
+        }
+    }
+    section.state("note.tested", tested ? kTestedAlone : "");
+    section.state("note.carried",
+                  carried.empty()
+                      ? ""
+                      : fmt::format("+ Bound of another feature or noise level, which detects no "
+                                    "more faults of any tested size: {}.",
+                                    joined(carried)));
+}
+
+// How the smallest fault found depends on noise.
+std::string noise_limit(const Findings& findings) {
+    const std::size_t reference = findings.reference, last = findings.levels() - 1;
+    const auto size = [&](std::size_t n) {
+        return with_unit(findings.smallest[n]->size, findings.request.size);
+    };
+    const auto& here = findings.smallest[reference];
+    std::vector<std::string> texts;
+    if (reference > 0 && findings.smallest[0]) {
+        const std::string low =
+            findings.request.noise_levels[0] == 0.0 ? "without noise" : "at " + findings.noise(0);
+        if (!here || findings.smallest[0]->size < 0.9 * here->size) {
+            texts.push_back(
+                fmt::format("{} the smallest fault found would be {}{}", low, size(0),
+                            findings.smallest[0]->from_curve ? "" : " (a tested size)"));
+        } else {
+            texts.push_back(
+                fmt::format("{} the smallest fault found is no smaller ({})", low, size(0)));
+        }
+    }
+    if (last > reference) {
+        const std::string at = "at " + findings.noise(last);
+        if (!findings.smallest[last]) {
+            texts.push_back(at + (without_threshold(findings.detection, last)
+                                      ? " there is no threshold"
+                                      : " no tested size is found"));
+        } else if (here && findings.smallest[last]->size > 1.1 * here->size) {
+            texts.push_back(fmt::format("{} the smallest fault found is {}", at, size(last)));
+        }
+    }
+    return texts.empty() ? "" : "Noise: " + joined(texts) + ".";
+}
+
+std::string sample_limit(const Findings& findings, const SmallestFault& found) {
+    constexpr const char* kTested = "one of the tested sizes, not a size between them";
+    if (findings.reliability == nullptr) {
+        return fmt::format("Sizes: the study is too large for detection curves, so this is {}.",
+                           kTested);
+    }
+    const HitMissPod& pod =
+        findings.reliable(findings.feature(found.feature), findings.reference).hit_miss;
+    if (!found.own) {
+        return fmt::format(
+            "Sizes: this is the bound of {}, which finds no more faults of any tested size, so it "
+            "also holds for {} here{}.",
+            source_text(findings, found), found.feature,
+            found.from_curve ? "" : fmt::format("; {}", kTested));
+    }
+    if (!found.from_curve) {
+        return fmt::format("Sizes: there is no detection curve for it ({}: {}), so it is {}.",
+                           found.feature,
+                           !pod.refusal.empty() ? pod.refusal
+                           : pod.doubtful       ? "its goodness of fit is rejected"
+                                                : "its curve does not reach that far",
+                           kTested);
+    }
+    if (pod.a90.estimate.where != SizeEstimate::Where::reached) {
+        return "";
+    }
+    const SizeUnit& unit = findings.request.size;
+    return fmt::format(
+        "Sample: {} is the estimate (a90); {} faulty {} leave it uncertain up to {} "
+        "({}).",
+        with_unit(pod.a90.estimate.size, unit), pod.tests, many(findings.subject),
+        with_unit(found.size, unit), findings.bound());
+}
+
+}  // namespace
+
+std::string headline_text(const Findings& findings, std::size_t level) {
+    if (!findings.unassessable.empty()) {
+        return findings.unassessable;
+    }
+    const std::string at = findings.at_noise(level);
+    const bool sized = has_sizes(findings.request);
+    if (const auto& found = findings.smallest[level]) {
+        return fmt::format("{} found with {} by {}{}.",
+                           sized ? fmt::format("{} of {} is", capitalised(findings.fault),
+                                               size_and_share(findings, found->size))
+                                 : "The faulty " + many(findings.subject) + " are",
+                           findings.probability(), feature_text(found->feature), at);
+    }
+    if (without_threshold(findings.detection, level)) {
+        return capitalised((at.empty() ? "" : at.substr(1) + " ") +
+                           "no feature has a threshold, so detection is unknown.");
+    }
+    const BestRate best = best_rate(findings, level);
+    if (best.cell == nullptr) {
+        return capitalised((at.empty() ? "" : at.substr(1) + " ") +
+                           "no feature has a detection rate.");
+    }
+    return fmt::format("No tested {} is found with {}{}. The best is {}, which finds {} of {}.{}",
+                       findings.fault_name(), findings.probability(), at,
+                       feature_text(best.feature),
+                       rate_text(best.cell->pd, best.cell->lower, best.cell->upper),
+                       sized ? "those of " + range_text(best.cell->size, findings.request.size)
+                             : "the faulty " + many(findings.subject),
+                       silent_text(findings, level));
+}
+
+std::string figure_text(const Findings& findings) {
+    if (!findings.unassessable.empty() || !has_sizes(findings.request)) {
+        return "";
+    }
+    const std::size_t level = findings.reference, best = findings.best(level);
+    const std::string marks =
+        fmt::format("detection rates with their intervals at {}", findings.percent());
+    const bool curve =
+        findings.has_curves() && findings.reliable(best, level).hit_miss.refusal.empty();
+    return fmt::format(
+        "Probability of detection by {}{}. {}.", findings.name(best), findings.at_noise(level),
+        curve ? fmt::format("Line: fitted curve; shaded: its bounds, each one-sided at "
+                            "{}; marks: {}",
+                            findings.percent(), marks)
+              : "Marks: " + marks);
+}
+
+std::string unknown_text(const Findings& findings, std::size_t level) {
+    if (!findings.has_curves()) {
+        return "";
+    }
+    const SizeUnit& unit = findings.request.size;
+    for (const std::size_t f : findings.order[level]) {
+        const LevelReliability& at = findings.reliable(f, level);
+        if (at.uncertain.inputs.empty() || !at.uncertain.refusal.empty()) {
+            continue;
+        }
+        std::vector<std::string> inputs;
+        for (const std::string& input : at.uncertain.inputs) {
+            inputs.push_back(input_name(input, ""));
+        }
+        const std::string shown = unit.shown_unit();
+        return fmt::format(
+            "Unknown for this machine: {}. Over the middle 90 % of their possible values, the size "
+            "that {} finds with 90 % probability ranges from {} to {}{}; more gearboxes do not "
+            "narrow this range.",
+            joined(inputs), findings.name(f), findings.size(at.uncertain.a90_low, at.hit_miss),
+            findings.size(at.uncertain.a90_high, at.hit_miss), shown.empty() ? "" : " " + shown);
+    }
+    return "";
+}
+
+Section headline_section(const Findings& findings, const std::string& assumptions,
+                         const std::string& facts) {
+    const std::size_t reference = findings.reference;
+    Section section{"headline", "", {}};
+    const std::string shortage =
+        sample_shortage(findings.detection, findings.request, findings.subject);
+    section.state("headline", headline_text(findings, reference));
+    section.state("figure", figure_text(findings), true);
+    section.state("assumptions", assumptions);
+    section.state("shortage", findings.unassessable.empty() ? shortage : "");
+    if (findings.unassessable.empty()) {
+        section.state("unknown", unknown_text(findings, reference));
+        if (has_sizes(findings.request)) {
+            section.add(smallest_table(findings));
+            add_notes(section, findings);
+        }
+    }
+    section.state("facts", facts);
+    return section;
+}
+
+Section limits_section(const Findings& findings, const std::string& numerical,
+                       const std::string& other_fault) {
+    Section section{"limits", "What limits it", {}};
+    if (!findings.unassessable.empty() || !has_sizes(findings.request)) {
+        return section;
+    }
+    section.state("limit.noise", noise_limit(findings));
+    section.state("limit.other_fault", other_fault);
+    if (const auto& found = findings.smallest[findings.reference]) {
+        if (findings.has_curves()) {
+            section.state("limit.misses", misses_text(findings, findings.feature(found->feature),
+                                                      findings.reference));
+        }
+        section.state("limit.sample", sample_limit(findings, *found));
+        section.state("limit.numerical", numerical);
+    }
+    return section;
+}
+
 }  // namespace gearpod::analysis

@@ -10,8 +10,7 @@
 
 #include "analysis/reliability.hpp"
 #include "analysis/report/report.hpp"
-#include "analysis/report/subject.hpp"
-#include "analysis/smallest_fault.hpp"
+#include "analysis/report/wording.hpp"
 
 namespace gearpod::analysis {
 

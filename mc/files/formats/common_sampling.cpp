@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "mc/files/formats/signal_error.hpp"
-#include "mc/input/printable.hpp"
+#include "mc/files/input/terminal_text.hpp"
 
 namespace gearpod::mc {
 

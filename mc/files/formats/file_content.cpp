@@ -9,7 +9,7 @@
 
 #include "mc/files/formats/byte_numbers.hpp"
 #include "mc/files/formats/signal_error.hpp"
-#include "mc/input/utf8.hpp"
+#include "mc/files/input/file_text.hpp"
 
 namespace gearpod::mc {
 namespace {

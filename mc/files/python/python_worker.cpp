@@ -18,9 +18,9 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
-#include "machine/cancellation.hpp"
-#include "machine/wall_clock.hpp"
-#include "mc/files/framed_bytes.hpp"
+#include "machine/clocks.hpp"
+#include "machine/team.hpp"
+#include "mc/files/file_descriptor.hpp"
 #include "python_worker_source.hpp"
 
 namespace gearpod::mc {

@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "mc/files/file_descriptor.hpp"
-#include "mc/input/python_hashes.hpp"
+#include "mc/files/input/python_hashes.hpp"
 
 namespace gearpod::mc {
 

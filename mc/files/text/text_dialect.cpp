@@ -3,13 +3,288 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <map>
 #include <optional>
 
+#include "mc/files/input/file_text.hpp"
 #include "mc/files/signal_file.hpp"
+#include "mc/files/signal_units.hpp"
 #include "mc/files/text/text_fields.hpp"
-#include "mc/input/utf8.hpp"
 
 namespace gearpod::mc {
+namespace {
+
+bool is_numeric_field(std::string_view field) {
+    return number_of(trimmed_field(field), true).has_value();
+}
+
+// Splits a line for one separator, without empty fields at its end.
+std::vector<std::string_view> named_fields(std::string_view line, char separator) {
+    std::vector<std::string_view> fields;
+    split_fields(line, separator, fields);
+    while (fields.size() > 1 && trimmed_field(fields.back()).empty()) {
+        fields.pop_back();
+    }
+    if (separator != kBlanks) {
+        return fields;
+    }
+    // A unit in brackets belongs to the name before it.
+    std::vector<std::string_view> joined;
+    for (const std::string_view field : fields) {
+        if (!joined.empty() && (field.starts_with('[') || field.starts_with('('))) {
+            joined.back() = std::string_view(
+                joined.back().data(),
+                static_cast<std::size_t>(field.data() + field.size() - joined.back().data()));
+        } else {
+            joined.push_back(field);
+        }
+    }
+    return joined;
+}
+
+std::string unit_in(std::string_view field) {
+    const std::string text = field_text(field);
+    const bool brackets = text.size() > 1 && ((text.front() == '[' && text.back() == ']') ||
+                                              (text.front() == '(' && text.back() == ')'));
+    return brackets ? text.substr(1, text.size() - 2) : text;
+}
+
+// Column of a field of the header. Names that pandas makes up for row numbers are none.
+TableColumn header_column(std::string_view field) {
+    TableColumn column = column_of(field);
+    return column.name.starts_with("Unnamed: ") ? TableColumn() : column;
+}
+
+}  // namespace
+
+TextLayout::TextLayout(const std::vector<SampledLine>& sample, char separator)
+    : sample_(sample), separator_(separator) {
+    for (std::size_t i = 0; i < sample.size(); ++i) {
+        if (!sample[i].comment) {
+            lines_.push_back(i);
+            fields_.emplace_back();
+            split_fields(sample[i].text, separator, fields_.back());
+            named_.push_back(named_fields(sample[i].text, separator));
+        }
+    }
+    count_fields();
+    find_numeric_columns();
+    find_header();
+}
+
+double TextLayout::consistency() const {
+    std::size_t good = 0;
+    const std::size_t first = header();
+    for (std::size_t i = first; i < named_.size(); ++i) {
+        good += fits(i) ? 1 : 0;
+    }
+    return static_cast<double>(good) / static_cast<double>(named_.size() - first);
+}
+
+bool TextLayout::any_point_or_quote() const {
+    for (std::size_t i = header() + 1; i < fields_.size(); ++i) {
+        for (const std::string_view field : fields_[i]) {
+            if (field.find_first_of(".\"") != std::string_view::npos) {
+                return true;
+            }
+        }
+    }
+    return false;
+}
+
+TextDialect TextLayout::dialect(const std::string& path) const {
+    TextDialect dialect;
+    dialect.separator = separator_;
+    const std::size_t names = header();
+    for (std::size_t i = 0; i < lines_[names]; ++i) {
+        dialect.remarks.push_back({sample_[i].number, field_text(sample_[i].text)});
+    }
+    dialect.header_line = dialect.last_header_line = sample_[lines_[names]].number;
+    if (row_names()) {
+        dialect.columns.emplace_back();
+    }
+    for (const std::string_view field : named_[names]) {
+        dialect.columns.push_back(header_column(field));
+    }
+    if (units_) {
+        dialect.last_header_line = sample_[lines_[*units_]].number;
+        add_units(dialect, path);
+    }
+    return dialect;
+}
+
+std::optional<TextDialect> TextLayout::commented_header() const {
+    if (lines_.empty() || lines_.front() == 0 || !sample_[lines_.front() - 1].comment) {
+        return std::nullopt;
+    }
+    const SampledLine& line = sample_[lines_.front() - 1];
+    std::string_view text = line.text;
+    text.remove_prefix(text.find('#') + 1);
+    const auto names = named_fields(text, separator_);
+    if (names.size() != most_common_ || std::ranges::any_of(names, is_numeric_field)) {
+        return std::nullopt;
+    }
+    TextDialect dialect;
+    dialect.separator = separator_;
+    dialect.header_line = dialect.last_header_line = line.number;
+    for (const std::string_view name : names) {
+        dialect.columns.push_back(header_column(name));
+    }
+    return dialect;
+}
+
+// The most common number of fields in the second half of the lines.
+void TextLayout::count_fields() {
+    std::map<std::size_t, int> counts;
+    for (std::size_t i = named_.size() / 2; i < named_.size(); ++i) {
+        ++counts[fields_[i].size()];
+    }
+    int most = 0;
+    for (const auto& [fields, count] : counts) {
+        if (count >= most) {
+            most = count;
+            most_common_ = fields;
+        }
+    }
+}
+
+void TextLayout::find_numeric_columns() {
+    std::vector<int> numbers(most_common_), all(most_common_);
+    for (std::size_t i = named_.size() / 2; i < named_.size(); ++i) {
+        for (std::size_t c = 0; c < std::min(most_common_, fields_[i].size()); ++c) {
+            if (!is_missing(fields_[i][c])) {
+                ++all[c];
+                numbers[c] += is_numeric_field(fields_[i][c]) ? 1 : 0;
+            }
+        }
+    }
+    for (std::size_t c = 0; c < most_common_; ++c) {
+        if (numbers[c] > 0 && 2 * numbers[c] >= all[c]) {
+            numeric_.push_back(c);
+        }
+    }
+}
+
+// True if the line has the usual number of fields, apart from empty ones at its end.
+bool TextLayout::fits(std::size_t line) const {
+    return fields_[line].size() == most_common_ ||
+           (named_[line].size() <= most_common_ && fields_[line].size() > most_common_);
+}
+
+// True if at least half of the columns of numbers have one, or all if `strict` is set.
+bool TextLayout::is_row(std::size_t line, bool strict) const {
+    if (line >= named_.size() || !fits(line)) {
+        return false;
+    }
+    std::size_t good = 0, numbers = 0;
+    for (const std::size_t c : numeric_) {
+        const std::string_view field = c < fields_[line].size() ? fields_[line][c] : "";
+        numbers += is_numeric_field(field) ? 1 : 0;
+        good += is_numeric_field(field) || is_missing(field) ? 1 : 0;
+    }
+    return numeric_.empty() ||
+           (numbers > 0 && (strict ? good == numeric_.size() : 2 * good >= numeric_.size()));
+}
+
+bool TextLayout::is_header(std::size_t line) const {
+    const auto& names = named_[line];
+    const bool fields =
+        names.size() == most_common_ || names.size() + 1 == most_common_ || fits(line);
+    return fields &&
+           std::ranges::any_of(names, [](auto name) { return !trimmed_field(name).empty(); }) &&
+           std::ranges::none_of(names, [](auto name) {
+               return is_numeric_field(name) || trimmed_field(name).ends_with(':');
+           });
+}
+
+bool TextLayout::is_units(std::size_t line) const {
+    bool any = false;
+    for (const std::string_view field : named_[line]) {
+        if (is_numeric_field(field)) {
+            return false;
+        }
+        any = any || is_unit(unit_in(field));
+    }
+    return any;
+}
+
+// Finds the first line of names that is followed by rows; the first line is preferred.
+void TextLayout::find_header() {
+    // Text does not show where a header ends: the first line is it.
+    if (numeric_.empty() && is_header(0) && fits(0)) {
+        header_ = 0;
+    }
+    for (const bool all : {true, false}) {
+        for (std::size_t i = 0; i < named_.size() && !header_; ++i) {
+            if (is_header(i)) {
+                const bool units =
+                    i + 1 < named_.size() && is_units(i + 1) && !numeric_.empty() && !is_row(i + 1);
+                const std::size_t first = i + (units ? 2 : 1);
+                if (followed_by_rows(first, i == 0 && !all)) {
+                    header_ = i;
+                    units_ = units ? std::optional(i + 1) : std::nullopt;
+                }
+            }
+            if (!header_ && !numeric_.empty() && is_row(i, true)) {
+                break;  // rows before any names
+            }
+        }
+    }
+    if (!header_ && named_.size() == 1 && is_header(0)) {
+        header_ = 0;
+    }
+}
+
+bool TextLayout::followed_by_rows(std::size_t first, bool one_is_enough) const {
+    const std::size_t rows = one_is_enough ? 1 : numeric_.empty() ? named_.size() : 4;
+    const std::size_t end = std::min(first + rows, named_.size());
+    bool good = first < named_.size() || first == 1;
+    for (std::size_t i = first; i < end; ++i) {
+        good = good && is_row(i);
+    }
+    return good;
+}
+
+// True if the rows begin with row names that the header does not name, as R writes them:
+// quoted, or counted from 1.
+bool TextLayout::row_names() const {
+    const std::size_t first = header() + (units_ ? 2 : 1);
+    if (named_[header()].size() + 1 != most_common_ ||
+        fields_[header()].size() != most_common_ - 1 || first >= fields_.size()) {
+        return false;
+    }
+    for (std::size_t i = first; i < fields_.size(); ++i) {
+        const std::string_view name = fields_[i].front();
+        if (!name.starts_with('"') && name != std::to_string(i - first + 1)) {
+            return false;
+        }
+        if (trimmed_field(fields_[i].back()).empty()) {
+            return false;
+        }
+    }
+    return true;
+}
+
+void TextLayout::add_units(TextDialect& dialect, const std::string& path) const {
+    const auto& units = fields_[*units_];
+    const std::size_t shift = row_names() ? 1 : 0;
+    for (std::size_t c = 0; c < dialect.columns.size(); ++c) {
+        TableColumn& column = dialect.columns[c];
+        const std::string unit =
+            c >= shift && c - shift < units.size() ? unit_in(units[c - shift]) : "";
+        if (unit.empty() || unit == "-" || column.name.empty()) {
+            continue;
+        }
+        if (!column.unit.empty() && plain_unit(column.unit) != plain_unit(unit)) {
+            throw SignalError(
+                fmt::format("{}:{}: column {}: unit {}, but the line before states "
+                            "{}",
+                            path, dialect.last_header_line, column.name, unit, column.unit));
+        }
+        column.unit = unit;
+    }
+}
+
 namespace {
 
 constexpr std::size_t kSampledLines = 200, kSampledBytes = std::size_t{1} << 19;

@@ -6,8 +6,8 @@
 #include <filesystem>
 
 #include "mc/files/formats/file_content.hpp"
+#include "mc/files/input/file_text.hpp"
 #include "mc/files/signal_file.hpp"
-#include "mc/input/utf8.hpp"
 
 namespace gearpod::mc {
 namespace {

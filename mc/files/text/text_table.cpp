@@ -2,9 +2,9 @@
 
 #include <fmt/format.h>
 
+#include "mc/files/input/input_file.hpp"
 #include "mc/files/signal_file.hpp"
 #include "mc/files/text/text_dialect.hpp"
-#include "mc/input/input_file.hpp"
 
 namespace gearpod::mc {
 namespace {

@@ -5,7 +5,6 @@
 #include <string>
 #include <vector>
 
-#include "mc/files/text/table_columns.hpp"
 #include "mc/files/text/text_fields.hpp"
 
 namespace gearpod::mc {

@@ -9,21 +9,11 @@
 #include <utility>
 #include <variant>
 
-#include "mc/input/document.hpp"
-#include "mc/input/spelling.hpp"
-#include "mc/study/distributions/beta.hpp"
-#include "mc/study/distributions/constant.hpp"
-#include "mc/study/distributions/discrete.hpp"
-#include "mc/study/distributions/empirical.hpp"
-#include "mc/study/distributions/grid.hpp"
-#include "mc/study/distributions/levels.hpp"
-#include "mc/study/distributions/lognormal.hpp"
-#include "mc/study/distributions/magnitude.hpp"
-#include "mc/study/distributions/normal.hpp"
-#include "mc/study/distributions/triangular.hpp"
-#include "mc/study/distributions/truncated_normal.hpp"
-#include "mc/study/distributions/uniform.hpp"
-#include "mc/study/distributions/weibull.hpp"
+#include "mc/files/input/document.hpp"
+#include "mc/files/input/spelling.hpp"
+#include "mc/study/distributions/continuous_distributions.hpp"
+#include "mc/study/distributions/discrete_distributions.hpp"
+#include "mc/study/distributions/range.hpp"
 
 namespace gearpod::mc {
 

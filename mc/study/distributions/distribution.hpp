@@ -9,13 +9,13 @@
 #include <string_view>
 #include <vector>
 
-#include "mc/input/problems.hpp"
-#include "mc/random/philox.hpp"
-#include "mc/study/distributions/support.hpp"
+#include "mc/files/input/problems.hpp"
+#include "mc/study/distributions/range.hpp"
+#include "mc/study/random/philox.hpp"
 
 namespace gearpod::mc {
 
-struct Value;             // mc/input/document.hpp
+struct Value;             // mc/files/input/document.hpp
 struct DistributionKind;  // distribution.cpp
 
 // Owner of one value of a random input: a gearbox, each of its assemblies (the one in which the

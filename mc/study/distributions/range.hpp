@@ -1,12 +1,23 @@
-// Interval of values allowed for a number in a study file, in the unit of the file.
+// Support of a distribution.
 #pragma once
 
+#include <cmath>
+#include <cstddef>
 #include <limits>
 #include <string>
-
-#include "mc/study/distributions/support.hpp"
+#include <string_view>
 
 namespace gearpod::mc {
+
+// Infimum and supremum of the values; +-infinity where unbounded.
+struct Support {
+    double low = 0.0;
+    double high = 0.0;
+    bool low_open = false;  // the bound itself never occurs
+    bool high_open = false;
+};
+
+// Interval of values allowed for a number in a study file, in the unit of the file.
 
 struct Range {
     double low = -std::numeric_limits<double>::infinity();
@@ -20,5 +31,22 @@ struct Range {
     // Remedy text, e.g. "give a value > 0"; empty if every value is allowed.
     std::string hint() const;
 };
+
+// Limits on the magnitude of a study's numbers and on the length of its lists.
+
+// True for 0 and for magnitudes that leave room for the products and high powers computed from
+// them. The eighth power of a torque, a stiffness or a noise level must be a finite double.
+inline bool computable(double value) {
+    constexpr double kLeast = 1e-30, kMost = 1e18;
+    const double size = std::abs(value);
+    return size == 0.0 || (size >= kLeast && size <= kMost);
+}
+
+// Longest list. Every noise level, fault size or tone costs time in each gearbox, or memory in each
+// row of the results.
+inline constexpr std::size_t kMostElements = 1000;
+
+inline constexpr std::string_view kNotComputable =
+    "is outside the range that can be computed (0, or a magnitude from 1e-30 to 1e18)";
 
 }  // namespace gearpod::mc

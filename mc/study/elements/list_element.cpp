@@ -7,9 +7,9 @@
 #include <cmath>
 #include <iterator>
 
+#include "mc/files/input/spelling.hpp"
 #include "mc/files/signal_file.hpp"
-#include "mc/input/spelling.hpp"
-#include "mc/study/distributions/magnitude.hpp"
+#include "mc/study/distributions/range.hpp"
 #include "mc/study/elements/file_column.hpp"
 
 namespace gearpod::mc {

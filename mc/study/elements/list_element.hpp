@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-#include "mc/input/document.hpp"
+#include "mc/files/input/document.hpp"
 #include "mc/study/distributions/range.hpp"
 #include "mc/study/keys/key.hpp"
 

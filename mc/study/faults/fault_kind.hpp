@@ -1,5 +1,5 @@
 // Interface of a kind of fault, one file per kind: names, keys, checks against the tooth, and the
-// corresponding fault model of the stiffness library. All kinds: all_faults.hpp.
+// corresponding fault model of the stiffness library. All kinds: all_faults().
 #pragma once
 
 #include <memory>
@@ -82,5 +82,14 @@ class FaultKind {
   protected:
     ~FaultKind() = default;
 };
+
+// Kinds of fault that a study can have.
+
+// All kinds, in the order in which their keys are shown.
+std::span<const FaultKind* const> all_faults();
+
+// Kind of fault that defines the size key: the study's own, or the first kind (with size 0) for a
+// study without a fault.
+const FaultKind& size_defining_kind(const Study& study);
 
 }  // namespace gearpod::mc

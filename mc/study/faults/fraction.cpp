@@ -1,8 +1,7 @@
 // Faults given by a lost fraction alone: a broken tooth, and a loss of mesh stiffness
 // (stiffness/faults/losses.hpp).
 #include "mc/study/faults/fault_kind.hpp"
-#include "mc/study/keys/access.hpp"
-#include "mc/study/keys/units.hpp"
+#include "mc/study/keys/schema_line.hpp"
 #include "stiffness/faults/losses.hpp"
 
 namespace gearpod::mc {

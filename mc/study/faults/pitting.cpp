@@ -9,8 +9,7 @@
 #include "mc/study/faults/fault_kind.hpp"
 #include "mc/study/faults/limits.hpp"
 #include "mc/study/gears.hpp"
-#include "mc/study/keys/access.hpp"
-#include "mc/study/keys/units.hpp"
+#include "mc/study/keys/schema_line.hpp"
 
 namespace gearpod::mc {
 namespace {

@@ -1,10 +1,9 @@
-// Worn flanks of all teeth of a gear: gears/flank_wear.hpp.
+// Worn flanks of all teeth of a gear: gears/flank_gaps.hpp.
 #include <fmt/format.h>
 
 #include "mc/study/faults/fault_kind.hpp"
 #include "mc/study/faults/limits.hpp"
-#include "mc/study/keys/access.hpp"
-#include "mc/study/keys/units.hpp"
+#include "mc/study/keys/schema_line.hpp"
 
 namespace gearpod::mc {
 namespace {

@@ -11,7 +11,7 @@
 #include <variant>
 #include <vector>
 
-#include "mc/input/document.hpp"
+#include "mc/files/input/document.hpp"
 #include "mc/study/distributions/range.hpp"
 #include "mc/study/study.hpp"
 

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <string>
 
-#include "mc/study/faults/crack_angle.hpp"
+#include "mc/study/faults/crack.hpp"
 #include "mc/study/faults/limits.hpp"
 #include "mc/study/gears.hpp"
 #include "mc/study/reading/parts.hpp"

@@ -6,9 +6,9 @@
 #include "lockstep/integrators/facts.hpp"
 #include "machine/lanes.hpp"
 #include "mc/study/fluctuations.hpp"
-#include "mc/study/numerics_problems.hpp"
 #include "mc/study/reading/parts.hpp"
 #include "mc/study/schema/schema.hpp"
+#include "mc/study/study.hpp"
 
 namespace gearpod::mc {
 namespace {

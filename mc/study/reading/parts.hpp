@@ -17,10 +17,10 @@ bool check_range(StudyDraft& draft, const Position& at, const Key& key, double n
 // random_inputs.cpp: reads the section [random].
 void read_random(StudyDraft& draft, const Value& section);
 
-// correlations.cpp: reads `correlations` of that section, after its inputs.
+// random_inputs.cpp: reads `correlations` of that section, after its inputs.
 void read_correlations(StudyDraft& draft, const Entry& list);
 
-// presence_checks.cpp: rejects missing required keys and forbidden keys.
+// key_checks.cpp: rejects missing required keys and forbidden keys.
 void check_presence(StudyDraft& draft);
 void check_presence(StudyDraft& draft, const Key& key);  // the same for one key
 
@@ -32,16 +32,16 @@ std::vector<Member> toothed_members(const Study& study);
 std::string teeth_key(Member member);
 bool teeth_usable(const StudyDraft& draft);
 
-// tooth_error_checks.cpp: checks planets that differ, tooth deviations and transmission errors.
+// gear_checks.cpp: checks planets that differ, tooth deviations and transmission errors.
 void check_tooth_errors(StudyDraft& draft);
 
 // sensor_checks.cpp: checks the sensors, their noise and the housing.
 void check_sampling(StudyDraft& draft);
 
-// checks.cpp: remaining checks that involve several keys.
+// consistency_checks.cpp: remaining checks that involve several keys.
 void check_consistency(StudyDraft& draft);
 
-// fluctuation_checks.cpp: checks the variable excitation.
+// consistency_checks.cpp: checks the variable excitation.
 void check_fluctuations(StudyDraft& draft);
 
 // numerics_checks.cpp: checks the numerics, after the excitation.
@@ -55,10 +55,10 @@ void check_fault(StudyDraft& draft);
 // life_checks.cpp: checks the crack of a life, its depths and the number of records.
 void check_life(StudyDraft& draft);
 
-// record_checks.cpp: checks the distributions of values that vary from record to record.
+// random_inputs.cpp: checks the distributions of values that vary from record to record.
 void check_records(StudyDraft& draft);
 
-// until_checks.cpp: checks that the study has the detection rate that ensemble.until names.
+// fault_checks.cpp: checks that the study has the detection rate that ensemble.until names.
 void check_until(StudyDraft& draft);
 
 }  // namespace gearpod::mc

@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <filesystem>
 
+#include "mc/files/input/spelling.hpp"
+#include "mc/files/input/terminal_text.hpp"
 #include "mc/files/python/python_worker.hpp"
-#include "mc/input/printable.hpp"
-#include "mc/input/spelling.hpp"
 
 namespace gearpod::mc {
 namespace {

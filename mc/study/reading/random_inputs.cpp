@@ -1,13 +1,15 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
+#include "mc/files/input/spelling.hpp"
 #include "mc/files/signal_file.hpp"
-#include "mc/input/spelling.hpp"
-#include "mc/study/distributions/magnitude.hpp"
+#include "mc/study/copula.hpp"
+#include "mc/study/distributions/range.hpp"
 #include "mc/study/elements/file_column.hpp"
+#include "mc/study/reading/key_checks.hpp"
 #include "mc/study/reading/parts.hpp"
-#include "mc/study/reading/unknown_keys.hpp"
 #include "mc/study/schema/schema.hpp"
 
 namespace gearpod::mc {
@@ -183,6 +185,206 @@ void read_random(StudyDraft& draft, const Value& section) {
     check_rows(draft);
     if (const Entry* correlations = section.find(kCorrelations)) {
         read_correlations(draft, *correlations);
+    }
+}
+
+namespace {
+
+constexpr const char* kPair =
+    "write { between = [\"section.key\", \"section.key\"], rank = 0.6 } for each pair";
+
+class CorrelationReader {
+  public:
+    CorrelationReader(StudyDraft& draft, const Position& position, std::string which)
+        : draft_(draft), position_(position), which_(std::move(which)) {}
+
+    void read(const Value& table) {
+        if (table.kind != Value::Kind::table) {
+            return reject(fmt::format("must be a table, but is {}", table.shown()), kPair);
+        }
+        for (const Entry& entry : table.entries) {
+            if (entry.name != "between" && entry.name != "rank") {
+                reject("unknown key " + entry.name, suggest(entry.name, {"between", "rank"}));
+            }
+        }
+        Correlation pair;
+        read_inputs(table.find("between"), pair);
+        read_rank(table.find("rank"), pair);
+        if (good_) {
+            add(pair);
+        }
+    }
+
+    bool good() const { return good_; }
+
+  private:
+    void reject(const std::string& what, std::string remedy) {
+        draft_.reject(position_, "random.correlations", which_ + ": " + what, std::move(remedy));
+        good_ = false;
+    }
+
+    void read_inputs(const Entry* between, Correlation& pair) {
+        const bool two = between != nullptr && between->value.elements.size() == 2 &&
+                         std::ranges::all_of(between->value.elements, [](const Value& key) {
+                             return key.kind == Value::Kind::text;
+                         });
+        if (!two) {
+            return reject("between must list two keys of [random]", kPair);
+        }
+        pair.first = between->value.elements[0].text;
+        pair.second = between->value.elements[1].text;
+        check_input(pair.first);
+        check_input(pair.second);
+        if (good_ && pair.first == pair.second) {
+            reject("both are " + pair.first, "name two inputs");
+        }
+    }
+
+    void check_input(const std::string& key) {
+        const RandomInput* input = draft_.study.find_random(key);
+        if (input == nullptr) {
+            std::vector<std::string_view> known;
+            for (const RandomInput& other : draft_.study.random) {
+                known.push_back(other.key);
+            }
+            good_ = false;  // a random input with a problem has its own message
+            if (!draft_.bad.contains("random." + key)) {
+                reject(key + " is not random", known.empty() ? "" : suggest(key, known));
+            }
+        } else if (key.starts_with("fault.")) {
+            reject(key + " is the fault size, which cannot be correlated with other inputs",
+                   "correlate other inputs");
+        } else if (input->distribution.per() != DrawnPer::gearbox) {
+            reject(key +
+                       " varies between the records of a gearbox (per), so it cannot be correlated "
+                       "with "
+                       "inputs of the gearbox",
+                   "correlate other inputs");
+        } else if (!input->distribution.has_quantile()) {
+            reject(input->distribution.rows().group > 0
+                       ? key + " is already sampled by row together with other inputs"
+                       : fmt::format("{} takes its values in turn ({})", key,
+                                     input->distribution.name()),
+                   "correlate other inputs");
+        }
+    }
+
+    void read_rank(const Entry* rank, Correlation& pair) {
+        const bool number = rank != nullptr && (rank->value.kind == Value::Kind::number ||
+                                                rank->value.kind == Value::Kind::integer);
+        if (!number || !(std::abs(rank->value.number) < 1.0)) {
+            return reject("rank must be a number > -1 and < 1, the rank correlation", kPair);
+        }
+        pair.rank = rank->value.number;
+    }
+
+    void add(const Correlation& pair) {
+        const auto keys = [](const Correlation& one) { return std::minmax(one.first, one.second); };
+        auto& all = draft_.study.correlations;
+        const bool known = std::ranges::any_of(
+            all, [&](const Correlation& other) { return keys(other) == keys(pair); });
+        if (known) {
+            return reject(fmt::format("{} and {} are correlated already", pair.first, pair.second),
+                          "give a pair once");
+        }
+        all.push_back(pair);
+    }
+
+    StudyDraft& draft_;
+    Position position_;
+    std::string which_;
+    bool good_ = true;
+};
+
+}  // namespace
+
+void read_correlations(StudyDraft& draft, const Entry& list) {
+    if (list.value.kind != Value::Kind::array) {
+        return draft.reject(list.position, "random.correlations",
+                            fmt::format("must be a list of pairs, but is {}", list.value.shown()),
+                            kPair);
+    }
+    bool good = true;
+    for (std::size_t i = 0; i < list.value.elements.size(); ++i) {
+        CorrelationReader reader(draft, list.position, fmt::format("pair {}", i + 1));
+        reader.read(list.value.elements[i]);
+        good = reader.good() && good;
+    }
+    if (good && !Copula(draft.study).exists()) {
+        draft.reject(list.position, "random.correlations",
+                     "no random inputs can have all these correlations (their matrix, with 0 for "
+                     "pairs that are not listed, is not positive definite)",
+                     "use smaller correlations, or list the missing pairs");
+    }
+}
+
+// Checks of the distributions in [random] that vary from record to record.
+
+namespace {
+
+// Short form of a record distribution: its key and the scatter that it gives.
+struct ShortForm {
+    std::string key;
+    double scatter;
+};
+
+ShortForm short_form(const Study& study, RecordQuantity quantity) {
+    const Life& life = study.life;
+    switch (quantity) {
+        case RecordQuantity::torque:
+            return life.interval_h ? ShortForm{"life.torque_scatter", life.torque_scatter}
+                                   : ShortForm{"features.baseline_torque_scatter",
+                                               study.features.baseline_torque_scatter};
+        case RecordQuantity::speed:
+            return {"life.speed_scatter", life.speed_scatter};
+        case RecordQuantity::gain:
+            return {"life.gain_scatter", life.gain_scatter};
+        case RecordQuantity::noise:
+            return {"life.noise_scatter", life.noise_scatter};
+    }
+    return {};
+}
+
+void check_input(StudyDraft& draft, const RandomInput& input) {
+    const Study& study = draft.study;
+    const auto quantity = record_quantity(input.key);
+    const auto reject = [&](const std::string& what, const std::string& remedy) {
+        draft.reject(draft.given_random[input.key], "random." + input.key + ".per", what, remedy);
+    };
+    const Key& key = *find_key(input.key);
+    if (!quantity && study.life.interval_h) {
+        reject(fmt::format("{} is the same in all records of a life", key.name),
+               "remove per; only operation.torque_N_m, a speed, sensor.gain and sensor.noise_m_s2 "
+               "can vary from record to record of a life");
+    }
+    if (quantity && std::get<NumberAccess>(key.access).get(study).value_or(0.0) <= 0.0) {
+        reject("needs a nominal value above 0, about which the records scatter",
+               fmt::format("give {} in [{}]", key.name, key.section));
+    }
+    const ShortForm same = quantity ? short_form(study, *quantity) : ShortForm{};
+    if (same.scatter > 0.0) {
+        reject("conflicts with " + same.key, "give the scatter of records only once");
+    }
+    if (study.ensemble.threshold_records > 1) {
+        draft.reject("ensemble.threshold_records",
+                     fmt::format("the {} records of a gearbox differ only in their noise, but {} "
+                                 "varies from record to record",
+                                 study.ensemble.threshold_records, input.key),
+                     "remove threshold_records, or per in [random]");
+    }
+}
+
+}  // namespace
+
+// Runs only on a study without other problems.
+void check_records(StudyDraft& draft) {
+    if (!draft.problems.empty()) {
+        return;
+    }
+    for (const RandomInput& input : draft.study.random) {
+        if (input.distribution.per_record()) {
+            check_input(draft, input);
+        }
     }
 }
 

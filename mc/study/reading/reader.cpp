@@ -7,13 +7,13 @@
 #include <string_view>
 
 #include "features/feature.hpp"
-#include "mc/input/document.hpp"
-#include "mc/input/printable.hpp"
-#include "mc/input/spelling.hpp"
+#include "mc/files/input/document.hpp"
+#include "mc/files/input/spelling.hpp"
+#include "mc/files/input/terminal_text.hpp"
 #include "mc/study/false_alarm_target.hpp"
 #include "mc/study/fluctuations.hpp"
+#include "mc/study/reading/key_checks.hpp"
 #include "mc/study/reading/parts.hpp"
-#include "mc/study/reading/unknown_keys.hpp"
 #include "mc/study/schema/schema.hpp"
 
 namespace gearpod::mc {

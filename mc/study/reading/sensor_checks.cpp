@@ -6,7 +6,7 @@
 #include "mc/study/noise.hpp"
 #include "mc/study/other_sources.hpp"
 #include "mc/study/reading/parts.hpp"
-#include "signals/noise/low_pass_noise.hpp"
+#include "signals/noise/coloured_noise.hpp"
 
 namespace gearpod::mc {
 namespace {

@@ -2,9 +2,9 @@
 
 #include <cmath>
 
+#include "mc/files/input/spelling.hpp"
 #include "mc/files/signal_file.hpp"
-#include "mc/input/spelling.hpp"
-#include "mc/study/distributions/magnitude.hpp"
+#include "mc/study/distributions/range.hpp"
 #include "mc/study/elements/file_column.hpp"
 #include "mc/study/reading/parts.hpp"
 #include "mc/study/reading/python_list.hpp"

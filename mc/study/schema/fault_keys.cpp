@@ -1,11 +1,10 @@
 // Keys of [fault]: those of every fault, then those of each kind.
 #include <algorithm>
 
-#include "mc/study/faults/all_faults.hpp"
-#include "mc/study/keys/access.hpp"
-#include "mc/study/keys/units.hpp"
+#include "mc/study/faults/fault_kind.hpp"
+#include "mc/study/keys/schema_line.hpp"
 #include "mc/study/schema/presence.hpp"
-#include "mc/study/schema/table.hpp"
+#include "mc/study/schema/schema.hpp"
 
 namespace gearpod::mc {
 namespace {

@@ -1,8 +1,7 @@
 // Keys of [operation] and [effects].
-#include "mc/study/keys/access.hpp"
-#include "mc/study/keys/units.hpp"
+#include "mc/study/keys/schema_line.hpp"
 #include "mc/study/schema/presence.hpp"
-#include "mc/study/schema/table.hpp"
+#include "mc/study/schema/schema.hpp"
 
 namespace gearpod::mc {
 namespace {

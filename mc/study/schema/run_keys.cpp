@@ -1,15 +1,11 @@
 // Keys of [sensor], [features], [detection], [monitoring], [life], [numerics] and [ensemble].
 #include "features/feature.hpp"
 #include "lockstep/integrators/facts.hpp"
-#include "mc/study/elements/additional_sensors.hpp"
-#include "mc/study/elements/bearings.hpp"
-#include "mc/study/elements/housing_modes.hpp"
-#include "mc/study/elements/stages.hpp"
-#include "mc/study/elements/tones.hpp"
-#include "mc/study/keys/access.hpp"
-#include "mc/study/keys/units.hpp"
+#include "mc/study/elements/other_sources.hpp"
+#include "mc/study/elements/sensors.hpp"
+#include "mc/study/keys/schema_line.hpp"
 #include "mc/study/schema/presence.hpp"
-#include "mc/study/schema/table.hpp"
+#include "mc/study/schema/schema.hpp"
 
 namespace gearpod::mc {
 namespace {

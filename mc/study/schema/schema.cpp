@@ -6,9 +6,8 @@
 #include <array>
 #include <cctype>
 
-#include "mc/input/wrapped_text.hpp"
+#include "mc/files/input/terminal_text.hpp"
 #include "mc/study/distributions/distribution.hpp"
-#include "mc/study/schema/table.hpp"
 
 namespace gearpod::mc {
 

@@ -1,6 +1,4 @@
-// Keys of a study file as data: one line per key in *_keys.cpp, those of a kind of fault in its own
-// file. Reading, ranges, units, spelling suggestions, help and the resolved text are derived from
-// it.
+// Tables of keys that make up the schema.
 #pragma once
 
 #include <span>
@@ -11,6 +9,18 @@
 #include "mc/study/study.hpp"
 
 namespace gearpod::mc {
+
+// Tables in the order in which their keys are shown.
+std::span<const Key> gearbox_keys();  // without the following two
+std::span<const Key> mesh_damping_keys();
+std::span<const Key> mesh_keys();
+std::span<const Key> operation_keys();
+std::span<const Key> fault_keys();
+std::span<const Key> run_keys();
+
+// Keys of a study file as data: one line per key in *_keys.cpp, those of a kind of fault in its own
+// file. Reading, ranges, units, spelling suggestions, help and the resolved text are derived from
+// it.
 
 // All keys in the order in which they are shown.
 std::span<const Key> schema();

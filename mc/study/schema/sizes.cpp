@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "mc/study/faults/all_faults.hpp"
+#include "mc/study/faults/fault_kind.hpp"
 
 namespace gearpod::mc {
 namespace {

@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-#include "machine/dispatch.hpp"
+#include "machine/instruction_sets.hpp"
 
 namespace gearpod::dynamics {
 

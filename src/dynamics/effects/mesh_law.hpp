@@ -1,3 +1,19 @@
+// Force of a spring-damper, common to all lockstep models.
+#pragma once
+
+#include <cmath>
+#include <limits>
+
+#include "machine/instruction_sets.hpp"
+
+namespace gearpod::dynamics {
+
+// Force for deflection d and rate r.
+template <class Real>
+GEARPOD_INLINE Real spring_damper(Real k, Real d, Real c, Real r) {
+    return std::fma(k, d, c * r);
+}
+
 // Force of a tooth mesh as a function of its deflection d and its rate r, one struct per law. A
 // positive force is compressive. e is the static transmission error of the pair: the gap between
 // its flanks in unloaded uniform rotation, in metres along the line of action.
@@ -9,13 +25,6 @@
 // compression. With stiffness k_j and gap e_j it carries k_j max(0, d - e - e_j) (the thin-slice
 // and contact models of Velex and Maatar, J. Sound Vib. 191, 1996). For pairs coupled through
 // elastic gear bodies, k_j are the values with all of them in contact.
-#pragma once
-
-#include <limits>
-
-#include "dynamics/effects/spring_damper.hpp"
-
-namespace gearpod::dynamics {
 
 // Mesh laws:
 // - linear: k d + c d'.

@@ -1,15 +1,81 @@
-// Values of a time-varying excitation at the stage nodes of one mesh period, for all lanes of a
-// tile.
+// Layout of a row of excitation values at a stage node (excitation_rows.hpp).
 #pragma once
 
 #include <span>
 #include <vector>
 
-#include "lockstep/excitation/row_layout.hpp"
 #include "lockstep/plan/excitation.hpp"
 #include "lockstep/plan/integration_plan.hpp"
+#include "lockstep/plan/phase_grid.hpp"
 
 namespace gearpod::lockstep {
+
+// Values after a row's columns if the speed fluctuates: seconds per mesh period, speed relative to
+// its mean, and the rate of change of that, 1/s.
+enum SpeedValue { mesh_period_value, relative_speed_value, speed_rate_value, speed_value_count };
+
+// Number of force patterns of an excitation (ExcitationForces), and number of values in a row:
+// these plus the speed values.
+int columns_in(const Excitation& excitation);
+int values_in_row(const Excitation& excitation);
+
+// Distinct stage nodes per step: a node at the end of a step counts as the first one of the next
+// step if both exist.
+int distinct_nodes_per_step(const PhaseGrid& grid);
+
+// SIMD kernels that evaluate fluctuations at the stage nodes of W gearboxes.
+
+// Arguments of add_sines. At nodes n with phase phase[n] and time time[n][lane], it adds
+//   amplitude sin(2 pi z),  z = turns_per_mesh phase + turns_per_s time + turns,
+// to sum[n][lane]. Unless slope is null, it adds the derivative by the phase at fixed time to
+// slope[n][lane]. The other arrays are [lane].
+struct SineRows {
+    int nodes = 0;
+    const double* phase = nullptr;
+    const double* time = nullptr;
+    const double* amplitude = nullptr;
+    const double* turns_per_mesh = nullptr;
+    const double* turns_per_s = nullptr;
+    const double* turns = nullptr;
+    double* sum = nullptr;
+    double* slope = nullptr;
+};
+void add_sines(int lanes, const SineRows& rows);
+
+// Arguments of add_splines. At the same nodes, it adds the cubic B-spline with knots [knot][lane]
+// at
+//   time knots_per_s + first_knot
+// to sum. Unless slope is null, it adds the derivative by the phase, with `period` seconds per mesh
+// period, to slope. The spline is 0 outside its `count` knots. These must include kSplineMargin
+// zeros at each end.
+inline constexpr int kSplineMargin = 4;
+struct SplineRows {
+    int nodes = 0, count = 0;
+    const double* time = nullptr;
+    const double* knots_per_s = nullptr;
+    const double* first_knot = nullptr;
+    const double* period = nullptr;
+    const double* knot = nullptr;
+    double* sum = nullptr;
+    double* slope = nullptr;
+};
+void add_splines(int lanes, const SplineRows& rows);
+
+// Arguments of write_speed_values. Inputs are the variation x of a speed and its derivative by the
+// phase at every node. It writes the acceleration of the train's rotation and then the three
+// SpeedValue values. Rows have `values` values; these start at index `first_value`.
+struct SpeedRows {
+    int nodes = 0, values = 0, first_value = 0;
+    const double* variation = nullptr;
+    const double* slope = nullptr;
+    const double* period = nullptr;        // [lane], mean, s
+    const double* rotation_m_s = nullptr;  // [lane]
+    double* rows = nullptr;
+};
+void write_speed_values(int lanes, const SpeedRows& rows);
+
+// Values of a time-varying excitation at the stage nodes of one mesh period, for all lanes of a
+// tile.
 
 class ExcitationRows {
   public:

@@ -1,9 +1,8 @@
 #include <cmath>
 
-#include "lockstep/excitation/excitation_forces.hpp"
-#include "lockstep/excitation/fluctuation_rows.hpp"
-#include "machine/kernel.hpp"
-#include "machine/lane_math.hpp"
+#include "lockstep/excitation/excitation_rows.hpp"
+#include "machine/elementary_functions.hpp"
+#include "machine/instruction_sets.hpp"
 
 namespace gearpod::lockstep {
 namespace {

@@ -9,7 +9,6 @@
 
 #include <numbers>
 
-#include "lockstep/integrators/diagonal_stage.hpp"
 #include "lockstep/integrators/implicit_stage.hpp"
 #include "lockstep/integrators/integration_steps.hpp"
 

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <limits>
 
-#include "dynamics/dense_algebra.hpp"
 #include "dynamics/gearbox_matrices.hpp"
 
 namespace gearpod::lockstep {

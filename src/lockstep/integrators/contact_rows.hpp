@@ -6,7 +6,7 @@
 
 #include "lockstep/integrators/integration_state.hpp"
 #include "lockstep/plan/integration_plan.hpp"
-#include "machine/dispatch.hpp"
+#include "machine/instruction_sets.hpp"
 
 namespace gearpod::lockstep {
 

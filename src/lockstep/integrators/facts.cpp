@@ -3,7 +3,7 @@
 #include <string_view>
 
 #include "lockstep/integrators/all_integrators.hpp"
-#include "lockstep/integrators/filter_system.hpp"
+#include "lockstep/integrators/sensor_filter.hpp"
 
 namespace gearpod::lockstep {
 namespace {

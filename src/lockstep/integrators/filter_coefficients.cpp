@@ -4,7 +4,7 @@
 #include <numbers>
 
 #include "lockstep/integrators/facts.hpp"
-#include "lockstep/integrators/filter_system.hpp"
+#include "lockstep/integrators/sensor_filter.hpp"
 
 namespace gearpod::lockstep {
 

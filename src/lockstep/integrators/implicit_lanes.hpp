@@ -1,3 +1,41 @@
+// Sparsity pattern of a matrix and of its triangular factors, computed once and shared by all
+// matrices with that pattern. A gearbox couples its planets only through the carrier, the ring and
+// the sun, so a good elimination order causes almost no fill-in.
+#pragma once
+
+#include <Eigen/Dense>
+#include <span>
+#include <vector>
+
+#include "lockstep/integrators/method.hpp"
+#include "lockstep/plan/integration_plan.hpp"
+
+namespace gearpod::lockstep {
+
+// Positions of nonzero entries: entry e is in row `to[e]` and column `from[e]`. A product with a
+// vector adds value e times element `from[e]` to element `to[e]`. Entries are sorted by column, so
+// that few consecutive additions depend on each other.
+struct SparseEntries {
+    std::vector<int> to, from;
+    int size() const { return static_cast<int>(to.size()); }
+};
+
+// Entries of `matrix` that differ from zero.
+SparseEntries nonzero_entries(const Eigen::MatrixXd& matrix);
+
+// Pattern of the factors A = L D U (unit diagonals of L and U) of matrices with the nonzeros of
+// `pattern` (square; its transpose counts too). Elimination follows `order` without row exchanges.
+// The entries are sorted so that L y = g and then U x = y can be solved in place.
+struct SparseLu {
+    std::vector<int> order;
+    SparseEntries lower, upper;
+};
+SparseLu eliminate(const Eigen::MatrixXd& pattern);
+
+// Factors with L below, D on and U above the diagonal, in the row and column order of A. The matrix
+// must not need row exchanges; symmetric positive definite matrices do not.
+Eigen::MatrixXd factors(const SparseLu& lu, const Eigen::MatrixXd& matrix);
+
 // Data of W gearboxes of any kind for the implicit integrators: all matrices that do not change
 // from step to step, factored in advance.
 //
@@ -11,17 +49,8 @@
 //   (1 + S G) F = k R x + c R v + S R y,   H A = g - R^T F,
 //   S = diag(a c_p + b k_p),   R = rows r_p,   G = R H^-1 R^T.
 // This is the Woodbury identity in mechanical terms. Since S >= 0, a mesh without load causes no
-// singularity. C_0, K_0 and the factors of H are sparse (sparse_lu.hpp), so a tile's block of them
+// singularity. C_0, K_0 and the factors of H are sparse, so a tile's block of them
 // fits the first-level cache.
-#pragma once
-
-#include <span>
-
-#include "lockstep/integrators/method.hpp"
-#include "lockstep/integrators/sparse_lu.hpp"
-#include "lockstep/plan/integration_plan.hpp"
-
-namespace gearpod::lockstep {
 
 template <int W>
 struct ImplicitLanes {

@@ -11,9 +11,8 @@
 #include "lockstep/integrators/contact_rows.hpp"
 #include "lockstep/integrators/integration_state.hpp"
 #include "lockstep/integrators/sensor_filter.hpp"
-#include "lockstep/integrators/step_states.hpp"
 #include "lockstep/plan/integration_plan.hpp"
-#include "machine/dispatch.hpp"
+#include "machine/instruction_sets.hpp"
 
 namespace gearpod::lockstep {
 
@@ -38,7 +37,7 @@ GEARPOD_INLINE void load_errors(const IntegrationPlan& plan, const typename Mode
 }
 
 // Loads the data of the mesh law for all pairs at a stage node; shared values are copied to all
-// lanes. Also sets the row of the time-varying forces (excitation_forces.hpp).
+// lanes. Also sets the row of the time-varying forces (forced_motion.hpp).
 template <class Model, int W = Model::kWidth>
 GEARPOD_INLINE void load_pairs(const IntegrationPlan& plan, const typename Model::Lanes& lanes,
                                const MeshOverrides& overrides, int step, int node,

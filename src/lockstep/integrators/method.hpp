@@ -19,7 +19,7 @@
 //                  (plan/mode_inertia.hpp)
 //   kNeverChosen   optional: true for methods that `accuracy` measures for comparison, but that the
 //                  program never takes by itself
-//   filter(s)      a step of the sensor's low-pass filter by the same method (filter_system.hpp)
+//   filter(s)      a step of the sensor's low-pass filter by the same method (sensor_filter.hpp)
 #pragma once
 
 namespace gearpod::lockstep {

@@ -3,7 +3,6 @@
 // end. No stage lies on the step's start, so a stiffness jump there needs no special treatment.
 #pragma once
 
-#include "lockstep/integrators/diagonal_stage.hpp"
 #include "lockstep/integrators/implicit_stage.hpp"
 #include "lockstep/integrators/integration_steps.hpp"
 

@@ -3,7 +3,7 @@
 include(CheckCXXSourceRuns)
 set(GEARPOD_LOCKSTEP_DIR ${CMAKE_CURRENT_LIST_DIR}/..)
 
-# Instruction set of this processor, from the features that machine/dispatch.cpp checks.
+# Instruction set of this processor, from the features that machine/instruction_sets.cpp checks.
 function(gearpod_find_native_set out)
   set(${out} baseline PARENT_SCOPE)
   if(NOT CMAKE_SYSTEM_PROCESSOR STREQUAL "x86_64" OR CMAKE_CROSSCOMPILING)
@@ -113,12 +113,8 @@ function(gearpod_make_kernels name options)
     list(GET integrator_line 2 header)
     list(GET law_line 1 mesh)
     list(GET law_line 2 law_header)
-    set(part ${kind})
-    if(kind MATCHES "doubles|singles")
-      set(part steady)
-    endif()
     list(APPEND includes dynamics/effects/${law_header} lockstep/integrators/${header}
-      lockstep/kernels/${part}_kernels)
+      lockstep/kernels/integration_kernels)
     string(REPLACE "+" ", " lanes ${lanes})
     string(APPEND calls "
     add_${kind}<machine::InstructionSet::${set}, ${method}, dynamics::${mesh}, ${lanes}>(
@@ -155,8 +151,7 @@ function(gearpod_kernel_library name options)
     target_precompile_headers(${name} REUSE_FROM gearpod_kernels)
   else()
     target_precompile_headers(${name} PRIVATE <lockstep/integrators/all_integrators.hpp>
-      <lockstep/kernels/steady_kernels.hpp> <lockstep/kernels/forced_kernels.hpp>
-      <lockstep/kernels/variable_speed_kernels.hpp>)
+      <lockstep/kernels/integration_kernels.hpp>)
   endif()
   target_link_libraries(${name} PRIVATE gearpod_options Eigen3::Eigen fmt::fmt Boost::headers)
   target_include_directories(${name} PRIVATE ${GEARPOD_GENERATED_DIR})

@@ -73,7 +73,7 @@ struct Excitation : VaryingForces {
     // velocity along dynamics::rigid_rotation, [lane], m/s.
     int input_degree = 0;
     machine::AlignedVector rotation_m_s;
-    // Shafts whose torques, N m, become known only during the integration (step_integrator.hpp).
+    // Shafts whose torques, N m, become known only during the integration (tile_integrators.hpp).
     std::vector<ShaftEnd> shafts;
 
     // True if every mesh period has the same excitation as the first one.

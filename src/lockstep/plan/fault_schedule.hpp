@@ -9,7 +9,7 @@
 
 #include "lockstep/plan/fault_pattern.hpp"
 #include "lockstep/plan/integration_plan.hpp"
-#include "lockstep/plan/tooth_errors.hpp"
+#include "lockstep/plan/tooth_pairs.hpp"
 #include "stiffness/mesh_stiffness.hpp"
 
 namespace gearpod::lockstep {

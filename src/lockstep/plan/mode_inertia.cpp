@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "dynamics/dense_algebra.hpp"
+#include "dynamics/gearbox_matrices.hpp"
 
 namespace gearpod::lockstep {
 

@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <stdexcept>
 
-#include "lockstep/plan/step_kinds.hpp"
-
 namespace gearpod::lockstep {
 
 PhaseGrid make_phase_grid(int samples, int steps_per_mesh, std::span<const double> transitions) {

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <memory>
 
-#include "lockstep/tile/span_tile.hpp"
-#include "lockstep/tile/step_integrator.hpp"
+#include "lockstep/tile/integrated_tile.hpp"
+#include "lockstep/tile/tile_integrators.hpp"
 
 namespace gearpod::lockstep {
 namespace {

@@ -9,9 +9,8 @@
 #include <vector>
 
 #include "lockstep/plan/excitation.hpp"
-#include "lockstep/plan/tooth_errors.hpp"
-#include "lockstep/tile/tile_inputs.hpp"
-#include "lockstep/tile/tile_records.hpp"
+#include "lockstep/plan/tooth_pairs.hpp"
+#include "lockstep/tile/tile.hpp"
 
 namespace gearpod::lockstep {
 

@@ -7,12 +7,12 @@
 #include <optional>
 #include <stdexcept>
 
-#include "lockstep/excitation/excitation_forces.hpp"
 #include "lockstep/excitation/excitation_rows.hpp"
+#include "lockstep/excitation/forced_motion.hpp"
 #include "lockstep/tile/mesh_forces.hpp"
 #include "lockstep/tile/static_lanes.hpp"
 #include "lockstep/tile/tooth_contact.hpp"
-#include "machine/cancellation.hpp"
+#include "machine/team.hpp"
 
 namespace gearpod::lockstep {
 namespace {

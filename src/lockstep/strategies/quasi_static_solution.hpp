@@ -13,9 +13,8 @@
 #include <variant>
 
 #include "lockstep/plan/excitation.hpp"
-#include "lockstep/plan/tooth_errors.hpp"
-#include "lockstep/tile/tile_inputs.hpp"
-#include "lockstep/tile/tile_records.hpp"
+#include "lockstep/plan/tooth_pairs.hpp"
+#include "lockstep/tile/tile.hpp"
 
 namespace gearpod::lockstep {
 

@@ -6,9 +6,7 @@
 #include <cassert>
 #include <variant>
 
-#include "lockstep/strategies/fault_perturbation.hpp"
-#include "lockstep/strategies/full_solution.hpp"
-#include "lockstep/strategies/periodic_solution.hpp"
+#include "lockstep/strategies/integrated_solutions.hpp"
 #include "lockstep/strategies/quasi_static_solution.hpp"
 #include "lockstep/strategies/superposed_solution.hpp"
 

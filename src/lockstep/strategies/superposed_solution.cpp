@@ -4,7 +4,7 @@
 #include <ranges>
 #include <stdexcept>
 
-#include "lockstep/tile/span_tile.hpp"
+#include "lockstep/tile/integrated_tile.hpp"
 #include "lockstep/tile/superposed_motion.hpp"
 
 namespace gearpod::lockstep {

@@ -4,9 +4,8 @@
 // lanes are integrated in full. The excitation is constant.
 #pragma once
 
-#include "lockstep/plan/tooth_errors.hpp"
-#include "lockstep/tile/tile_inputs.hpp"
-#include "lockstep/tile/tile_records.hpp"
+#include "lockstep/plan/tooth_pairs.hpp"
+#include "lockstep/tile/tile.hpp"
 
 namespace gearpod::lockstep {
 

@@ -2,7 +2,7 @@
 
 #include "dynamics/effects/mesh_law.hpp"
 #include "lockstep/tile/static_lanes.hpp"
-#include "machine/kernel.hpp"
+#include "machine/instruction_sets.hpp"
 
 namespace gearpod::lockstep {
 namespace {

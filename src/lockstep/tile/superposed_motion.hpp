@@ -10,7 +10,7 @@
 #include <span>
 #include <vector>
 
-#include "lockstep/plan/tooth_errors.hpp"
+#include "lockstep/plan/tooth_pairs.hpp"
 
 namespace gearpod::lockstep {
 

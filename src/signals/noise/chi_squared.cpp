@@ -7,8 +7,6 @@
 #include <numbers>
 #include <stdexcept>
 
-#include "signals/noise/chi_squared_table.hpp"
-
 namespace gearpod::signals {
 namespace {
 

@@ -1,8 +1,8 @@
 #include <cmath>
 
-#include "machine/kernel.hpp"
-#include "machine/lane_math.hpp"
-#include "signals/noise/chi_squared_table.hpp"
+#include "machine/elementary_functions.hpp"
+#include "machine/instruction_sets.hpp"
+#include "signals/noise/chi_squared.hpp"
 
 namespace gearpod::signals {
 namespace {

@@ -2,9 +2,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "machine/kernel.hpp"
-#include "machine/lane_math.hpp"
-#include "signals/noise/normal_blocks.hpp"
+#include "machine/elementary_functions.hpp"
+#include "machine/instruction_sets.hpp"
 #include "signals/noise/normals.hpp"
 
 namespace gearpod::signals {

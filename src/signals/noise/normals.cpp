@@ -2,8 +2,6 @@
 
 #include <stdexcept>
 
-#include "signals/noise/normal_blocks.hpp"
-
 namespace gearpod::signals {
 
 void normals_from_words(std::span<const std::uint64_t> words, std::span<double> normals) {

@@ -1,9 +1,4 @@
-// Standard normal variates by the transform of Box and Muller (1958). For uniform u1, u2
-//
-//     sqrt(-2 ln u1) cos(2 pi u2),   sqrt(-2 ln u1) sin(2 pi u2)
-//
-// are independent and exactly normal. All instruction sets round every operation used in the same
-// way.
+// Kernel of normals_from_words; see normals.hpp.
 #pragma once
 
 #include <algorithm>
@@ -12,6 +7,16 @@
 #include <span>
 
 namespace gearpod::signals {
+
+// Converts blocks of kNormalBlock words into as many normal variates.
+void normal_blocks(long blocks, const std::uint64_t* words, double* normals);
+
+// Standard normal variates by the transform of Box and Muller (1958). For uniform u1, u2
+//
+//     sqrt(-2 ln u1) cos(2 pi u2),   sqrt(-2 ln u1) sin(2 pi u2)
+//
+// are independent and exactly normal. All instruction sets round every operation used in the same
+// way.
 
 // Number of words in a block, which give as many variates. The first half of the words give u1, the
 // second half u2; the first half of the variates are the cosines.

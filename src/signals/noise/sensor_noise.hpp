@@ -1,16 +1,13 @@
-// Additive white sensor noise of rms sigma per sample, added after the low-pass filter.
-// low_pass_noise.hpp generates coloured noise.
+// Noise of the transmission error signal after time-synchronous averaging.
 //
-// A folded bin (folded_signal.hpp) is a sum of Z_r squares. With noise it is exactly sigma^2 times
-// a noncentral chi-square variable. Split into parts along and across the noise-free samples, it is
-//
-//     F_noisy = (sigma Z + sqrt F)^2 + sigma^2 G,    Z ~ N(0,1),    G ~ chi^2(Z_r - 1),
-//
-// independent between bins. Two random numbers per bin therefore replace the Z_r noise samples, and
-// the same two serve all noise levels (windowing.hpp).
+// White noise of rms sigma_e on each sample of the transmission error is averaged over Z_r
+// independent turns. The result is exactly white noise of variance sigma_e^2 / Z_r. The averaged
+// noise is generated directly, one normal variate per averaged sample, and scaled to all noise
+// levels.
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <span>
 #include <stdexcept>
@@ -20,6 +17,34 @@
 #include "signals/noise/normals.hpp"
 
 namespace gearpod::signals {
+
+// Fills `noise` (one gearbox, Z_p P_te samples) for sigma_e = 1 and removes its mean, as is done
+// for the signal. Engine: a 64-bit uniform random bit generator.
+template <typename Engine>
+void draw_encoder_noise(Engine& engine, int ring_teeth, std::span<double> noise) {
+    draw_normals(engine, noise);
+    const double scale = 1.0 / std::sqrt(ring_teeth);
+    double sum = 0.0;
+    for (double& value : noise) {
+        value *= scale;
+        sum += value;
+    }
+    const double mean = noise.empty() ? 0.0 : sum / static_cast<double>(noise.size());
+    for (double& value : noise) {
+        value -= mean;
+    }
+}
+
+// Additive white sensor noise of rms sigma per sample, added after the low-pass filter.
+// coloured_noise.hpp generates coloured noise.
+//
+// A folded bin (folded_signal.hpp) is a sum of Z_r squares. With noise it is exactly sigma^2 times
+// a noncentral chi-square variable. Split into parts along and across the noise-free samples, it is
+//
+//     F_noisy = (sigma Z + sqrt F)^2 + sigma^2 G,    Z ~ N(0,1),    G ~ chi^2(Z_r - 1),
+//
+// independent between bins. Two random numbers per bin therefore replace the Z_r noise samples, and
+// the same two serve all noise levels (windowing.hpp).
 
 // Noise variates (Z, G) of every bin of one gearbox.
 struct NoiseVariates {

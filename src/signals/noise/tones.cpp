@@ -6,8 +6,6 @@
 #include <numbers>
 #include <stdexcept>
 
-#include "signals/noise/tone_sample.hpp"
-
 namespace gearpod::signals {
 namespace {
 

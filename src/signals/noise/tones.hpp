@@ -1,3 +1,23 @@
+// Contribution of a tone to a sample. The folded signal and the time signal share it, so that both
+// give the same bits.
+#pragma once
+
+#include <cmath>
+#include <span>
+
+#include "machine/instruction_sets.hpp"
+#include "machine/lanes.hpp"
+#include "signals/tile_signals.hpp"
+
+namespace gearpod::signals {
+
+// y plus one tone. The arguments are sine and cosine of the tone's angle at the mesh, and A sin and
+// A cos of its angle at the phase (ToneTable).
+GEARPOD_INLINE double plus_tone(double y, double mesh_sine, double mesh_cosine, double phase_sine,
+                                double phase_cosine) {
+    return std::fma(mesh_cosine, phase_sine, std::fma(mesh_sine, phase_cosine, y));
+}
+
 // Interfering tones that the rest of the machine adds to the accelerometer signal. Liang (2016),
 // Table 5.1, lists those of his two-stage rig: drive motor 20 Hz, bevel mesh 360 Hz, first stage's
 // sun 5 Hz, planet 1.9 Hz, mesh 118.2 Hz, and their harmonics. The sample of mesh k at phase p/P
@@ -10,14 +30,6 @@
 // A tone does not repeat with the meshes, so its folded squares need every sample of the span. Its
 // angle splits into a mesh part and a phase part, whose phasors are tabulated. A sample costs two
 // fused multiply-adds per tone; a gearbox without tones has no extra cost.
-#pragma once
-
-#include <span>
-
-#include "machine/lanes.hpp"
-#include "signals/tile_signals.hpp"
-
-namespace gearpod::signals {
 
 // Tones of a tile's gearboxes. Every lane has the same number of tones.
 struct Tones {

@@ -1,13 +1,47 @@
-// Path weights g(x) over lanes, at all carrier indices of one phase; see PathGrid.
+// Number of planets as a template argument. With unrolled loops over planets, the sums of a sample
+// stay in registers.
 #pragma once
 
+#include <cmath>
 #include <numbers>
 
-#include "machine/dispatch.hpp"
-#include "machine/lane_math.hpp"
+#include "machine/elementary_functions.hpp"
+#include "machine/instruction_sets.hpp"
 #include "signals/path/transmission_path.hpp"
 
 namespace gearpod::signals {
+
+inline constexpr int kMaxPathPlanets = 8;
+
+// Calls task.operator()<N>() for the given number of planets, 1..kMaxPathPlanets.
+template <int N = 1, typename Task>
+GEARPOD_INLINE void with_planets(int planets, Task task) {
+    if constexpr (N < kMaxPathPlanets) {
+        if (planets != N) {
+            return with_planets<N + 1>(planets, task);
+        }
+    }
+    task.template operator()<N>();
+}
+
+// Sensor value from the planets' accelerations and path weights. The folded signal and the time
+// signal share it, so that both give the same bits.
+
+// Sensor value y of lane l from accel[channel][lane] and weight[n][lane].
+template <int N, int W>
+GEARPOD_INLINE double resultant(const double* __restrict accel, const double* __restrict weight,
+                                double sine, double cosine, int l) {
+    double along_x = 0.0;
+    double along_y = 0.0;
+#pragma GCC unroll 8
+    for (int n = 0; n < N; ++n) {
+        along_x = std::fma(weight[n * W + l], accel[2 * n * W + l], along_x);
+        along_y = std::fma(weight[n * W + l], accel[(2 * n + 1) * W + l], along_y);
+    }
+    return std::fma(sine, along_x, cosine * along_y);
+}
+
+// Path weights g(x) over lanes, at all carrier indices of one phase; see PathGrid.
 
 // Fills table[m][lane] with exp(alpha h^2 m^2) for m = 0 .. M_c/2.
 template <int W>

@@ -1,3 +1,31 @@
+// Window functions of the transmission path, by planet position.
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include "gears/planetary.hpp"
+#include "signals/tile_signals.hpp"
+
+namespace gearpod::signals {
+
+// Fraction of a planet's vibration that reaches the sensor, as a function of the planet's angle x
+// in [0, 2 pi). x is measured from the point opposite the sensor: the planet passes the sensor at x
+// = pi.
+struct PathWindow {
+    std::string_view name;
+    double (*weight)(double x_rad);
+    std::string_view doc;
+};
+
+std::span<const PathWindow> path_windows();
+
+// Window of the given name. Throws std::invalid_argument, which lists the known names, if there is
+// none.
+const PathWindow& path_window(std::string_view name);
+
 // Transmission path from the planets to the sensor on the housing: Liang (2016), Eq. 4.3.1,
 //
 //     y = sum over n of g(x_n) (sin theta a_x,n + cos theta a_y,n),
@@ -13,16 +41,6 @@
 // difference is 7e-4 of the signal's rms for a carrier at 8.87 rpm and an 800 Hz filter, where
 // Omega/omega_c is 2e-4 (measured by tests/signals/path/test_path_and_filter.cpp). Most of it is
 // the filter's delay.
-#pragma once
-
-#include <cstddef>
-#include <vector>
-
-#include "gears/planetary.hpp"
-#include "signals/path/path_window.hpp"
-#include "signals/tile_signals.hpp"
-
-namespace gearpod::signals {
 
 // Sense of the carrier's rotation.
 enum class CarrierSense { positive, negative };

@@ -2,11 +2,9 @@
 
 #include <cmath>
 
-#include "machine/kernel.hpp"
-#include "signals/noise/tone_sample.hpp"
+#include "machine/instruction_sets.hpp"
+#include "signals/noise/tones.hpp"
 #include "signals/path/path_weights.hpp"
-#include "signals/path/planet_count.hpp"
-#include "signals/path/resultant.hpp"
 
 namespace gearpod::signals {
 namespace {

@@ -1,4 +1,4 @@
-// Kernels of SensorResponse, and for one lane of synthesize. See sensor_response.hpp and
+// Kernels of SensorResponse, and for one lane of synthesize. See sensor_signal.hpp and
 // sensor.hpp.
 #pragma once
 

@@ -1,12 +1,7 @@
-// Discrete Fourier transform of any length n: X_k = sum over i of x_i w^(i k), w = exp(-2 pi i /
-// n). The inverse transform uses the conjugate of w and gives n times the signal.
-//
-// Lengths are teeth times samples per mesh period, and numbers of teeth are often prime. kissfft is
-// made for small factors and would spend most of its time on a large one. The largest prime factor
-// q > 5 is therefore split off (Cooley and Tukey): q transforms of n/q points, then one of q points
-// for each of n/q orders, over lanes.
+// Length of a Fourier transform that is fast.
 #pragma once
 
+#include <algorithm>
 #include <complex>
 #include <kissfft/kissfft.hh>
 #include <span>
@@ -15,6 +10,29 @@
 #include "machine/lanes.hpp"
 
 namespace gearpod::signals {
+
+// Smallest number >= least, and >= 1, whose only prime factors are 2, 3 and 5.
+inline int smooth_length(int least) {
+    for (int n = std::max(least, 1);; ++n) {
+        int rest = n;
+        for (const int prime : {2, 3, 5}) {
+            while (rest % prime == 0) {
+                rest /= prime;
+            }
+        }
+        if (rest == 1) {
+            return n;
+        }
+    }
+}
+
+// Discrete Fourier transform of any length n: X_k = sum over i of x_i w^(i k), w = exp(-2 pi i /
+// n). The inverse transform uses the conjugate of w and gives n times the signal.
+//
+// Lengths are teeth times samples per mesh period, and numbers of teeth are often prime. kissfft is
+// made for small factors and would spend most of its time on a large one. The largest prime factor
+// q > 5 is therefore split off (Cooley and Tukey): q transforms of n/q points, then one of q points
+// for each of n/q orders, over lanes.
 
 // Holds scratch memory: use one object per thread.
 class FourierTransform {

@@ -38,4 +38,58 @@ class OrderSpectrum {
     std::vector<std::complex<double>> noise_;
 };
 
+// Splits the time-synchronous average into regular, residual and difference signals.
+//
+// The signals are those of condition indicators after Lebold et al., "Review of vibration analysis
+// methods for gearbox diagnostics and prognostics", Proc. 54th MFPT (2000), and Samuel and Pines,
+// J. Sound Vib. 282 (2005) 475-508. In orders of a turn of the gear with T teeth, x being the
+// averaged turn:
+//
+//     regular     x at the mesh harmonics j T and their first sidebands j T - 1, j T + 1 (j >= 1)
+//     residual    x without its mean and the mesh harmonics
+//     difference  x without its mean and the regular signal
+//     envelope    |b + i H(b)|, b being x between the orders T - h and T + h, h = (T - 1) / 2
+//                 rounded down: the first mesh harmonic with all its sidebands; H: the Hilbert
+//                 transform
+//
+// all up to the Nyquist order.
+
+// Holds scratch memory: use one object per thread.
+class MeshSeparation {
+  public:
+    // `points` is the number of samples of a turn of `teeth` teeth. Throws std::invalid_argument
+    // unless teeth >= 3 and points >= 4 teeth.
+    MeshSeparation(int points, int teeth);
+
+    // Separates a turn. Throws std::invalid_argument unless it has points() samples.
+    void load(std::span<const double> turn);
+
+    int points() const { return static_cast<int>(regular_.size()); }
+    // Signals of the turn loaded last, points() samples each.
+    std::span<const double> regular() const { return regular_; }
+    std::span<const double> residual() const { return residual_; }
+    std::span<const double> difference() const { return difference_; }
+    std::span<const double> envelope() const { return envelope_; }
+    // One-sided amplitudes of that turn, order 0 to the Nyquist order.
+    std::span<const double> amplitude() const { return amplitude_; }
+
+  private:
+    enum class Kind : unsigned char { other, sideband, harmonic };
+
+    FourierTransform forward_, backward_;
+    std::vector<Kind> kind_;  // of every order from 0 to the Nyquist order; the mean is `other`
+    int teeth_;
+    std::vector<std::complex<double>> spectrum_, part_, back_;
+    std::vector<double> regular_, residual_, difference_, envelope_, amplitude_;
+};
+
+// Speed error: derivative of the averaged transmission error with respect to the angle of the turn.
+
+// With n samples of a turn and their Fourier transform TE_k,
+//
+//     v(t) = IDFT(i k TE_k),   |k| < n / 2,
+//
+// in rad per radian of the turn. The length of `turn` is the length of the result.
+std::vector<double> speed_error(std::span<const double> turn);
+
 }  // namespace gearpod::signals

@@ -1,6 +1,6 @@
 #include <cmath>
 
-#include "machine/kernel.hpp"
+#include "machine/instruction_sets.hpp"
 #include "signals/spectra/prime_stage.hpp"
 
 namespace gearpod::signals {

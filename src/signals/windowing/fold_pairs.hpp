@@ -1,11 +1,9 @@
 // Signal of every pair of distinct mesh and carrier index, the first step of both folds
-// (fold_squares.hpp).
+// (folded_signal.hpp).
 #pragma once
 
 #include "signals/path/path_weights.hpp"
-#include "signals/path/planet_count.hpp"
-#include "signals/path/resultant.hpp"
-#include "signals/windowing/fold_squares.hpp"
+#include "signals/windowing/folded_signal.hpp"
 
 namespace gearpod::signals {
 

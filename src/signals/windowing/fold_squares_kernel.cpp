@@ -1,4 +1,4 @@
-#include "machine/kernel.hpp"
+#include "machine/instruction_sets.hpp"
 #include "signals/windowing/fold_pairs.hpp"
 
 namespace gearpod::signals {

@@ -1,7 +1,7 @@
 #include <algorithm>
 
-#include "machine/kernel.hpp"
-#include "signals/noise/tone_sample.hpp"
+#include "machine/instruction_sets.hpp"
+#include "signals/noise/tones.hpp"
 #include "signals/windowing/fold_pairs.hpp"
 
 namespace gearpod::signals {

@@ -1,12 +1,25 @@
+// Energy of a window, or of a bin, of signal plus noise.
+#pragma once
+
+#include <cmath>
+
+#include "machine/instruction_sets.hpp"
+
+namespace gearpod::signals {
+
+// signal + 2 sigma cross + sigma^2 noise. Apart from rounding, cross^2 <= signal * noise, so that
+// the sum is not negative; negative values are set to 0.
+GEARPOD_INLINE double noisy_energy(double sigma, double signal, double cross, double noise) {
+    const double energy = std::fma(sigma * sigma, noise, std::fma(2.0 * sigma, cross, signal));
+    return energy < 0.0 ? 0.0 : energy;
+}
+
 // Kernels of Windowing; see windowing.hpp.
 //
 // They process kSegments stretches of the folded signal in parallel, each of the same number of
 // whole mesh periods. Element t of segment i lies at [t * kSegments + i], so that a window of every
 // segment is read in whole, aligned registers wherever it begins. kSegments is eight on every
 // instruction set, so that the bits are the same.
-#pragma once
-
-namespace gearpod::signals {
 
 inline constexpr int kSegments = 8;
 

@@ -1,7 +1,6 @@
 #include <cmath>
 
-#include "machine/kernel.hpp"
-#include "signals/windowing/noisy_energy.hpp"
+#include "machine/instruction_sets.hpp"
 #include "signals/windowing/window_energy.hpp"
 
 namespace gearpod::signals {

@@ -5,7 +5,6 @@
 #include <numbers>
 #include <stdexcept>
 
-#include "signals/windowing/noisy_energy.hpp"
 #include "signals/windowing/window_energy.hpp"
 
 namespace gearpod::signals {

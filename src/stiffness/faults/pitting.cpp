@@ -7,7 +7,6 @@
 
 #include "stiffness/teeth/chebyshev.hpp"
 #include "stiffness/teeth/panels.hpp"
-#include "stiffness/teeth/section_moments.hpp"
 #include "stiffness/teeth/tooth_compliance.hpp"
 
 namespace gearpod::stiffness {

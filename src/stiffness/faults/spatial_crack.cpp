@@ -4,16 +4,194 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <array>
+#include <boost/math/quadrature/gauss.hpp>
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <stdexcept>
 
-#include "stiffness/faults/slice_rule.hpp"
-#include "stiffness/teeth/crack_compliance.hpp"
-#include "stiffness/teeth/section_moments.hpp"
-#include "stiffness/tooth_pair_curve.hpp"
+#include "stiffness/piecewise_curves.hpp"
+#include "stiffness/teeth/fracture_mechanics.hpp"
+#include "stiffness/teeth/tooth_compliance.hpp"
 
 namespace gearpod::stiffness {
+
+using std::numbers::pi;
+
+bool CrackSurface::uniform() const {
+    return depth_m == end_depth_m && height_m == end_height_m && angle_rad == end_angle_rad;
+}
+
+// q = q1 + (q2 - q1) t. q^2 is linear in z, so z / L_c = (q^2 - q1^2) / (q2^2 - q1^2).
+double CrackSurface::place(double t) const {
+    return length_m * t * (2 * depth_m + (end_depth_m - depth_m) * t) / (depth_m + end_depth_m);
+}
+
+double CrackSurface::stretching(double t) const {
+    return length_m * 2 * (depth_m + (end_depth_m - depth_m) * t) / (depth_m + end_depth_m);
+}
+
+double CrackSurface::height(double z) const {
+    const double x = z / face_width_m, rise = end_height_m - height_m;
+    double l = height_m + rise * x * x;
+    if (height_wave != 0)
+        l += rise / height_wave * std::sin(height_waves * pi * x);
+    return std::max(0.0, l);
+}
+
+Crack CrackSurface::crack(double t) const {
+    const double z = place(t);
+    return {depth_m + (end_depth_m - depth_m) * t,
+            angle_rad + (end_angle_rad - angle_rad) * z / face_width_m, height(z)};
+}
+
+CrackSurface CrackGrowth::at(double stage, double face_width_m) const {
+    const double place = std::clamp(stage, 0.0, static_cast<double>(stages()));
+    const int to = std::max(1, static_cast<int>(std::ceil(place)));  // stage, entry to - 1
+    const double share = place - (to - 1);
+    const auto between = [&](const std::vector<double>& list, bool from_nothing) {
+        const double target = list[to - 1];
+        const double source = to > 1 ? list[to - 2] : from_nothing ? 0 : target;
+        return share == 1 ? target : source + share * (target - source);
+    };
+    return {between(depth_m, true),
+            between(end_depth_m, true),
+            between(length_m, false),
+            between(height_m, false),
+            between(end_height_m, false),
+            angle_rad,
+            end_angle_rad,
+            height_wave,
+            height_waves,
+            face_width_m};
+}
+
+std::vector<std::string> growth_problems(const CrackGrowth& growth, double face_width_m) {
+    constexpr double kRounding = 1e-12;  // for lengths that were given in other units
+    std::vector<std::string> problems;
+    const std::size_t stages = growth.depth_m.size();
+    const auto check = [&](const char* what, const std::vector<double>& list, double most) {
+        if (list.size() != stages)
+            problems.push_back(
+                fmt::format("the crack's growth has {} depths and {} values of its {}", stages,
+                            list.size(), what));
+        for (const double value : list)
+            if (!(value >= 0 && value <= most * (1 + kRounding)))
+                problems.push_back(fmt::format(
+                    "a stage of the crack's growth has the {} {:.4g} mm (must lie between 0 and "
+                    "{:.4g})",
+                    what, value * 1e3, most * 1e3));
+    };
+    constexpr double kAny = 1e3;
+    if (stages == 0)
+        problems.emplace_back("the crack's growth has no stage");
+    check("depth", growth.depth_m, kAny);
+    check("end depth", growth.end_depth_m, kAny);
+    check("length", growth.length_m, face_width_m);
+    check("height", growth.height_m, kAny);
+    check("end height", growth.end_height_m, kAny);
+    for (const double angle : {growth.angle_rad, growth.end_angle_rad})
+        if (!(angle > 0 && angle <= pi / 2))
+            problems.push_back(
+                fmt::format("the crack's angle to the tooth's centre line is {:.4g} "
+                            "degrees (must lie between 0 and 90)",
+                            angle * 180 / pi));
+    if (!(growth.height_wave >= 0 && growth.height_waves >= 0))
+        problems.emplace_back("the wave of the crack's height is negative");
+    if (growth.slices < 1)
+        problems.emplace_back("the crack has no slice");
+    return problems;
+}
+
+namespace {
+
+constexpr int kSlicePoints = 8;
+using Rule = boost::math::quadrature::gauss<double, kSlicePoints>;
+
+// Gauss abscissas on [-1, 1], ascending, and weights.
+struct GaussPoints {
+    std::array<double, kSlicePoints> at, weight;
+    GaussPoints() {
+        for (int i = 0; i < kSlicePoints / 2; ++i) {
+            at[kSlicePoints / 2 + i] = Rule::abscissa()[i];
+            at[kSlicePoints / 2 - 1 - i] = -Rule::abscissa()[i];
+            weight[kSlicePoints / 2 + i] = weight[kSlicePoints / 2 - 1 - i] = Rule::weights()[i];
+        }
+    }
+};
+const GaussPoints kGauss;
+
+// Legendre polynomials P_0 .. P_n at x.
+std::array<double, kSlicePoints + 1> legendre(double x) {
+    std::array<double, kSlicePoints + 1> p{1, x};
+    for (int k = 1; k < kSlicePoints; ++k)
+        p[k + 1] = ((2 * k + 1) * x * p[k] - k * p[k - 1]) / (k + 1);
+    return p;
+}
+
+double zero_between(const std::function<double(double)>& f, double low, double high) {
+    const bool rises = f(high) > 0;
+    for (int halving = 0; halving < 50; ++halving) {
+        const double middle = 0.5 * (low + high);
+        ((f(middle) > 0) == rises ? high : low) = middle;
+    }
+    return 0.5 * (low + high);
+}
+
+}  // namespace
+
+SliceRule::SliceRule(int slices) : panels_((slices + kSlicePoints - 1) / kSlicePoints) {
+    for (std::size_t panel = 0; panel < panels_; ++panel)
+        for (const double x : kGauss.at)
+            points_.push_back((static_cast<double>(panel) + 0.5 * (1 + x)) /
+                              static_cast<double>(panels_));
+}
+
+void SliceRule::whole(std::span<double> weights) const {
+    for (std::size_t i = 0; i < points_.size(); ++i)
+        weights[i] = 0.5 * kGauss.weight[i % kSlicePoints] / static_cast<double>(panels_);
+}
+
+void SliceRule::where(const std::function<double(double)>& seen, int samples,
+                      std::span<double> weights) const {
+    std::fill(weights.begin(), weights.end(), 0.0);
+    const int per_panel = std::max(1, samples / static_cast<int>(panels_));
+    for (std::size_t panel = 0; panel < panels_; ++panel) {
+        double here = static_cast<double>(panel) / static_cast<double>(panels_);
+        double value = seen(here);
+        for (int sample = 1; sample <= per_panel; ++sample) {
+            const double next =
+                (static_cast<double>(panel) + static_cast<double>(sample) / per_panel) /
+                static_cast<double>(panels_);
+            const double following = seen(next);
+            const double cut =
+                (value > 0) != (following > 0) ? zero_between(seen, here, next) : next;
+            if (value > 0)
+                add_part(panel, here, cut, weights);
+            else if (following > 0)
+                add_part(panel, cut, next, weights);
+            here = next;
+            value = following;
+        }
+    }
+}
+
+void SliceRule::add_part(std::size_t panel, double from, double to,
+                         std::span<double> weights) const {
+    const double scale = static_cast<double>(panels_), first = static_cast<double>(panel);
+    const auto low = legendre(2 * (from * scale - first) - 1);
+    const auto high = legendre(2 * (to * scale - first) - 1);
+    for (int i = 0; i < kSlicePoints; ++i) {
+        // Coefficient k of the interpolant is (2 k + 1) / 2 sum_i weight P_k f. The integral of P_k
+        // is (P_(k+1) - P_(k-1)) / (2 k + 1).
+        const auto at = legendre(kGauss.at[i]);
+        double sum = high[1] - low[1];
+        for (int k = 1; k < kSlicePoints; ++k)
+            sum += at[k] * ((high[k + 1] - high[k - 1]) - (low[k + 1] - low[k - 1]));
+        weights[panel * kSlicePoints + i] += 0.5 * kGauss.weight[i] * sum / (2 * scale);
+    }
+}
 
 namespace {
 

@@ -7,8 +7,8 @@
 #include <stdexcept>
 
 #include "stiffness/teeth/crack.hpp"
-#include "stiffness/teeth/crack_compliance.hpp"
-#include "stiffness/teeth/section_moments.hpp"
+#include "stiffness/teeth/fracture_mechanics.hpp"
+#include "stiffness/teeth/tooth_compliance.hpp"
 
 namespace gearpod::stiffness {
 

@@ -1,7 +1,7 @@
 // Tooth of a gear pair cracked straight through its whole width, for every depth. There are two
-// laws (teeth/crack_law.hpp): the sections that the crack leaves (teeth/crack.hpp; Tian 2004,
+// laws (src/stiffness/teeth/fracture_mechanics.hpp): the sections that the crack leaves (teeth/crack.hpp; Tian 2004,
 // section 3.3; Liang 2016, section 3.5), or the compliance added by the stress intensities
-// (teeth/crack_compliance.hpp).
+// (src/stiffness/teeth/fracture_mechanics.hpp).
 //
 // The sections' compliance is a polynomial in the cosine of the contact angle. Its coefficients are
 // cumulative integrals from the root to the contact. They are summed panel by panel from contact to
@@ -9,7 +9,7 @@
 #pragma once
 
 #include "gears/mesh_geometry.hpp"
-#include "stiffness/teeth/crack_law.hpp"
+#include "stiffness/teeth/fracture_mechanics.hpp"
 #include "stiffness/teeth/material.hpp"
 #include "stiffness/teeth/tooth_fault.hpp"
 #include "stiffness/teeth/tooth_profile.hpp"

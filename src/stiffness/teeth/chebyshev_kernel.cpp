@@ -3,7 +3,7 @@
 #include <cmath>
 #include <cstddef>
 
-#include "machine/kernel.hpp"
+#include "machine/instruction_sets.hpp"
 #include "stiffness/teeth/chebyshev.hpp"
 
 namespace gearpod::stiffness {

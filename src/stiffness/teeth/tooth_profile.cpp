@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "machine/sine_cosine.hpp"
+#include "machine/elementary_functions.hpp"
 
 namespace gearpod::stiffness {
 

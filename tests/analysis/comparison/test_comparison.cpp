@@ -3,8 +3,8 @@
 #include <random>
 
 #include "analysis/comparison/comparison.hpp"
+#include "analysis/statistics/interval.hpp"
 #include "analysis/statistics/link.hpp"
-#include "analysis/statistics/wilson.hpp"
 
 namespace test_comparison {
 

@@ -5,9 +5,9 @@
 #include <cmath>
 #include <random>
 
-#include "analysis/detection/clustered_rate.hpp"
-#include "analysis/detection/clusters.hpp"
+#include "analysis/detection/detection.hpp"
 #include "analysis/detection/false_alarm_rate.hpp"
+#include "analysis/detection/healthy_thresholds.hpp"
 #include "analysis/detection/threshold.hpp"
 
 namespace test_clusters {

@@ -5,7 +5,6 @@
 #include <random>
 
 #include "analysis/detection/detection.hpp"
-#include "analysis/detection/reliable_size.hpp"
 #include "analysis/detection/threshold.hpp"
 
 namespace test_detection {

@@ -8,7 +8,7 @@
 #include <cmath>
 #include <random>
 
-#include "analysis/detection/clusters.hpp"
+#include "analysis/detection/detection.hpp"
 #include "analysis/detection/healthy_thresholds.hpp"
 
 namespace test_importance_sample {

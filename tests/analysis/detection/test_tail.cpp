@@ -7,7 +7,6 @@
 #include <functional>
 #include <random>
 
-#include "analysis/detection/tail.hpp"
 #include "analysis/detection/threshold.hpp"
 
 namespace test_tail {

@@ -2,9 +2,8 @@
 #include <cmath>
 #include <random>
 
-#include "analysis/inputs/input_bins.hpp"
 #include "analysis/inputs/input_effects.hpp"
-#include "analysis/statistics/wilson.hpp"
+#include "analysis/statistics/interval.hpp"
 #include "tests/analysis/reference_data.hpp"
 
 namespace test_input_effects {

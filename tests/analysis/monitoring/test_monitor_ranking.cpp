@@ -6,7 +6,7 @@
 #include <random>
 #include <vector>
 
-#include "analysis/monitoring/monitor_ranking.hpp"
+#include "analysis/monitoring/monitor_performance.hpp"
 
 namespace test_monitor_ranking {
 

@@ -11,10 +11,8 @@
 #include <random>
 
 #include "analysis/inspection.hpp"
-#include "analysis/measured_coverage.hpp"
 #include "analysis/pod/calibrated_bounds.hpp"
-#include "analysis/pod/cluster_effect.hpp"
-#include "analysis/report/inspection_json.hpp"
+#include "analysis/pod/curve_covariance.hpp"
 #include "analysis/report/inspection_report.hpp"
 #include "analysis/statistics/link.hpp"
 #include "tests/analysis/pod/inspection_examples.hpp"

@@ -3,9 +3,9 @@
 #include <cmath>
 #include <random>
 
+#include "analysis/pod/hit_miss_table.hpp"
 #include "analysis/pod/pod_curve.hpp"
 #include "analysis/pod/pod_likelihood.hpp"
-#include "analysis/pod/standardised_sizes.hpp"
 
 namespace test_standardised_sizes {
 

@@ -3,7 +3,7 @@
 #include <limits>
 #include <random>
 
-#include "analysis/statistics/auc.hpp"
+#include "analysis/statistics/rank_statistics.hpp"
 #include "tests/analysis/reference_data.hpp"
 
 namespace test_auc {

@@ -6,8 +6,8 @@
 #include <random>
 #include <vector>
 
-#include "analysis/inputs/correlation_ratio.hpp"
-#include "analysis/statistics/noncentral_f.hpp"
+#include "analysis/inputs/sobol_indices.hpp"
+#include "analysis/statistics/noncentral_distributions.hpp"
 #include "tests/analysis/reference_data.hpp"
 
 namespace test_noncentral_f {

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "analysis/statistics/outcome_terms.hpp"
-#include "machine/dispatch.hpp"
+#include "machine/instruction_sets.hpp"
 
 namespace test_outcome_terms {
 

@@ -6,9 +6,8 @@
 
 #include "dynamics/gearbox_matrices.hpp"
 #include "lockstep/integrators/sensor_filter.hpp"
-#include "lockstep/tile/excited_integrator.hpp"
-#include "lockstep/tile/mesh_integrator.hpp"
 #include "lockstep/tile/rigid_rotation.hpp"
+#include "lockstep/tile/tile_integrators.hpp"
 #include "tests/lockstep/liang_train.hpp"
 
 namespace test_variable_speed {

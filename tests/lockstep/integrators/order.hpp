@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "lockstep/integrators/facts.hpp"
-#include "lockstep/tile/mesh_integrator.hpp"
+#include "lockstep/tile/tile_integrators.hpp"
 #include "tests/lockstep/tian_gearbox.hpp"
 
 namespace gearpod::test {

@@ -3,8 +3,8 @@
 #include <catch2/catch.hpp>
 
 #include "lockstep/integrators/facts.hpp"
-#include "lockstep/tile/mesh_integrator.hpp"
 #include "lockstep/tile/rigid_rotation.hpp"
+#include "lockstep/tile/tile_integrators.hpp"
 #include "tests/lockstep/integrators/order.hpp"
 #include "tests/lockstep/liang_train.hpp"
 

@@ -5,8 +5,8 @@
 #include "dynamics/gearbox_matrices.hpp"
 #include "lockstep/integrators/facts.hpp"
 #include "lockstep/integrators/sensor_filter.hpp"
-#include "lockstep/tile/mesh_integrator.hpp"
-#include "machine/dispatch.hpp"
+#include "lockstep/tile/tile_integrators.hpp"
+#include "machine/instruction_sets.hpp"
 #include "tests/lockstep/integrators/order.hpp"
 #include "tests/lockstep/liang_train.hpp"
 

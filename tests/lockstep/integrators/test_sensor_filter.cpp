@@ -7,7 +7,7 @@
 
 #include "lockstep/integrators/facts.hpp"
 #include "lockstep/integrators/filter_coefficients.hpp"
-#include "lockstep/integrators/generalized_alpha.hpp"
+#include "lockstep/integrators/newmark.hpp"
 
 namespace test_sensor_filter {
 

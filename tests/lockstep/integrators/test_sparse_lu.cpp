@@ -2,7 +2,7 @@
 #include <catch2/catch.hpp>
 #include <random>
 
-#include "lockstep/integrators/sparse_lu.hpp"
+#include "lockstep/integrators/implicit_lanes.hpp"
 
 namespace test_sparse_lu {
 

@@ -2,8 +2,8 @@
 #include <algorithm>
 #include <catch2/catch.hpp>
 
-#include "dynamics/fixed_shaft_lanes.hpp"
-#include "dynamics/planetary_lanes.hpp"
+#include "dynamics/fixed_shaft_motion.hpp"
+#include "dynamics/planetary_motion.hpp"
 #include "lockstep/integrators/facts.hpp"
 #include "lockstep/kernels/kernel_table.hpp"
 

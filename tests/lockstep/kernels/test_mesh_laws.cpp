@@ -5,7 +5,7 @@
 #include <tuple>
 
 #include "lockstep/integrators/facts.hpp"
-#include "lockstep/plan/transmission_error.hpp"
+#include "lockstep/plan/stiffness_nodes.hpp"
 #include "tests/lockstep/liang_train.hpp"
 #include "tests/lockstep/pair_of_masses.hpp"
 

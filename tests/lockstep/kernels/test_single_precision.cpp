@@ -1,12 +1,11 @@
 // Checks single precision: its loss of accuracy, and equal bits for any number of lanes.
 #include <catch2/catch.hpp>
 
-#include "dynamics/dense_algebra.hpp"
 #include "dynamics/gearbox_matrices.hpp"
 #include "lockstep/integrators/facts.hpp"
-#include "lockstep/tile/mesh_integrator.hpp"
 #include "lockstep/tile/rigid_rotation.hpp"
-#include "machine/dispatch.hpp"
+#include "lockstep/tile/tile_integrators.hpp"
+#include "machine/instruction_sets.hpp"
 #include "tests/lockstep/liang_train.hpp"
 
 namespace test_single_precision {

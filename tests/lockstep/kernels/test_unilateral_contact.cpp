@@ -4,14 +4,12 @@
 #include <cmath>
 #include <random>
 
-#include "dynamics/dense_algebra.hpp"
 #include "dynamics/gearbox_matrices.hpp"
 #include "lockstep/integrators/facts.hpp"
+#include "lockstep/plan/stiffness_nodes.hpp"
 #include "lockstep/plan/tooth_pairs.hpp"
-#include "lockstep/plan/transmission_error.hpp"
-#include "lockstep/tile/excited_integrator.hpp"
-#include "lockstep/tile/mesh_integrator.hpp"
 #include "lockstep/tile/rigid_rotation.hpp"
+#include "lockstep/tile/tile_integrators.hpp"
 #include "tests/lockstep/liang_train.hpp"
 
 namespace test_unilateral_contact {

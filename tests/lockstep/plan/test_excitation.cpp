@@ -4,9 +4,9 @@
 #include <complex>
 #include <random>
 
-#include "dynamics/varying_forces.hpp"
+#include "dynamics/gearbox.hpp"
 #include "lockstep/excitation/excitation_rows.hpp"
-#include "lockstep/tile/excited_integrator.hpp"
+#include "lockstep/tile/tile_integrators.hpp"
 #include "tests/lockstep/liang_train.hpp"
 #include "tests/lockstep/pair_of_masses.hpp"
 

@@ -4,10 +4,10 @@
 #include <catch2/catch.hpp>
 #include <numbers>
 
-#include "dynamics/dense_algebra.hpp"
+#include "dynamics/gearbox_matrices.hpp"
 #include "lockstep/integrators/facts.hpp"
 #include "lockstep/plan/mode_inertia.hpp"
-#include "lockstep/steps/step_limit.hpp"
+#include "lockstep/steps/stability.hpp"
 #include "tests/lockstep/liang_train.hpp"
 
 namespace test_mode_inertia {

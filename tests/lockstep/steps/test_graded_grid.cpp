@@ -3,9 +3,8 @@
 
 #include "lockstep/integrators/facts.hpp"
 #include "lockstep/steps/graded_grid.hpp"
-#include "lockstep/steps/step_pilot.hpp"
-#include "lockstep/tile/mesh_integrator.hpp"
 #include "lockstep/tile/rigid_rotation.hpp"
+#include "lockstep/tile/tile_integrators.hpp"
 #include "tests/lockstep/liang_train.hpp"
 
 namespace test_graded_grid {

@@ -3,7 +3,7 @@
 #include <catch2/catch.hpp>
 
 #include "lockstep/integrators/facts.hpp"
-#include "machine/dispatch.hpp"
+#include "machine/instruction_sets.hpp"
 #include "tests/lockstep/liang_train.hpp"
 
 namespace test_solution {

@@ -3,11 +3,10 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
-#include "gears/corner_contact.hpp"
+#include "gears/flank_gaps.hpp"
 #include "lockstep/plan/tooth_pairs.hpp"
-#include "lockstep/tile/excited_integrator.hpp"
-#include "lockstep/tile/mesh_integrator.hpp"
 #include "lockstep/tile/rigid_rotation.hpp"
+#include "lockstep/tile/tile_integrators.hpp"
 #include "stiffness/gapped_mesh.hpp"
 #include "tests/lockstep/liang_train.hpp"
 #include "tests/lockstep/tian_gearbox.hpp"

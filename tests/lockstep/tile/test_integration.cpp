@@ -2,11 +2,10 @@
 #include <boost/numeric/odeint.hpp>
 #include <catch2/catch.hpp>
 
-#include "dynamics/dense_algebra.hpp"
 #include "dynamics/gearbox_matrices.hpp"
 #include "lockstep/integrators/facts.hpp"
 #include "lockstep/integrators/sensor_filter.hpp"
-#include "lockstep/tile/mesh_integrator.hpp"
+#include "lockstep/tile/tile_integrators.hpp"
 #include "tests/lockstep/liang_train.hpp"
 
 namespace test_integration {

@@ -4,10 +4,9 @@
 #include <catch2/catch.hpp>
 #include <complex>
 
-#include "dynamics/dense_algebra.hpp"
 #include "dynamics/gearbox_matrices.hpp"
 #include "lockstep/integrators/sensor_filter.hpp"
-#include "lockstep/tile/mesh_integrator.hpp"
+#include "lockstep/tile/tile_integrators.hpp"
 #include "stiffness/faults/losses.hpp"
 #include "tests/lockstep/tian_gearbox.hpp"
 

@@ -2,7 +2,7 @@
 #include <catch2/catch.hpp>
 #include <fstream>
 
-#include "mc/run/run_options.hpp"
+#include "mc/library/run/run_options.hpp"
 #include "tests/mc/program.hpp"
 
 namespace test_check {

@@ -9,7 +9,7 @@
 #include <set>
 
 #include "mc/files/text/text_table.hpp"
-#include "mc/report/row_identity.hpp"
+#include "mc/report/dataset.hpp"
 #include "tests/mc/lives/life_example.hpp"
 #include "tests/mc/program.hpp"
 

@@ -11,7 +11,7 @@
 #include "features/feature.hpp"
 #include "mc/files/hdf5_data.hpp"
 #include "mc/files/signal_file.hpp"
-#include "mc/forecast/memory.hpp"
+#include "mc/numerics/forecast/memory.hpp"
 #include "tests/mc/compared_program.hpp"
 #include "tests/mc/program.hpp"
 

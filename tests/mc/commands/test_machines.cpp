@@ -6,8 +6,8 @@
 #include <nlohmann/json.hpp>
 
 #include "analysis/report/reliability_json.hpp"
+#include "mc/library/run/reliability_on_machines.hpp"
 #include "mc/results/reliability_of_results.hpp"
-#include "mc/run/reliability_messages.hpp"
 #include "tests/mc/program.hpp"
 
 namespace test_machines {

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "mc/library/natural_frequencies.hpp"
+#include "mc/library/stiffness_modes.hpp"
 #include "tests/mc/program.hpp"
 
 namespace test_modes_command {

@@ -236,7 +236,7 @@ TEST_CASE("A speed error of 2 % is detected, and the speed can be taken from the
         const auto found =
             features_of(fine.write("time,sensor", {times(fine.time, 1.0 / wrong), fine.sensor}),
                         finer + " --speed found");
-        // Content near half the sampling rate is lost in resampling (order_tracking.hpp).
+        // Content near half the sampling rate is lost in resampling (resampling.hpp).
         CHECK(found["window_ratio"].get<double>() ==
               Approx(expected["window_ratio"].get<double>()).epsilon(0.05));
     }

@@ -2,7 +2,7 @@
 // plausible detection rates.
 #include <cmath>
 
-#include "machine/dispatch.hpp"
+#include "machine/instruction_sets.hpp"
 #include "mc/study/schema/sizes.hpp"
 #include "tests/mc/program.hpp"
 #include "tests/mc/study_file.hpp"

@@ -6,8 +6,8 @@
 #include <cmath>
 #include <memory>
 
-#include "mc/ensemble/batch_worker.hpp"
-#include "mc/gearbox/simulation.hpp"
+#include "mc/ensemble/batch_workers.hpp"
+#include "mc/ensemble/gearbox/simulation.hpp"
 #include "mc/study/fluctuations.hpp"
 #include "mc/study/other_sources.hpp"
 #include "tests/mc/gearbox_bits.hpp"

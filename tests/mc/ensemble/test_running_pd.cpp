@@ -4,9 +4,9 @@
 #include <cmath>
 #include <random>
 
-#include "mc/ensemble/batch_worker.hpp"
+#include "mc/ensemble/batch_workers.hpp"
 #include "mc/ensemble/running_pd.hpp"
-#include "mc/scene/sampling.hpp"
+#include "mc/plan/sampling.hpp"
 #include "tests/mc/study_file.hpp"
 
 namespace test_running_pd {

@@ -1,6 +1,6 @@
 // Checks several records of each gearbox in the threshold group: same vibration, other noise.
-#include "mc/gearbox/simulation.hpp"
-#include "mc/results/batch_rows.hpp"
+#include "mc/ensemble/gearbox/simulation.hpp"
+#include "mc/results/result_rows.hpp"
 #include "tests/mc/program.hpp"
 #include "tests/mc/study_file.hpp"
 

@@ -4,12 +4,11 @@
 #include <string>
 #include <vector>
 
-#include "mc/input/bad_input.hpp"
+#include "mc/files/input/problems.hpp"
 #include "mc/library/inspection_table.hpp"
 #include "mc/library/open_study.hpp"
 #include "mc/library/signal_features.hpp"
-#include "mc/library/simulated_row.hpp"
-#include "mc/library/stiffness_columns.hpp"
+#include "mc/library/stiffness_modes.hpp"
 
 namespace test_library {
 

@@ -8,7 +8,7 @@
 #include <random>
 
 #include "mc/lives/campaign.hpp"
-#include "mc/lives/interpolation_choice.hpp"
+#include "mc/lives/interpolation.hpp"
 #include "tests/mc/lives/life_example.hpp"
 
 namespace test_interpolation {

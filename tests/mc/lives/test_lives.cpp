@@ -6,11 +6,11 @@
 #include <sstream>
 #include <string>
 
-#include "mc/gearbox/realization_features.hpp"
+#include "mc/ensemble/gearbox/realization_features.hpp"
 #include "mc/lives/life_monitor.hpp"
+#include "mc/results/result_rows.hpp"
 #include "mc/results/results_file.hpp"
-#include "mc/results/row_source.hpp"
-#include "stiffness/growth/root_crack.hpp"
+#include "stiffness/growth/crack_growth.hpp"
 #include "tests/mc/lives/life_example.hpp"
 #include "tests/mc/program.hpp"
 

@@ -1,7 +1,7 @@
 // Checks length and loads of records against whole spans, many short records, and integration.
 #include <cmath>
 
-#include "mc/gearbox/realization_features.hpp"
+#include "mc/ensemble/gearbox/realization_features.hpp"
 #include "mc/lives/campaign.hpp"
 #include "tests/mc/lives/life_example.hpp"
 #include "tests/mc/program.hpp"

@@ -4,11 +4,9 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
-#include "mc/ensemble/batch_worker.hpp"
-#include "mc/ensemble/rows_of_gearboxes.hpp"
-#include "mc/numerics/choice.hpp"
+#include "mc/ensemble/batch_workers.hpp"
 #include "mc/numerics/numerical_error.hpp"
-#include "mc/numerics/scatter_choice.hpp"
+#include "mc/numerics/numerics_choice.hpp"
 #include "tests/mc/study_file.hpp"
 
 namespace test_scatter_choice {

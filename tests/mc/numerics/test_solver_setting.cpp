@@ -4,7 +4,6 @@
 #include <string>
 #include <vector>
 
-#include "mc/numerics/solver_families.hpp"
 #include "mc/numerics/solver_setting.hpp"
 #include "tests/mc/scene_examples.hpp"
 #include "tests/mc/study_file.hpp"

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <functional>
 
-#include "mc/recordings/sample_times.hpp"
+#include "mc/recordings/recording_columns.hpp"
 
 namespace test_sample_times {
 

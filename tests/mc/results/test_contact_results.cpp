@@ -5,7 +5,7 @@
 #include <limits>
 
 #include "mc/files/hdf5_data.hpp"
-#include "mc/results/file_rows.hpp"
+#include "mc/results/result_rows.hpp"
 #include "mc/results/results_file.hpp"
 #include "tests/mc/program.hpp"
 

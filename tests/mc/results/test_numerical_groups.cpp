@@ -4,7 +4,7 @@
 
 #include <catch2/catch.hpp>
 
-#include "mc/results/numerical_groups.hpp"
+#include "mc/results/layout.hpp"
 
 namespace test_numerical_groups {
 

@@ -3,7 +3,7 @@
 
 #include <string_view>
 
-#include "mc/study/faults/all_faults.hpp"
+#include "mc/study/faults/fault_kind.hpp"
 
 namespace gearpod::tests {
 

@@ -3,9 +3,9 @@
 #include <catch2/catch.hpp>
 #include <set>
 
-#include "mc/scene/scene.hpp"
-#include "mc/study/faults/all_faults.hpp"
-#include "mc/study/faults/crack_angle.hpp"
+#include "mc/plan/scene.hpp"
+#include "mc/study/faults/crack.hpp"
+#include "mc/study/faults/fault_kind.hpp"
 #include "mc/study/schema/schema.hpp"
 #include "mc/study/schema/sizes.hpp"
 #include "tests/mc/program.hpp"

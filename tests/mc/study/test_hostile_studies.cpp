@@ -1,7 +1,7 @@
 // Checks hostile studies: nesting, size, extreme numbers.
 #include <catch2/catch.hpp>
 
-#include "mc/input/nesting.hpp"
+#include "mc/files/input/document.hpp"
 #include "mc/study/study.hpp"
 #include "tests/mc/study_example.hpp"
 

@@ -5,9 +5,9 @@
 #include <iterator>
 #include <sstream>
 
-#include "mc/input/spelling.hpp"
-#include "mc/study/faults/all_faults.hpp"
-#include "mc/study/faults/crack_angle.hpp"
+#include "mc/files/input/spelling.hpp"
+#include "mc/study/faults/crack.hpp"
+#include "mc/study/faults/fault_kind.hpp"
 #include "mc/study/schema/schema.hpp"
 #include "mc/study/schema/sizes.hpp"
 #include "mc/study/study.hpp"

@@ -6,11 +6,11 @@
 #include <fstream>
 #include <numbers>
 
+#include "mc/files/input/problems.hpp"
 #include "mc/files/signal_file.hpp"
-#include "mc/input/problems.hpp"
-#include "mc/study/elements/uff_response.hpp"
+#include "mc/study/elements/file_column.hpp"
 #include "mc/study/study.hpp"
-#include "tests/mc/gearbox/small_runs.hpp"
+#include "tests/mc/ensemble/gearbox/small_runs.hpp"
 #include "tests/mc/recording_bytes.hpp"
 
 namespace test_uff_response {

@@ -30,7 +30,7 @@ SHAPES = {"through": (1.0, 1.0), "half": (0.5, 0.0), "face": (1.0, 0.0), "face-h
 
 
 def depth_at(shape, deepest, z):
-    """Depth of the crack at the position z along the face (src/stiffness/faults/crack_surface.hpp)."""
+    """Depth of the crack at the position z along the face (src/stiffness/faults/spatial_crack.hpp)."""
     length, end = SHAPES[shape]
     t = z / (length * WIDTH)
     return deepest * math.sqrt(max(0.0, 1 + (end**2 - 1) * t)) if t < 1 + 1e-9 else 0.0

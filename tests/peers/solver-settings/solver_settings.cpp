@@ -14,7 +14,7 @@
 
 #include "dynamics/gearbox_matrices.hpp"
 #include "lockstep/plan/fault_schedule.hpp"
-#include "lockstep/steps/step_pilot.hpp"
+#include "lockstep/steps/graded_grid.hpp"
 #include "mc/numerics/pilot.hpp"
 #include "mc/numerics/reference.hpp"
 #include "mc/study/schema/schema.hpp"
@@ -188,7 +188,8 @@ void grade(const mc::Study& study, const std::vector<std::string>& arguments) {
     const mc::Scene scene(study);
     const mc::Pilot pilot(scene);
     const mc::Reference reference = mc::converged_reference(study, pilot, {});
-    fmt::print("name,command,integration_s,mesh_s,sensor,te,{}\n", fmt::join(study.features.use, ","));
+    fmt::print("name,command,integration_s,mesh_s,sensor,te,{}\n",
+               fmt::join(study.features.use, ","));
     for (const std::string& argument : arguments) {
         const Signals signals = read_signals(scene, argument);
         const mc::PilotRecord record =

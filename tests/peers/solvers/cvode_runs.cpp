@@ -11,7 +11,7 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "machine/thread_clock.hpp"
+#include "machine/clocks.hpp"
 #include "peer_runs.hpp"
 
 namespace gearpod::peers {

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "machine/thread_clock.hpp"
+#include "machine/clocks.hpp"
 
 namespace gearpod::peers {
 namespace {

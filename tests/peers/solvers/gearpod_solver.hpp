@@ -3,8 +3,8 @@
 
 #include <memory>
 
-#include "lockstep/tile/mesh_integrator.hpp"
 #include "lockstep/tile/rigid_rotation.hpp"
+#include "lockstep/tile/tile_integrators.hpp"
 #include "peer_runs.hpp"
 #include "rows.hpp"
 

@@ -3,7 +3,7 @@
 #include <boost/numeric/odeint.hpp>
 #include <cmath>
 
-#include "machine/thread_clock.hpp"
+#include "machine/clocks.hpp"
 #include "peer_runs.hpp"
 
 namespace gearpod::peers {

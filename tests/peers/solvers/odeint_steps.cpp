@@ -4,7 +4,7 @@
 #include <boost/numeric/odeint.hpp>
 
 #include "eight.hpp"
-#include "machine/thread_clock.hpp"
+#include "machine/clocks.hpp"
 #include "peer_runs.hpp"
 
 namespace gearpod::peers::GEARPOD_PEERS_BUILD {

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "mc/numerics/choice.hpp"
+#include "mc/numerics/numerics_choice.hpp"
 #include "mc/numerics/pilot.hpp"
 #include "tests/bench/median.hpp"
 

@@ -7,7 +7,7 @@
 
 #include "gearbox.hpp"
 #include "lockstep/plan/fault_schedule.hpp"
-#include "mc/scene/scene.hpp"
+#include "mc/plan/scene.hpp"
 
 namespace gearpod::peers {
 

@@ -6,7 +6,7 @@
 #include <random>
 #include <vector>
 
-#include "signals/demodulation/kurtogram.hpp"
+#include "signals/demodulation/demodulation.hpp"
 
 namespace test_kurtogram {
 

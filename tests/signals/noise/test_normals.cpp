@@ -5,7 +5,7 @@
 #include <numbers>
 #include <random>
 
-#include "machine/dispatch.hpp"
+#include "machine/instruction_sets.hpp"
 #include "signals/noise/normals.hpp"
 #include "tests/signals/noise/kolmogorov.hpp"
 

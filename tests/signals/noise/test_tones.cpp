@@ -2,8 +2,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "machine/dispatch.hpp"
-#include "signals/sensor/sensor.hpp"
+#include "machine/instruction_sets.hpp"
+#include "signals/sensor/sensor_signal.hpp"
 #include "signals/windowing/folded_signal.hpp"
 #include "tests/signals/direct_signal.hpp"
 #include "tests/signals/random_tile.hpp"

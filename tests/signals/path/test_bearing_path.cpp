@@ -4,9 +4,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "signals/path/housing_response.hpp"
-#include "signals/sensor/sensor.hpp"
-#include "signals/sensor/sensor_response.hpp"
+#include "signals/path/frequency_response.hpp"
+#include "signals/sensor/sensor_signal.hpp"
 #include "tests/signals/random_tile.hpp"
 
 namespace test_bearing_path {

@@ -3,7 +3,7 @@
 #include <numbers>
 #include <vector>
 
-#include "signals/path/path_window.hpp"
+#include "signals/path/transmission_path.hpp"
 
 namespace test_path_and_filter {
 

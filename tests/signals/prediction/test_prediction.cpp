@@ -4,9 +4,7 @@
 #include <numbers>
 #include <vector>
 
-#include "signals/prediction/periodic_signal.hpp"
-#include "signals/prediction/prewhitening.hpp"
-#include "signals/prediction/toeplitz.hpp"
+#include "signals/prediction/inverse_filters.hpp"
 
 namespace test_prediction {
 

@@ -3,10 +3,9 @@
 #include <cmath>
 #include <numeric>
 
-#include "machine/dispatch.hpp"
-#include "signals/sensor/sensor.hpp"
-#include "signals/sensor/sensor_response.hpp"
-#include "signals/spectra/averaged_te.hpp"
+#include "machine/instruction_sets.hpp"
+#include "signals/sensor/sensor_signal.hpp"
+#include "signals/spectra/synchronous_average.hpp"
 #include "signals/windowing/folded_signal.hpp"
 #include "tests/signals/random_tile.hpp"
 

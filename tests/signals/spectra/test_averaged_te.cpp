@@ -2,8 +2,8 @@
 #include <cmath>
 #include <random>
 
-#include "signals/noise/encoder_noise.hpp"
-#include "signals/spectra/averaged_te.hpp"
+#include "signals/noise/sensor_noise.hpp"
+#include "signals/spectra/synchronous_average.hpp"
 #include "tests/signals/random_tile.hpp"
 
 namespace test_averaged_te {

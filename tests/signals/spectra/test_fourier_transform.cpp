@@ -3,7 +3,7 @@
 #include <numbers>
 #include <random>
 
-#include "machine/dispatch.hpp"
+#include "machine/instruction_sets.hpp"
 #include "signals/spectra/fourier_transform.hpp"
 
 namespace test_fourier_transform {

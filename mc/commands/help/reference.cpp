@@ -1,0 +1,356 @@
+#include "mc/commands/help/reference.hpp"
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <cmath>
+#include <cstdint>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+#include "analysis/detection/detection_table.hpp"
+#include "features/feature.hpp"
+#include "mc/study/distributions/distribution.hpp"
+#include "mc/study/schema/schema.hpp"
+
+namespace gearpod::mc {
+namespace {
+
+// Escapes text for roff: backslashes, hyphens, and a dot or quote at the start of a line.
+std::string roff(const std::string& text) {
+    std::string out;
+    for (const char c : text) {
+        out += c == '\\' ? "\\e" : c == '-' ? "\\-" : std::string(1, c);
+    }
+    return !out.empty() && (out[0] == '.' || out[0] == '\'') ? "\\&" + out : out;
+}
+
+std::vector<const CLI::App*> commands(const CLI::App& app) {
+    return app.get_subcommands(
+        [](const CLI::App* command) { return !command->get_group().empty(); });
+}
+
+std::vector<const CLI::Option*> options(const CLI::App& app) {
+    return app.get_options([](const CLI::Option* option) { return !option->get_group().empty(); });
+}
+
+bool takes_value(const CLI::Option& option) {
+    return option.get_items_expected_max() > 0;
+}
+
+void add_option(std::string& out, const CLI::Option& option) {
+    out += ".TP\n.B " + roff(option.get_name(option.get_positional(), true));
+    if (takes_value(option) && !option.get_positional()) {
+        out += " \\fI" + roff(option.get_type_name()) + "\\fR";
+    }
+    out += "\n" + roff(option.get_description()) + "\n";
+}
+
+// Choices of an option, taken from the name of its check, "IN:{a,b}".
+std::vector<std::string> choices(const CLI::Option& option) {
+    std::vector<std::string> names;
+    const std::string type = option.get_type_name();
+    const std::size_t open = type.find('{'), close = type.find('}');
+    if (open == std::string::npos || close == std::string::npos) {
+        return names;
+    }
+    return CLI::detail::split(type.substr(open + 1, close - open - 1), ',');
+}
+
+std::string words(const CLI::App& app) {
+    std::string text;
+    for (const CLI::Option* option : options(app)) {
+        for (const std::string& name : option->get_lnames()) {
+            text += " --" + name;
+        }
+        for (const std::string& name : option->get_snames()) {
+            text += " -" + name;
+        }
+    }
+    return text.empty() ? text : text.substr(1);
+}
+
+}  // namespace
+
+std::string man_page(const CLI::App& app, const std::string& version) {
+    std::string out = ".TH GEARPOD 1 \"\" \"" + roff(version) + "\" \"User Commands\"\n" +
+                      ".SH NAME\ngearpod \\- probability of detection of gear faults\n" +
+                      ".SH SYNOPSIS\n.B gearpod\n\\fICOMMAND\\fR [\\fIOPTIONS\\fR]\n" +
+                      ".SH DESCRIPTION\n" + roff(app.get_description()) + "\n.SH OPTIONS\n";
+    for (const CLI::Option* option : options(app)) {
+        add_option(out, *option);
+    }
+    out += ".SH COMMANDS\n";
+    for (const CLI::App* command : commands(app)) {
+        out += ".SS gearpod " + roff(command->get_name()) + "\n" +
+               roff(command->get_description()) + "\n";
+        for (const CLI::Option* option : options(*command)) {
+            add_option(out, *option);
+        }
+    }
+    return out +
+           ".SH EXIT STATUS\n.TP\n0\nsuccess\n.TP\n2\nwrong input, or an output that cannot be "
+           "written; every problem is printed\n"
+           ".TP\n3\nsome gearboxes failed; they are counted, and the results are written\n"
+           ".TP\n4\nstopped before the end; \\-\\-resume continues from the checkpoint\n";
+}
+
+std::string bash_completion(const CLI::App& app) {
+    std::string names, cases, values;
+    for (const CLI::App* command : commands(app)) {
+        names += (names.empty() ? "" : " ") + command->get_name();
+        cases +=
+            fmt::format("        {}) options=\"{}\" ;;\n", command->get_name(), words(*command));
+        for (const CLI::Option* option : options(*command)) {
+            const auto choice = choices(*option);
+            for (const std::string& name :
+                 choice.empty() ? std::vector<std::string>() : option->get_lnames()) {
+                values += fmt::format("        {}:--{}) choices=\"{}\" ;;\n", command->get_name(),
+                                      name, fmt::join(choice, " "));
+            }
+        }
+    }
+    return "# Bash completion of gearpod, generated from its command line.\n"
+           "_gearpod() {\n"
+           "    local word=${COMP_WORDS[COMP_CWORD]} command=${COMP_WORDS[1]} options= choices=\n"
+           "    COMPREPLY=()\n"
+           "    if [ \"$COMP_CWORD\" -eq 1 ]; then\n"
+           "        mapfile -t COMPREPLY < <(compgen -W \"" +
+           names + " " + words(app) +
+           "\" -- \"$word\")\n"
+           "        return\n"
+           "    fi\n"
+           "    case $command:${COMP_WORDS[COMP_CWORD - 1]} in\n" +
+           values +
+           "    esac\n"
+           "    case $command in\n" +
+           cases +
+           "    esac\n"
+           "    if [ -n \"$choices\" ]; then\n"
+           "        mapfile -t COMPREPLY < <(compgen -W \"$choices\" -- \"$word\")\n"
+           "    elif [ \"${word#-}\" != \"$word\" ]; then\n"
+           "        mapfile -t COMPREPLY < <(compgen -W \"$options\" -- \"$word\")\n"
+           "    else\n"
+           "        mapfile -t COMPREPLY < <(compgen -f -- \"$word\")\n"
+           "    fi\n"
+           "}\n"
+           "complete -o filenames -F _gearpod gearpod ./gearpod\n";
+}
+
+namespace {
+
+using OrderedJson = nlohmann::ordered_json;
+
+OrderedJson option_json(const CLI::Option& option) {
+    const bool takes_value = option.get_items_expected_max() > 0;
+    OrderedJson json = OrderedJson::object();
+    json["name"] = option.get_name(option.get_positional(), true);
+    json["positional"] = option.get_positional();
+    json["required"] = option.get_required();
+    json["type"] = takes_value ? option.get_type_name() : std::string();
+    json["several"] = option.get_items_expected_max() > 1;
+    json["meaning"] = option.get_description();
+    return json;
+}
+
+OrderedJson command_json(const CLI::App& command) {
+    OrderedJson options = OrderedJson::array();
+    for (const CLI::Option* option : command.get_options(
+             [](const CLI::Option* shown) { return !shown->get_group().empty(); })) {
+        options.push_back(option_json(*option));
+    }
+    OrderedJson json = OrderedJson::object();
+    json["name"] = command.get_name();
+    json["meaning"] = command.get_description();
+    json["options"] = std::move(options);
+    return json;
+}
+
+// A value of the file's unit without the rounding error of the conversion from SI.
+double rounded(double value) {
+    return std::stod(fmt::format("{:.12g}", value));
+}
+
+// Studies that give nothing but the kind of gearbox.
+struct EmptyStudies {
+    Study planetary, fixed_shaft;
+
+    EmptyStudies() { fixed_shaft.gearbox.kind = GearboxKind::fixed_shaft; }
+};
+
+// Type, allowed values and default of a key, written into `json`. The default is the value in a
+// study that does not give the key; there is none where the program derives the value.
+class ValueForm {
+  public:
+    ValueForm(const Key& key, const Study& defaults, OrderedJson& json)
+        : key_(key), defaults_(defaults), json_(json) {}
+
+    void operator()(const NumberAccess& access) const {
+        json_["type"] = "number";
+        const std::optional<double> value = access.get(defaults_);
+        if (value && std::isfinite(*value)) {
+            add_default(rounded(*value / key_.unit.to_si));
+        }
+    }
+    void operator()(const IntegerAccess& access) const {
+        json_["type"] = "integer";
+        if (const std::optional<std::int64_t> value = access.get(defaults_)) {
+            add_default(*value);
+        }
+    }
+    void operator()(const BooleanAccess& access) const {
+        json_["type"] = "boolean";
+        if (const std::optional<bool> value = access.get(defaults_)) {
+            json_["default"] = *value;
+        }
+    }
+    void operator()(const ChoiceAccess& access) const {
+        json_["type"] = "choice";
+        OrderedJson choices = OrderedJson::array();
+        const std::optional<int> value = access.get(defaults_);
+        for (const ChoiceName& choice : access.names) {
+            choices.push_back(std::string(choice.text));
+            if (value == choice.value) {
+                json_["default"] = std::string(choice.text);
+            }
+        }
+        json_["choices"] = std::move(choices);
+    }
+    void operator()(const NumbersAccess& access) const {
+        json_["type"] = "numbers";
+        json_["ascending"] = access.ascending;
+        OrderedJson values = OrderedJson::array();
+        for (const double value : access.get(defaults_)) {
+            values.push_back(rounded(value / key_.unit.to_si));
+        }
+        if (!values.empty()) {
+            json_["default"] = std::move(values);
+        }
+    }
+    void operator()(const TextsAccess& access) const {
+        json_["type"] = "texts";
+        const std::vector<std::string> values = access.get(defaults_);
+        if (!values.empty()) {
+            json_["default"] = values;
+        }
+    }
+    void operator()(const TablesAccess& access) const {
+        json_["type"] = "tables";
+        for (const TableField& field : access.fields) {
+            OrderedJson one{{"name", std::string(field.name)},
+                            {"type", kFieldKinds[static_cast<std::size_t>(field.kind)]},
+                            {"required", field.required}};
+            for (const ChoiceName& choice : field.choices) {
+                one["choices"].push_back(std::string(choice.text));
+            }
+            json_["fields"].push_back(std::move(one));
+        }
+    }
+    void operator()(const PythonAccess&) const { json_["type"] = "python"; }
+
+  private:
+    static constexpr const char* kFieldKinds[] = {"number", "integer", "text", "numbers", "word"};
+
+    // A number outside the key's range stands for "not given".
+    template <class Value>
+    void add_default(Value value) const {
+        if (key_.range.contains(static_cast<double>(value))) {
+            json_["default"] = value;
+        }
+    }
+
+    const Key& key_;
+    const Study& defaults_;
+    OrderedJson& json_;
+};
+
+// Adds whether the key must be given, and the condition under which it may or must be.
+void add_presence(const Key& key, const EmptyStudies& empty, OrderedJson& json) {
+    const Presence planetary = key.presence(empty.planetary);
+    const Presence fixed_shaft = key.presence(empty.fixed_shaft);
+    const bool required = planetary.need == Need::required || fixed_shaft.need == Need::required;
+    if (required) {
+        json.erase("default");
+    }
+    json["required"] = required;
+    json["condition"] = planetary.why.empty() ? fixed_shaft.why : planetary.why;
+}
+
+OrderedJson bound(double value) {
+    return std::isfinite(value) ? OrderedJson(value) : OrderedJson(nullptr);
+}
+
+OrderedJson key_json(const Key& key, const EmptyStudies& empty) {
+    OrderedJson json = OrderedJson::object();
+    json["section"] = std::string(key.section);
+    json["name"] = std::string(key.name);
+    json["unit"] = std::string(key.unit.name);
+    std::visit(ValueForm(key, empty.planetary, json), key.access);
+    add_presence(key, empty, json);
+    json["low"] = bound(key.range.low);
+    json["high"] = bound(key.range.high);
+    json["low_open"] = key.range.low_open;
+    json["high_open"] = key.range.high_open;
+    json["range"] = key.range.text();
+    json["random"] = key.may_be_random();
+    json["meaning"] = std::string(key.doc);
+    return json;
+}
+
+OrderedJson feature_json(const features::Feature& feature) {
+    OrderedJson json = OrderedJson::object();
+    json["name"] = std::string(feature.name);
+    json["title"] = std::string(feature.title);
+    json["unit"] = std::string(feature.unit);
+    json["alarm"] = analysis::alarm_name(feature.alarm);
+    json["basic"] = feature.basic();
+    json["from_sensor"] = feature.from_sensor;
+    json["compared"] = feature.baseline_use == features::BaselineUse::nothing    ? "nothing"
+                       : feature.baseline_use == features::BaselineUse::baseline ? "baseline"
+                                                                                 : "change";
+    json["definition"] = std::string(feature.doc);
+    return json;
+}
+
+}  // namespace
+
+std::string reference_json(const CLI::App& app, const std::string& version) {
+    OrderedJson json = OrderedJson::object();
+    json["program"] = app.get_description();
+    json["version"] = version;
+    json["commands"] = OrderedJson::array();
+    for (const CLI::App* command :
+         app.get_subcommands([](const CLI::App* shown) { return !shown->get_group().empty(); })) {
+        json["commands"].push_back(command_json(*command));
+    }
+    json["exit_codes"] = {
+        {"0", "done"},
+        {"2", "bad input, or an output that cannot be written; every problem is reported"},
+        {"3", "some gearboxes failed; they are counted, and the results are written"},
+        {"4", "stopped before the end, with a checkpoint from which --resume continues"}};
+    json["sections"] = OrderedJson::array();
+    for (const std::string_view section : section_names()) {
+        json["sections"].push_back(std::string(section));
+    }
+    json["keys"] = OrderedJson::array();
+    const EmptyStudies empty;
+    for (const Key& key : schema()) {
+        json["keys"].push_back(key_json(key, empty));
+    }
+    json["distributions"] = OrderedJson::array();
+    for (const DistributionHelp& distribution : distribution_help()) {
+        json["distributions"].push_back(
+            {{"name", distribution.name}, {"parameters", distribution.parameters}});
+    }
+    json["features"] = OrderedJson::array();
+    for (const features::Feature& feature : features::all_features()) {
+        json["features"].push_back(feature_json(feature));
+    }
+    return json.dump(1) + "\n";
+}
+
+}  // namespace gearpod::mc

@@ -1,0 +1,301 @@
+#include "mc/ensemble/batch_workers.hpp"
+
+#include <algorithm>
+#include <exception>
+#include <limits>
+#include <vector>
+
+#include "machine/clocks.hpp"
+#include "machine/team.hpp"
+#include "mc/ensemble/coupling/record_positions.hpp"
+#include "mc/ensemble/gearbox/other_sources.hpp"
+#include "mc/ensemble/ranks.hpp"
+#include "mc/files/input/problems.hpp"
+#include "mc/results/results_file.hpp"
+#include "mc/study/gears.hpp"
+
+namespace gearpod::mc {
+
+Seconds& Seconds::operator+=(const Seconds& other) {
+    sampling += other.sampling;
+    stiffness += other.stiffness;
+    integration += other.integration;
+    signals += other.signals;
+    noise += other.noise;
+    features += other.features;
+    meshes += other.meshes;
+    superposed += other.superposed;
+    superposition_fallbacks += other.superposition_fallbacks;
+    gearboxes += other.gearboxes;
+    records += other.records;
+    return *this;
+}
+
+RowShape row_shape(const Study& study) {
+    const std::size_t meshes =
+        teeth_can_separate(study) ? meshes_of(study.gearbox.kind).size() : std::size_t{0};
+    const std::size_t variants = study.sensor.additional.size() + (has_other_fault(study) ? 1 : 0);
+    return {input_columns(study).size(),
+            study.features.use.size(),
+            study.sensor.noise_levels.size(),
+            meshes,
+            variants,
+            study.numerics.horizon == Horizon::superposed ? std::size_t{1} : std::size_t{0}};
+}
+
+BatchWorker::BatchWorker(const BatchTask& task)
+    : task_(task), features_(task.scene, &task.healthy), shape_(row_shape(task.scene.study())) {
+    for (const HealthyReference& healthy : task.additional) {
+        additional_.emplace_back(task.scene, &healthy);
+    }
+}
+BatchRows BatchWorker::compute(const Batch& batch, Seconds& seconds) {
+    const NoiseSampling noise_sampling = batch.group == Group::threshold
+                                             ? threshold_noise_sampling(task_.scene.study())
+                                             : task_.graded_noise;
+    std::vector<GearboxId> ids;
+    for (std::size_t i = 0; i < batch.gearboxes; ++i) {
+        ids.push_back({batch.group, batch.first_index + i, Record::test, 0, noise_sampling});
+    }
+    return compute(ids, batch.records, seconds);
+}
+
+BatchRows BatchWorker::compute(std::span<const GearboxId> ids, std::size_t records,
+                               Seconds& seconds) {
+    BatchRows rows;
+    const auto lanes = static_cast<std::size_t>(task_.scene.study().numerics.lanes);
+    while (!ids.empty()) {
+        const std::size_t count = shared_records(task_.scene.study(), ids, lanes);
+        add_rows(ids.first(count), records, rows, seconds);
+        ids = ids.subspan(count);
+    }
+    return rows;
+}
+
+// Adds the rows of at most as many gearboxes as there are lanes.
+void BatchWorker::add_rows(std::span<const GearboxId> ids, std::size_t records, BatchRows& rows,
+                           Seconds& seconds) {
+    GearboxTile computed =
+        run_gearboxes(task_.scene, task_.path, ids, task_.scene.study().numerics.lanes,
+                      {.signal_meshes = features_.meshes(), .cache = &task_.cache});
+    const auto start = WallClock::now();
+    const double noise_before = features_.noise_s();
+    std::vector<LaneSignals> signals =
+        all_lane_signals(task_.scene, task_.path, computed, features_.meshes());
+    computed.sensor_recorders.clear();  // frees memory: `signals` holds copies
+    const Study& study = task_.scene.study();
+    std::vector<LaneSignals> others(ids.size());
+    const bool any_threshold = std::ranges::count(ids, Group::threshold, &GearboxId::group) > 0;
+    if (has_other_fault(study) && any_threshold) {
+        others = with_other_fault(task_.scene, std::span(computed.realizations).first(ids.size()),
+                                  signals);
+    }
+    for (std::size_t lane = 0; lane < ids.size(); ++lane) {
+        machine::throw_if_cancelled();
+        // freed when the rows of this gearbox are done
+        const LaneSignals own = std::move(signals[lane]), other = std::move(others[lane]);
+        Realization& record = computed.realizations[lane];
+        for (record.id.repeat = 0; record.id.repeat < records; ++record.id.repeat) {
+            add_row(record, computed, lane, own, other, rows);
+        }
+    }
+    const double spent_s = seconds_since(start);
+    const double noise = features_.noise_s() - noise_before;
+    seconds += {computed.sampling_s,
+                computed.stiffness_s,
+                computed.integration_s,
+                computed.signals_s,
+                noise,
+                spent_s - noise,
+                computed.meshes,
+                computed.superposed,
+                computed.superposition_fallbacks};
+}
+
+std::vector<double> BatchWorker::variants_of(const Realization& record, const LaneSignals& signals,
+                                             const LaneSignals& other) {
+    const Study& study = task_.scene.study();
+    std::vector<double> all;
+    const auto add = [&](const std::vector<double>& values) {
+        all.insert(all.end(), values.begin(), values.end());
+    };
+    for (std::size_t s = 0; s < additional_.size(); ++s) {
+        SensorSignals own = signals_of_sensor(study, signals, s);
+        add(additional_[s].compute(own.linked(), at_sensor(study, record, s + 1)));
+    }
+    if (has_other_fault(study)) {
+        if (record.id.group == Group::threshold) {
+            add(features_.compute(other, record));
+        } else {
+            add(std::vector<double>(shape_.features * shape_.levels,
+                                    std::numeric_limits<double>::quiet_NaN()));
+        }
+    }
+    return all;
+}
+
+void BatchWorker::add_row(const Realization& record, const GearboxTile& computed, std::size_t lane,
+                          const LaneSignals& signals, const LaneSignals& other, BatchRows& rows) {
+    const Status status = computed.status[lane];
+    rows.status.push_back(static_cast<int>(status));
+
+    constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+    std::vector<double> values(shape_.features * shape_.levels, kNone);
+    std::vector<double> variants(shape_.variants * values.size(), kNone);
+    double noise_weight = 1.0;
+    if (status == Status::ok) {
+        values = features_.compute(signals, record);
+        noise_weight = features_.noise_weight();
+        variants = variants_of(record, signals, other);
+    }
+    append_random_inputs(task_.scene.study(), record, noise_weight, rows.values);
+    rows.values.push_back(record.inputs.fault_size);
+    rows.values.insert(rows.values.end(), values.begin(), values.end());
+    std::vector<double> loss = contact_loss(computed, lane, shape_.meshes);
+    if (status != Status::ok) {
+        std::ranges::fill(loss, std::numeric_limits<double>::quiet_NaN());
+    }
+    rows.values.insert(rows.values.end(), loss.begin(), loss.end());
+    if (shape_.integration > 0) {
+        const std::vector<char>& superposed = computed.integration.superposed;
+        rows.values.push_back(status != Status::ok                           ? kNone
+                              : !superposed.empty() && superposed[lane] != 0 ? 1.0
+                                                                             : 0.0);
+    }
+    rows.values.insert(rows.values.end(), variants.begin(), variants.end());
+}
+
+BatchRows rows_of_gearboxes(const Scene& scene, std::span<const GearboxId> gearboxes) {
+    const BatchTask task(scene);
+    const std::size_t size = kBatchRows, batches = (gearboxes.size() + size - 1) / size;
+    std::vector<BatchRows> parts(batches);
+    machine::for_each_index(batches, thread_count(scene.study()), [&](std::size_t batch) {
+        Seconds seconds;
+        const std::size_t first = batch * size;
+        parts[batch] = BatchWorker(task).compute(
+            gearboxes.subspan(first, std::min(size, gearboxes.size() - first)), 1, seconds);
+    });
+    BatchRows all;
+    for (const BatchRows& part : parts) {
+        all.status.insert(all.status.end(), part.status.begin(), part.status.end());
+        all.values.insert(all.values.end(), part.values.begin(), part.values.end());
+    }
+    return all;
+}
+
+WorkerTeam::WorkerTeam(const BatchComputers& computers, const BatchPlan& plan, int threads)
+    : first_([this, &computers, &plan, threads] {
+          machine::run_team(threads, [&](int granted) {
+              set_thread_count(granted);
+              work(computers, plan);
+          });
+      }) {
+    std::unique_lock lock(mutex_);
+    started_condition_.wait(lock, [&] { return times_.threads > 0; });
+}
+
+WorkerTeam::~WorkerTeam() {
+    drop();
+    close();
+}
+
+void WorkerTeam::give(std::size_t batch) {
+    {
+        const std::lock_guard lock(mutex_);
+        given_.push_back(batch);
+    }
+    queue_condition_.notify_one();
+}
+
+std::size_t WorkerTeam::drop() {
+    const std::lock_guard lock(mutex_);
+    const std::size_t count = given_.size();
+    given_.clear();
+    return count;
+}
+
+std::optional<FinishedBatch> WorkerTeam::take() {
+    const std::lock_guard lock(mutex_);
+    if (finished_.empty()) {
+        return std::nullopt;
+    }
+    FinishedBatch finished = std::move(finished_.front());
+    finished_.pop_front();
+    return finished;
+}
+
+void WorkerTeam::wait(std::chrono::milliseconds most) {
+    std::unique_lock lock(mutex_);
+    finished_condition_.wait_for(lock, most, [&] { return !finished_.empty(); });
+}
+
+TeamTimes WorkerTeam::close() {
+    {
+        const std::lock_guard lock(mutex_);
+        closed_ = true;
+    }
+    queue_condition_.notify_all();
+    if (first_.joinable()) {
+        first_.join();
+    }
+    return times_;
+}
+
+// Called by every thread of the team. Only the first call sets the number of threads, so all may
+// read it later.
+void WorkerTeam::set_thread_count(int threads) {
+    const std::lock_guard lock(mutex_);
+    if (times_.threads == 0) {
+        times_.threads = threads;
+        started_condition_.notify_one();
+    }
+}
+
+std::optional<std::size_t> WorkerTeam::next_batch() {
+    std::unique_lock lock(mutex_);
+    queue_condition_.wait(lock, [&] { return closed_ || !given_.empty(); });
+    if (given_.empty()) {
+        return std::nullopt;
+    }
+    const std::size_t batch = given_.front();
+    given_.pop_front();
+    return batch;
+}
+
+void WorkerTeam::submit_finished(FinishedBatch finished) {
+    {
+        const std::lock_guard lock(mutex_);
+        finished_.push_back(std::move(finished));
+    }
+    finished_condition_.notify_one();
+}
+
+// Work loop of one thread. Exceptions are caught here: otherwise the thread would end and its batch
+// would be lost.
+void WorkerTeam::work(const BatchComputers& computers, const BatchPlan& plan) noexcept {
+    const auto thread_start = WallClock::now();
+    BatchComputer compute;
+    Seconds seconds;
+    while (const auto batch = next_batch()) {
+        FinishedBatch finished;
+        finished.batch = *batch;
+        const auto start = WallClock::now();
+        try {
+            if (!compute) {
+                compute = computers();
+            }
+            finished.rows = compute(plan.batch(*batch), seconds);
+        } catch (const machine::Cancelled&) {
+            finished.stopped = true;
+        } catch (const std::exception& error) {
+            finished.failure = exception_text(error);
+        }
+        finished.seconds = seconds_since(start);
+        submit_finished(std::move(finished));
+    }
+    const std::lock_guard lock(mutex_);
+    times_.work += seconds;
+    times_.waiting += std::max(0.0, seconds_since(thread_start) - seconds.sum());
+}
+
+}  // namespace gearpod::mc

@@ -1,0 +1,504 @@
+#include "mc/ensemble/gearbox/gearbox_tile.hpp"
+
+#include <algorithm>
+#include <functional>
+#include <iterator>
+#include <memory>
+#include <numeric>
+#include <stdexcept>
+#include <utility>
+
+#include "lockstep/kernels/kernel_table.hpp"
+#include "lockstep/steps/stability.hpp"
+#include "machine/clocks.hpp"
+#include "mc/ensemble/coupling/neighbour_stages.hpp"
+#include "mc/ensemble/coupling/record_positions.hpp"
+#include "mc/ensemble/gearbox/integration_cache.hpp"
+#include "mc/ensemble/gearbox/solution_choice.hpp"
+#include "mc/ensemble/gearbox/tile_random_inputs.hpp"
+#include "mc/ensemble/gearbox/tile_sensors.hpp"
+#include "mc/study/fluctuations.hpp"
+#include "mc/study/housing.hpp"
+#include "mc/study/other_sources.hpp"
+#include "signals/sensor/sensor_signal.hpp"
+#include "signals/spectra/synchronous_average.hpp"
+#include "signals/windowing/folded_signal.hpp"
+
+namespace gearpod::mc {
+namespace {
+
+lockstep::FaultCurves fault_curves(const Scene& scene, std::span<const Realization> realizations) {
+    lockstep::FaultCurves faults{&scene.pairs(), scene.pattern(), {}};
+    faults.curve.resize(static_cast<std::size_t>(scene.fault().curves()));
+    for (int c = 0; c < scene.fault().curves(); ++c) {
+        for (const Realization& realization : realizations) {
+            faults.curve[static_cast<std::size_t>(c)].push_back(
+                scene.fault().mesh(c, realization.inputs.fault_size));
+        }
+    }
+    if (!scene.fault().worn_pairs().empty()) {
+        for (const Realization& realization : realizations) {
+            faults.wear.push_back(realization.inputs.fault_size);
+        }
+    }
+    return faults;
+}
+
+// Inputs for the integration of the gearboxes of one study. The parts refer to each other.
+struct SolutionInputs {
+    std::vector<Realization> realizations;  // [lane]
+    std::vector<dynamics::GearboxInputs> gearboxes;
+    lockstep::FaultCurves faults;
+    TileLoads loads;
+
+    SolutionInputs(const Scene& scene, std::vector<Realization> lanes)
+        : realizations(std::move(lanes)),
+          faults(fault_curves(scene, realizations)),
+          loads{draw_tooth_errors(scene, realizations), std::nullopt} {
+        for (const Realization& realization : realizations) {
+            gearboxes.push_back(scene.inputs(realization.inputs));
+        }
+    }
+    SolutionInputs(const SolutionInputs&) = delete;
+    SolutionInputs& operator=(const SolutionInputs&) = delete;
+
+    lockstep::CoupledStage stage(const Scene& scene, lockstep::RecordedSpan span) const {
+        return {{scene.plan(), gearboxes, faults},
+                loads.tooth_errors ? &*loads.tooth_errors : nullptr,
+                std::move(span)};
+    }
+};
+
+// A coupled stage next to the gearboxes of a tile, and its recorder.
+struct StageTask {
+    const Scene& scene;
+    const SensorPaths path;
+    const SolutionInputs inputs;
+    TileSensorRecorder recorder;
+
+    StageTask(const Scene& own, std::vector<Realization> realizations, int meshes)
+        : scene(own),
+          path(sensor_paths(own)),
+          inputs(own, std::move(realizations)),
+          recorder(own, path, inputs.realizations, meshes, meshes) {}
+};
+
+std::vector<lockstep::TileResult> run_coupled(int lanes,
+                                              std::span<const lockstep::CoupledStage> stages,
+                                              std::span<const lockstep::CouplingShaft> shafts,
+                                              const lockstep::Convergence& convergence) {
+    return with_lane_count(lanes, [&](auto count) -> std::vector<lockstep::TileResult> {
+        if constexpr (count() <= 8) {
+            return lockstep::run_coupled_stages<count()>(stages, shafts, convergence);
+        }
+        throw std::invalid_argument("coupled stages need at most eight lanes");
+    });
+}
+
+}  // namespace
+
+TileSolution solve(const Scene& scene, std::span<const Realization> realizations,
+                   const std::function<lockstep::Solution(const TileLoads&)>& solution_of) {
+    auto start = WallClock::now();
+    TileSolution solved;
+    SolutionInputs inputs(scene, {realizations.begin(), realizations.end()});
+    solved.stiffness_s = lap(start);
+    inputs.loads.excitation = draw_excitation(scene, realizations);
+    const lockstep::Solution solution = solution_of(inputs.loads);
+    const double processor_start = thread_processor_s();
+    solved.integration = with_lane_count(static_cast<int>(realizations.size()), [&](auto lanes) {
+        return lockstep::run_tile<lanes()>(scene.plan(), inputs.gearboxes, inputs.faults, solution);
+    });
+    solved.integration_s = lap(start);
+    solved.meshes = solved.integration.integrated_meshes;
+    solved.integration_cpu_s = thread_processor_s() - processor_start;
+    return solved;
+}
+
+TileSolution solve_coupled(const Scene& scene, std::span<const Realization> realizations,
+                           const lockstep::RecordOptions& options, const OnRecord& on_record,
+                           std::optional<std::size_t> faulty_stage) {
+    auto start = WallClock::now();
+    TileSolution solved;
+    const GearboxId& first = realizations.front().id;
+    for (const Realization& record : realizations) {
+        if (!share_positions(record.id, first)) {
+            throw std::logic_error("records of a coupled tile have stages at other positions");
+        }
+    }
+    const CoupledSpan span = coupled_span(scene, run_in_meshes(scene), first);
+    const SolutionInputs own(scene, {realizations.begin(), realizations.end()});
+    std::vector<std::unique_ptr<StageTask>> tasks;
+    std::vector<lockstep::CoupledStage> stages{
+        own.stage(scene, {scene.recorded_meshes(), span.run_in, options, on_record})};
+    for (const StageSpan& stage : span.stages) {
+        std::vector<Realization> gearboxes;
+        for (const Realization& record : realizations) {
+            gearboxes.push_back(
+                stage_gearbox(scene, stage.stage, record, faulty_stage == stage.stage));
+        }
+        tasks.push_back(std::make_unique<StageTask>(scene.stages()[stage.stage],
+                                                    std::move(gearboxes), stage.meshes));
+        StageTask& task = *tasks.back();
+        lockstep::CoupledStage& added = stages.emplace_back(task.inputs.stage(
+            task.scene, {stage.meshes, stage.run_in, {}, std::ref(task.recorder)}));
+        added.period = stage.period;
+        added.lead = stage.lead;
+        added.first_mesh = stage.first_mesh;
+    }
+    solved.stiffness_s = lap(start);
+    const double processor_start = thread_processor_s();
+    const std::size_t lanes = realizations.size();
+    std::vector<lockstep::TileResult> results =
+        run_coupled(static_cast<int>(lanes), stages, coupling_shafts(scene, span, lanes),
+                    convergence_of(scene));
+    solved.integration_s = lap(start);
+    solved.integration_cpu_s = thread_processor_s() - processor_start;
+    solved.integration = std::move(results[0]);
+    solved.meshes = solved.integration.integrated_meshes;
+    for (std::size_t i = 0; i < tasks.size(); ++i) {
+        const SensorRecorders recorders = tasks[i]->recorder.take_recorders();
+        solved.coupled.push_back(recorders.front().front()->signals(lanes, span.stages[i].meshes));
+        solved.meshes += results[i + 1].integrated_meshes;
+        // A gearbox fails if any of its stages does.
+        for (std::size_t lane = 0; lane < lanes; ++lane) {
+            if (solved.integration.status[lane] == lockstep::LaneStatus::ok) {
+                solved.integration.status[lane] = results[i + 1].status[lane];
+            }
+        }
+    }
+    return solved;
+}
+
+Status status_of(const Scene& scene, const InstanceInputs& instance, lockstep::LaneStatus status) {
+    const bool ok = status == lockstep::LaneStatus::ok;
+    const bool diverged = status == lockstep::LaneStatus::diverged;
+    if (scene.study().effects.quasi_static()) {
+        return ok ? Status::ok : diverged ? Status::no_equilibrium : Status::not_converged;
+    }
+    if (ok) {
+        // A solution without excitation does not grow even if it is unstable.
+        return lockstep::above_critical_speed(scene.plan().layout, scene.inputs(instance),
+                                              scene.mean_pairs())
+                   ? Status::supercritical
+                   : Status::ok;
+    }
+    switch (lockstep::find_instability(scene.plan(), scene.inputs(instance))) {
+        case lockstep::Instability::rotating_frame:
+            return Status::supercritical;
+        case lockstep::Instability::parametric:
+            return Status::parametric;
+        case lockstep::Instability::step:
+            return Status::step_too_long;
+        case lockstep::Instability::none:
+            break;
+    }
+    return diverged ? Status::diverged : Status::not_converged;
+}
+
+namespace {
+
+GearboxTile tile_of(std::vector<Realization> realizations, int lanes) {
+    GearboxTile tile;
+    tile.gearboxes = realizations.size();
+    tile.realizations = std::move(realizations);
+    const Realization last = tile.realizations.back();
+    tile.realizations.resize(static_cast<std::size_t>(lanes), last);
+    return tile;
+}
+
+GearboxTile drawn_tile(const Scene& scene, std::span<const GearboxId> ids, int lanes) {
+    auto start = WallClock::now();
+    std::vector<Realization> realizations;
+    for (const GearboxId& id : ids) {
+        realizations.push_back(scene.sampler().draw(id));
+    }
+    GearboxTile tile = tile_of(std::move(realizations), lanes);
+    tile.sampling_s = lap(start);
+    return tile;
+}
+
+void add_status(const Scene& scene, GearboxTile& tile) {
+    for (std::size_t lane = 0; lane < tile.gearboxes; ++lane) {
+        tile.status.push_back(
+            status_of(scene, tile.realizations[lane].inputs, tile.integration.status[lane]));
+    }
+}
+
+void keep_solution(TileSolution solved, GearboxTile& tile) {
+    static_cast<TileSolution&>(tile) = std::move(solved);
+    if (const std::vector<char>& superposed = tile.integration.superposed; !superposed.empty()) {
+        tile.superposed = std::ranges::count(std::span(superposed).first(tile.gearboxes), true);
+        tile.superposition_fallbacks =
+            static_cast<std::ptrdiff_t>(tile.gearboxes) - tile.superposed;
+    }
+}
+
+// Solves the tile by the strategy of its study.
+void solve_by_choice(const Scene& scene, const lockstep::RecordOptions& records,
+                     const OnRecord& on_record, const TileOptions& options, GearboxTile& tile) {
+    keep_solution(
+        is_coupled(scene.study())
+            ? solve_coupled(scene, tile.realizations, records, on_record, options.faulty_stage)
+            : solve(scene, tile.realizations,
+                    [&](const TileLoads& loads) {
+                        return choose_solution(scene, loads, records, on_record, tile.parts);
+                    }),
+        tile);
+}
+
+// Solves the tile and records its sensor signals meanwhile.
+void solve_and_record(const Scene& scene, const SensorPaths& path, const TileOptions& options,
+                      GearboxTile& tile) {
+    TileSensorRecorder recorder(scene, path, tile.realizations, options.signal_meshes);
+    recorder.record_only(tile.parts);
+    solve_by_choice(scene, {}, std::ref(recorder), options, tile);
+    tile.sensor_recorders = recorder.take_recorders();
+    tile.integration_s -= recorder.spent_s();
+    tile.integration_cpu_s -= recorder.spent_s();
+    tile.signals_s += recorder.spent_s();
+}
+
+// Computes the signals of the sensors from an integrated tile.
+void add_signals(const Scene& scene, const SensorPaths& path, GearboxTile& tile) {
+    add_status(scene, tile);
+    auto start = WallClock::now();
+    tile.views = views_of(scene, tile);
+    if (!scene.study().effects.quasi_static()) {
+        tile.tones = draw_tones(scene, tile.realizations);
+    }
+    if (!tile.sensor_recorders.empty()) {
+        for (std::size_t s = 0; s < path.size(); ++s) {
+            tile.folded.push_back(has_response(scene.study(), s)
+                                      ? machine::AlignedVector()
+                                      : tile.sensor_recorders[s].front()->folded());
+        }
+        tile.te_turn = tile.sensor_recorders.front().front()->averaged_te();
+        tile.signals_s += lap(start);
+        return;
+    }
+    if (has_gain(tile.realizations)) {
+        for (lockstep::MeshRecord& record : tile.integration.records) {
+            apply_gain(tile.realizations, record.acceleration);
+        }
+    }
+    // A quasi-static gearbox has no inertia and therefore no acceleration.
+    if (!scene.study().effects.quasi_static()) {
+        const signals::FoldPlan plan(tile.integration.content, scene.span());
+        const std::vector<double> exponents = path_exponents(tile.realizations, 0);
+        for (std::size_t s = 0; s < path.size(); ++s) {
+            machine::AlignedVector& folded = tile.folded.emplace_back();
+            if (!has_response(scene.study(), s)) {
+                signals::fold_squares(tile.views, plan, path[s].front(), exponents, tile.tones,
+                                      folded);
+            }
+        }
+    }
+    signals::average_te(tile.views, tile.integration.content, scene.span(),
+                        scene.te_samples_per_mesh(), tile.te_turn);
+    tile.signals_s += lap(start);
+}
+
+void run_tile(const Scene& scene, const SensorPaths& path, const TileOptions& options,
+              GearboxTile& tile) {
+    // The motion of coupled gearboxes depends on their neighbours, too.
+    const IntegrationCache* const cache =
+        options.records || is_coupled(scene.study()) ? nullptr : options.cache;
+    auto start = WallClock::now();
+    if (const auto before = cache != nullptr ? cache->find(tile.realizations) : nullptr) {
+        tile.integration = *before;
+        tile.integration_s = lap(start);
+    } else if (records_during_integration(scene) && !options.records) {
+        solve_and_record(scene, path, options, tile);
+    } else {
+        solve_by_choice(scene, options.records.value_or(lockstep::RecordOptions{}), nullptr,
+                        options, tile);
+        if (cache != nullptr) {
+            cache->keep(tile.realizations, tile.integration);
+        }
+    }
+    add_signals(scene, path, tile);
+}
+
+GearboxTile run_records(const Scene& scene, const SensorPaths& path, std::span<const GearboxId> ids,
+                        int fewest, const TileOptions& options) {
+    GearboxTile tile = drawn_tile(scene, ids, lockstep::lanes_for(scene.plan().precision, fewest));
+    if (integrates_records_only(scene)) {
+        tile.parts = parts_of_records(scene, tile.realizations);
+    }
+    run_tile(scene, path, options, tile);
+    return tile;
+}
+
+// Adds the times and counts of one tile to those of another.
+void add_costs(const GearboxTile& of, GearboxTile& tile) {
+    tile.sampling_s += of.sampling_s;
+    tile.stiffness_s += of.stiffness_s;
+    tile.integration_s += of.integration_s;
+    tile.signals_s += of.signals_s;
+    tile.integration_cpu_s += of.integration_cpu_s;
+    tile.meshes += of.meshes;
+    tile.superposed += of.superposed;
+    tile.superposition_fallbacks += of.superposition_fallbacks;
+}
+
+// Baseline records of the gearboxes, one gearbox after the other.
+std::vector<GearboxId> baselines_of(const Study& study, std::span<const GearboxId> ids) {
+    const std::size_t records = computed_baselines(study);
+    std::vector<GearboxId> earlier;
+    for (GearboxId id : ids) {
+        id.record = Record::baseline;
+        for (id.baseline = 0; id.baseline < records; ++id.baseline) {
+            earlier.push_back(id);
+        }
+    }
+    return earlier;
+}
+
+// Computes signals, status and times of the baseline records, at most as many at a time as there
+// are lanes. Their motion is freed before the test records are integrated.
+GearboxTile run_baselines(const Scene& scene, const SensorPaths& path,
+                          std::span<const GearboxId> ids, int fewest,
+                          const IntegrationCache* cache) {
+    const int meshes = needed_sensor_meshes(scene);
+    const std::vector<GearboxId> earlier = baselines_of(scene.study(), ids);
+    const auto lanes =
+        static_cast<std::size_t>(lockstep::lanes_for(scene.plan().precision, fewest));
+    // Order in which they are computed: records at the same positions follow each other.
+    std::vector<std::size_t> order(earlier.size());
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    if (shares_positions(scene.study())) {
+        std::ranges::stable_sort(order, {}, [&](std::size_t i) { return earlier[i].baseline; });
+    }
+    std::vector<GearboxId> ordered;
+    std::ranges::transform(order, std::back_inserter(ordered),
+                           [&](std::size_t i) { return earlier[i]; });
+    GearboxTile all;
+    all.baseline.resize(earlier.size());
+    all.status.resize(earlier.size());
+    for (std::size_t first = 0; first < order.size();) {
+        const auto left = std::span<const GearboxId>(ordered).subspan(first);
+        const auto some = left.first(shared_records(scene.study(), left, lanes));
+        GearboxTile tile =
+            run_records(scene, path, some, fewest, {.signal_meshes = meshes, .cache = cache});
+        auto start = WallClock::now();
+        std::vector<LaneSignals> signals = all_lane_signals(scene, path, tile, meshes);
+        tile.signals_s += lap(start);
+        for (std::size_t i = 0; i < some.size(); ++i) {
+            all.baseline[order[first + i]] = std::move(signals[i]);
+            all.status[order[first + i]] = tile.status[i];
+        }
+        add_costs(tile, all);
+        first += some.size();
+    }
+    return all;
+}
+
+// Replaces the status `ok` of each test record by the first other status of its baseline records.
+void merge_baseline_status(std::span<const Status> earlier, GearboxTile& tile) {
+    const std::size_t each = earlier.size() / tile.status.size();
+    for (std::size_t i = 0; i < earlier.size(); ++i) {
+        if (tile.status[i / each] == Status::ok) {
+            tile.status[i / each] = earlier[i];
+        }
+    }
+}
+
+void add_baselines(GearboxTile earlier, GearboxTile& tile) {
+    tile.baseline = std::move(earlier.baseline);
+    merge_baseline_status(earlier.status, tile);
+    add_costs(earlier, tile);
+}
+
+// Runs gearboxes that leave lanes free for all of their baseline records, which follow the test
+// records in the same tile.
+GearboxTile run_side_by_side(const Scene& scene, const SensorPaths& path,
+                             std::span<const GearboxId> ids, int lanes, TileOptions options) {
+    std::vector<GearboxId> both(ids.begin(), ids.end());
+    const std::vector<GearboxId> earlier = baselines_of(scene.study(), ids);
+    both.insert(both.end(), earlier.begin(), earlier.end());
+    if (options.signal_meshes >= 0) {
+        options.signal_meshes = std::max(options.signal_meshes, needed_sensor_meshes(scene));
+    }
+    GearboxTile tile = run_records(scene, path, both, lanes, options);
+    auto start = WallClock::now();
+    std::vector<LaneSignals> baseline;
+    for (std::size_t lane = ids.size(); lane < both.size(); ++lane) {
+        baseline.push_back(
+            lane_signals(scene, path, tile, static_cast<int>(lane), needed_sensor_meshes(scene)));
+    }
+    tile.baseline = std::move(baseline);
+    tile.signals_s += lap(start);
+    const std::vector<Status> all = std::move(tile.status);
+    tile.status.assign(all.begin(), all.begin() + static_cast<std::ptrdiff_t>(ids.size()));
+    merge_baseline_status(std::span(all).subspan(ids.size()), tile);
+    return tile;
+}
+
+}  // namespace
+
+GearboxTile run_gearboxes(const Scene& scene, const SensorPaths& path,
+                          std::span<const GearboxId> ids, int fewest, const TileOptions& options) {
+    if (!compares_records(scene.study())) {
+        return run_records(scene, path, ids, fewest, options);
+    }
+    const int lanes = lockstep::lanes_for(scene.plan().precision, fewest);
+    const std::size_t records = 1 + computed_baselines(scene.study());
+    if (!shares_positions(scene.study()) &&
+        records * ids.size() <= static_cast<std::size_t>(lanes)) {
+        return run_side_by_side(scene, path, ids, lanes, options);
+    }
+    GearboxTile earlier = run_baselines(scene, path, ids, fewest, options.cache);
+    GearboxTile tile = run_records(scene, path, ids, fewest, options);
+    add_baselines(std::move(earlier), tile);
+    return tile;
+}
+
+std::vector<double> contact_loss(const GearboxTile& tile, std::size_t lane, std::size_t meshes) {
+    const machine::AlignedVector& ratio = tile.integration.contact_loss;  // [gear pair][lane]
+    const std::size_t lanes = tile.realizations.size();
+    const std::size_t pairs = ratio.size() / lanes / std::max<std::size_t>(1, meshes);
+    std::vector<double> mean(meshes, 0.0);
+    for (std::size_t mesh = 0; mesh < meshes; ++mesh) {
+        for (std::size_t pair = mesh * pairs; pair < (mesh + 1) * pairs; ++pair) {
+            mean[mesh] += ratio[pair * lanes + lane];
+        }
+        mean[mesh] /= static_cast<double>(pairs);
+    }
+    return mean;
+}
+
+GearboxTile run_realizations(const Scene& scene, const SensorPaths& path,
+                             std::vector<Realization> realizations, int fewest,
+                             const TileOptions& options) {
+    GearboxTile tile =
+        tile_of(std::move(realizations), lockstep::lanes_for(scene.plan().precision, fewest));
+    run_tile(scene, path, options, tile);
+    return tile;
+}
+
+GearboxTile run_fault_perturbations(const Scene& scene, std::vector<Realization> realizations,
+                                    int lanes, const lockstep::SpanStates& healthy) {
+    GearboxTile tile = tile_of(std::move(realizations), lanes);
+    keep_solution(
+        solve(scene, tile.realizations,
+              [&](const TileLoads& loads) { return fault_perturbation(scene, loads, healthy); }),
+        tile);
+    add_status(scene, tile);
+    return tile;
+}
+
+GearboxTile complete_tile(const Scene& scene, const SensorPaths& path,
+                          std::span<const GearboxId> ids, lockstep::TileResult integration) {
+    GearboxTile tile = drawn_tile(scene, ids, static_cast<int>(integration.status.size()));
+    tile.integration = std::move(integration);
+    add_signals(scene, path, tile);
+    if (compares_records(scene.study())) {
+        add_baselines(
+            run_baselines(scene, path, ids, static_cast<int>(tile.realizations.size()), nullptr),
+            tile);
+    }
+    return tile;
+}
+
+}  // namespace gearpod::mc

@@ -1,0 +1,274 @@
+#include "mc/ensemble/gearbox/other_sources.hpp"
+
+#include <algorithm>
+#include <boost/random/uniform_01.hpp>
+#include <cmath>
+#include <iterator>
+#include <limits>
+#include <memory>
+#include <numbers>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "machine/team.hpp"
+#include "mc/ensemble/coupling/neighbour_stages.hpp"
+#include "mc/ensemble/gearbox/record_window.hpp"
+#include "mc/ensemble/gearbox/tile_random_inputs.hpp"
+#include "mc/study/housing.hpp"
+#include "signals/spectra/resampling.hpp"
+
+namespace gearpod::mc {
+namespace {
+
+void add_bearings(const Scene& scene, const Realization& realization, SourceRole role,
+                  std::vector<double>& samples) {
+    const std::vector<Bearing>& bearings = scene.study().sensor.bearings;
+    for (std::size_t i = 0; i < bearings.size(); ++i) {
+        if (bearings[i].role == role) {
+            machine::throw_if_cancelled();
+            Philox engine =
+                record_stream(scene.study(), realization.id,
+                              with_suffix(StreamPurpose::bearing_impulses, std::to_string(i)));
+            signals::add_bearing_vibration(bearing_impulses(scene, realization.inputs, bearings[i]),
+                                           scene.study().sensor.low_pass_Hz,
+                                           sample_s(scene, realization.inputs), engine, samples);
+        }
+    }
+}
+
+// Interpolation of periods of that many samples. A thread keeps the one used last, because most
+// stages have one length.
+signals::PeriodicInterpolation& interpolation_of(std::size_t samples) {
+    thread_local std::unique_ptr<signals::PeriodicInterpolation> last;
+    if (!last || last->samples() != static_cast<int>(samples)) {
+        last = std::make_unique<signals::PeriodicInterpolation>(static_cast<int>(samples));
+    }
+    return *last;
+}
+
+// Adds `factor` times a vibration to samples, the first of which lies at position `start` among its
+// samples and the others each `step` further.
+void add_vibration(const std::vector<double>& vibration, double factor, double start, double step,
+                   std::vector<double>& samples) {
+    const signals::PeriodicSpline signal = interpolation_of(vibration.size()).spline(vibration);
+    for (std::size_t i = 0; i < samples.size(); ++i) {
+        samples[i] += factor * signal(start + step * static_cast<double>(i));
+    }
+}
+
+// Adds `factor` times the steady vibration of a stage's gearbox, from a random position on, to the
+// samples of a record.
+void add_stage_vibration(const Scene& scene, std::size_t stage, const Realization& realization,
+                         const Realization& gearbox, const std::vector<double>& vibration,
+                         double factor, std::vector<double>& samples) {
+    Philox engine = record_stream(
+        scene.study(), realization.id,
+        with_suffix(StreamPurpose::stage_start, scene.study().sensor.stages[stage].name));
+    const double start =
+        boost::random::uniform_01<double>()(engine) * static_cast<double>(vibration.size());
+    const double step =
+        sample_s(scene, realization.inputs) / sample_s(scene.stages()[stage], gearbox.inputs);
+    add_vibration(vibration, factor, start, step, samples);
+}
+
+// Adds the vibration of the coupled stages of a record to its samples.
+void add_coupled_stages(const Scene& scene, const CoupledSpan& span, const LaneSignals& record,
+                        std::vector<double>& samples) {
+    for (std::size_t i = 0; i < record.coupled.size(); ++i) {
+        const StageSpan& stage = span.stages[i];
+        const double per_mesh = scene.stages()[stage.stage].samples_per_mesh();
+        std::vector<double> vibration = record.coupled[i];
+        if (!std::ranges::all_of(vibration, [](double value) { return std::isfinite(value); })) {
+            std::ranges::fill(samples, std::numeric_limits<double>::quiet_NaN());
+            return;  // a gearbox of the train has failed
+        }
+        // Both ends lie outside of the record. They fade out, so that the vibration can be
+        // continued periodically.
+        const auto fade = static_cast<std::size_t>(per_mesh);
+        for (std::size_t k = 0; k < fade; ++k) {
+            const double weight = 0.5 - 0.5 * std::cos(std::numbers::pi * static_cast<double>(k) /
+                                                       static_cast<double>(fade));
+            vibration[k] *= weight;
+            vibration[vibration.size() - 1 - k] *= weight;
+        }
+        add_vibration(vibration, scene.study().sensor.stages[stage.stage].gain,
+                      -stage.start / stage.period * per_mesh,
+                      per_mesh / stage.period / scene.samples_per_mesh(), samples);
+    }
+}
+
+// Adds to samples of records what the fault of a coupled stage changes in them: vibration of that
+// stage, and of the study's gearbox to which the shaft carries it. NaN if a gearbox fails.
+void add_coupled_fault(const Scene& scene, std::size_t stage,
+                       std::span<const Realization> realizations,
+                       std::span<const LaneSignals> records,
+                       std::vector<std::vector<double>>& samples) {
+    const SensorPaths path = sensor_paths(scene);
+    const GearboxTile tile =
+        run_realizations(scene, path, {realizations.begin(), realizations.end()},
+                         scene.study().numerics.lanes, {.faulty_stage = stage});
+    const std::vector<LaneSignals> faulty =
+        all_lane_signals(scene, path, tile, scene.signal_meshes());
+    for (std::size_t r = 0; r < samples.size(); ++r) {
+        for (std::size_t i = 0; i < samples[r].size(); ++i) {
+            samples[r][i] += tile.status[r] == Status::ok
+                                 ? faulty[r].sensor[i] - records[r].sensor[i]
+                                 : std::numeric_limits<double>::quiet_NaN();
+        }
+    }
+}
+
+// Gearbox of a stage next to that of a record, and the record's samples to which `factor` times its
+// vibration is added.
+struct StageRecord {
+    const Realization* record;
+    Realization gearbox;
+    double factor;
+    std::vector<double>* samples;
+};
+
+// Samples become NaN if the stage's gearbox fails.
+void add_stage(const Scene& scene, std::size_t stage, std::span<const StageRecord> records) {
+    const Scene& own = scene.stages()[stage];
+    const SensorPaths path = sensor_paths(own);
+    const auto lanes = static_cast<std::size_t>(own.study().numerics.lanes);
+    for (std::size_t first = 0; first < records.size(); first += lanes) {
+        const auto part = records.subspan(first, std::min(lanes, records.size() - first));
+        std::vector<Realization> gearboxes;
+        std::ranges::transform(part, std::back_inserter(gearboxes), &StageRecord::gearbox);
+        const GearboxTile tile =
+            run_realizations(own, path, gearboxes, static_cast<int>(part.size() > 1 ? lanes : 1));
+        const std::vector<LaneSignals> signals =
+            all_lane_signals(own, path, tile, own.span_meshes());
+        for (std::size_t i = 0; i < part.size(); ++i) {
+            machine::throw_if_cancelled();
+            if (tile.status[i] == Status::ok) {
+                add_stage_vibration(scene, stage, *part[i].record, part[i].gearbox,
+                                    signals[i].sensor, part[i].factor, *part[i].samples);
+            } else {
+                std::ranges::fill(*part[i].samples, std::numeric_limits<double>::quiet_NaN());
+            }
+        }
+    }
+}
+
+// Vibration of other sources as the measuring chain of an additional sensor passes it. `response`
+// is made where it is needed first.
+std::vector<double> passed(const signals::MeasuringChain& chain, const std::vector<double>& samples,
+                           double sample_s, std::optional<signals::PeriodicResponse>& response) {
+    if (!response) {
+        response.emplace(static_cast<int>(samples.size()));
+    }
+    response->add(samples, 1.0 / sample_s, {.modes = {}, .measured = {}, .chain = chain});
+    return response->take(chain, 1.0 / sample_s);
+}
+
+// Adds samples to those of a sensor of a record.
+void add_samples(const Scene& scene, const std::vector<double>& samples, LaneSignals& sensor) {
+    std::ranges::transform(sensor.sensor, samples, sensor.sensor.begin(), std::plus<>());
+    fold_again(scene, sensor);
+}
+
+}  // namespace
+
+signals::BearingImpulses bearing_impulses(const Scene& scene, const InstanceInputs& inputs,
+                                          const Bearing& bearing) {
+    const double shaft_Hz = bearing.shaft
+                                ? scene.drivetrain().shaft_turns_per_mesh(*bearing.shaft) /
+                                      dynamics::mesh_period_s(scene.inputs(inputs))
+                                : bearing.shaft_Hz;
+    const double load_turns = load_turns_per_turn(bearing);
+    return {
+        .rate_Hz = impulses_per_turn(bearing) * shaft_Hz,
+        .slip = bearing.slip,
+        .load_turns_Hz = load_turns * shaft_Hz,
+        .load_zone_rad = load_turns > 0.0 ? bearing.load_zone_deg * std::numbers::pi / 180.0 : 0.0,
+        .amplitude_m_s2 = inputs.bearing_level * bearing.amplitude_m_s2,
+        .resonance_Hz = bearing.resonance_Hz,
+        .damping = bearing.damping};
+}
+
+void add_background(const Scene& scene, std::span<const Realization> realizations,
+                    std::span<LaneSignals> records) {
+    const Sensor& sensor = scene.study().sensor;
+    const bool any =
+        !sensor.stages.empty() ||
+        std::ranges::count(sensor.bearings, SourceRole::background, &Bearing::role) > 0;
+    if (!any || records.empty() || records.front().sensor.empty()) {
+        return;
+    }
+    // Records of a coupled tile share it.
+    CoupledSpan span;
+    if (is_coupled(scene.study())) {
+        span = coupled_span(scene, run_in_meshes(scene), realizations.front().id);
+    }
+    std::vector<std::vector<double>> samples;
+    for (std::size_t i = 0; i < records.size(); ++i) {
+        samples.emplace_back(records[i].sensor.size(), 0.0);
+        add_bearings(scene, realizations[i], SourceRole::background, samples[i]);
+        add_coupled_stages(scene, span, records[i], samples[i]);
+    }
+    for (std::size_t stage = 0; stage < scene.stages().size(); ++stage) {
+        if (sensor.stages[stage].coupled()) {
+            continue;
+        }
+        std::vector<StageRecord> next;
+        for (std::size_t i = 0; i < records.size(); ++i) {
+            next.push_back({&realizations[i], stage_gearbox(scene, stage, realizations[i]),
+                            sensor.stages[stage].gain, &samples[i]});
+        }
+        add_stage(scene, stage, next);
+    }
+    std::optional<signals::PeriodicResponse> response;
+    for (std::size_t i = 0; i < records.size(); ++i) {
+        add_samples(scene, samples[i], records[i]);
+        for (std::size_t s = 0; s < records[i].additional.size(); ++s) {
+            const auto chain = measuring_chain(scene.study(), s + 1);
+            add_samples(scene,
+                        chain ? passed(*chain, samples[i], sample_s(scene, realizations[i].inputs),
+                                       response)
+                              : samples[i],
+                        records[i].additional[s]);
+        }
+    }
+}
+
+std::vector<LaneSignals> with_other_fault(const Scene& scene,
+                                          std::span<const Realization> realizations,
+                                          std::span<const LaneSignals> records) {
+    std::vector<LaneSignals> other(records.begin(), records.end());
+    if (records.front().sensor.empty()) {
+        return other;
+    }
+    std::vector<std::vector<double>> samples;
+    for (std::size_t i = 0; i < records.size(); ++i) {
+        samples.emplace_back(records[i].sensor.size(), 0.0);
+        add_bearings(scene, realizations[i], SourceRole::other_fault, samples[i]);
+    }
+    const std::vector<NeighbourStage>& stages = scene.study().sensor.stages;
+    for (std::size_t stage = 0; stage < stages.size(); ++stage) {
+        if (stages[stage].role != SourceRole::other_fault) {
+            continue;
+        }
+        if (stages[stage].coupled()) {
+            add_coupled_fault(scene, stage, realizations, records, samples);
+            continue;
+        }
+        std::vector<StageRecord> next;  // the faulty stage in place of the healthy one
+        for (std::size_t i = 0; i < records.size(); ++i) {
+            const double gain = stages[stage].gain;
+            next.push_back({&realizations[i], stage_gearbox(scene, stage, realizations[i], true),
+                            gain, &samples[i]});
+            next.push_back({&realizations[i], stage_gearbox(scene, stage, realizations[i]), -gain,
+                            &samples[i]});
+        }
+        add_stage(scene, stage, next);
+    }
+    for (std::size_t i = 0; i < records.size(); ++i) {
+        add_samples(scene, samples[i], other[i]);
+    }
+    return other;
+}
+
+}  // namespace gearpod::mc

@@ -1,0 +1,29 @@
+// Vibration of other sources in the records of a gearbox: faulty bearings and neighbouring stages.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "mc/ensemble/gearbox/gearbox_tile.hpp"
+#include "mc/study/other_sources.hpp"
+#include "signals/noise/bearing_impulses.hpp"
+
+namespace gearpod::mc {
+
+// Impulses of one of the study's bearings in a gearbox with these inputs.
+signals::BearingImpulses bearing_impulses(const Scene& scene, const InstanceInputs& inputs,
+                                          const Bearing& bearing);
+
+// Adds the background sources to the samples of all sensors of records and folds them again. No
+// effect without samples. Coupled stages have vibrated with the gearbox (LaneSignals::coupled);
+// other stages are integrated here. Samples count as evenly spaced even if the speed fluctuates. A
+// record next to whose gearbox a stage fails becomes NaN.
+void add_background(const Scene& scene, std::span<const Realization> realizations,
+                    std::span<LaneSignals> records);
+// The whole records of these gearboxes, with their background, and with the other fault in the
+// samples of the first sensor. Requires has_other_fault(study).
+std::vector<LaneSignals> with_other_fault(const Scene& scene,
+                                          std::span<const Realization> realizations,
+                                          std::span<const LaneSignals> records);
+
+}  // namespace gearpod::mc

@@ -1,0 +1,220 @@
+#include "mc/ensemble/gearbox/simulation.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <functional>
+#include <span>
+#include <stdexcept>
+
+#include "lockstep/excitation/excitation_rows.hpp"
+#include "lockstep/kernels/kernel_table.hpp"
+#include "mc/ensemble/gearbox/other_sources.hpp"
+#include "mc/ensemble/gearbox/realization_features.hpp"
+#include "mc/ensemble/gearbox/tile_random_inputs.hpp"
+#include "mc/plan/feature_needs.hpp"
+#include "mc/results/layout.hpp"
+#include "mc/study/fluctuations.hpp"
+
+namespace gearpod::mc {
+namespace {
+
+using Column = SignalColumn;
+
+// Mesh periods of the signals that are written.
+struct MeshRange {
+    long first = 0, count = 0;
+};
+
+// Values of the first lane over these mesh periods, repeating the recorded ones. value(record,
+// sample) reads one value.
+template <typename Value>
+std::vector<double> unroll(const GearboxTile& tile, int samples, MeshRange meshes, Value value) {
+    std::vector<double> all;
+    for (long k = meshes.first; k < meshes.first + meshes.count; ++k) {
+        const auto& content = tile.integration.content;
+        const int id = content[static_cast<std::size_t>(k) % content.size()];
+        for (int p = 0; p < samples; ++p) {
+            all.push_back(value(tile.integration.records[static_cast<std::size_t>(id)],
+                                static_cast<std::size_t>(p)));
+        }
+    }
+    return all;
+}
+
+void add_motion(const Scene& scene, const GearboxTile& tile, MeshRange meshes, Simulation& out) {
+    const auto names = dynamics::motion_names(scene.plan().layout);
+    const int samples = scene.samples_per_mesh();
+    const std::size_t lanes = tile.realizations.size();
+    out.columns.push_back({"te", "rad", unroll(tile, samples, meshes, [&](const auto& r, auto p) {
+                               return r.te[p * lanes];
+                           })});
+    for (std::size_t d = 0; d < names.size(); ++d) {
+        out.columns.push_back(
+            {names[d], "m", unroll(tile, samples, meshes, [&](const auto& r, auto p) {
+                 return r.motion[(p * names.size() + d) * lanes];
+             })});
+    }
+    const auto pairs = static_cast<std::size_t>(scene.plan().nodes.pairs);
+    for (std::size_t pair = 0; pair < pairs; ++pair) {
+        out.columns.push_back({scene.drivetrain().pair_name(static_cast<int>(pair)) + "_force", "N",
+                               unroll(tile, samples, meshes, [&](const auto& r, auto p) {
+                                   return r.mesh_force[(p * pairs + pair) * lanes];
+                               })});
+    }
+}
+
+// Adds a sensor's samples without and with noise. `signals` are those of the scene's
+// signal_meshes().
+void add_sensor(const Scene& scene, const Realization& realization, LaneSignals signals,
+                const RealizationFeatures& features, const std::string& name, std::size_t rows,
+                Simulation& out) {
+    const LaneSignals record = drawn_record(scene, std::move(signals), realization);
+    const std::vector<double>& clean = record.sensor;
+    const auto noise = sample_noise(scene, realization, clean, features.noise().sensor,
+                                    record.turns > 0 ? record.turns : scene.span().ring_teeth);
+    const auto first = [&](const std::vector<double>& all) {
+        return std::vector<double>(all.begin(), all.begin() + static_cast<std::ptrdiff_t>(rows));
+    };
+    std::vector<double> clipped = clean;
+    clip(realization.inputs, clipped);
+    out.columns.push_back({name, "m/s^2", first(clipped)});
+    for (std::size_t level = 0; level < out.noise_levels.size(); ++level) {
+        std::vector<double> noisy = clean;
+        add_noise(noise, out.noise_levels[level] * realization.inputs.noise_m_s2, noisy);
+        clip(realization.inputs, noisy);
+        out.columns.push_back(
+            {fmt::format("{}_noise_{:g}", name, out.noise_levels[level]), "m/s^2", first(noisy)});
+    }
+}
+
+// Adds the samples of all sensors. `features` are those of the first one.
+void add_sensors(const Scene& scene, const GearboxTile& tile, const SensorPaths& path,
+                 const RealizationFeatures& features, std::size_t rows, Simulation& out) {
+    const Realization& realization = tile.realizations[0];
+    const LaneSignals all = lane_signals(scene, path, tile, 0, scene.signal_meshes());
+    add_sensor(scene, realization, all, features, "sensor", rows, out);
+    if (has_other_fault(scene.study())) {
+        LaneSignals other =
+            with_other_fault(scene, std::span(&realization, 1), std::span(&all, 1)).front();
+        std::ranges::transform(other.sensor, all.sensor, other.sensor.begin(), std::minus<>());
+        std::vector<double> samples = drawn_record(scene, std::move(other), realization).sensor;
+        samples.resize(rows);
+        out.columns.push_back({kOtherFault, "m/s^2", std::move(samples)});
+    }
+    const std::vector<AdditionalSensor>& additional = scene.study().sensor.additional;
+    for (std::size_t s = 0; s < additional.size(); ++s) {
+        const HealthyReference healthy = healthy_reference(scene, path, s + 1);
+        RealizationFeatures own_features(scene, &healthy, false);
+        const Realization own = at_sensor(scene.study(), realization, s + 1);
+        SensorSignals signals = signals_of_sensor(
+            scene.study(), lane_signals(scene, path, tile, 0, own_features.meshes()), s);
+        own_features.compute(signals.linked(), own);
+        add_sensor(scene, own, signals_of_sensor(scene.study(), all, s).record, own_features,
+                   kSensorVariant + additional[s].name, rows, out);
+    }
+}
+
+// Time of every sample, s. A fluctuating speed makes the spacing uneven.
+std::vector<double> sample_times(const Scene& scene, const Realization& realization,
+                                 MeshRange meshes) {
+    const auto& grid = scene.plan().grid;
+    const dynamics::GearboxInputs own = scene.inputs(realization.inputs);
+    std::vector<double> times;
+    if (!speed_fluctuates(scene.study())) {
+        const double period_s = dynamics::mesh_period_s(own);
+        const int samples = scene.samples_per_mesh();
+        for (long i = 0; i < meshes.count * samples; ++i) {
+            times.push_back(static_cast<double>(i) / samples * period_s);
+        }
+        return times;
+    }
+    // Not every program is built for one lane.
+    const auto lanes =
+        static_cast<std::size_t>(lockstep::lanes_for(Precision::double_precision, 1));
+    const std::vector<dynamics::GearboxInputs> inputs(lanes, own);
+    const auto excitation = draw_excitation(scene, std::vector<Realization>(lanes, realization));
+    lockstep::ExcitationRows rows(scene.plan(), *excitation, inputs, /*with_time=*/true);
+    for (long mesh = meshes.first; mesh < meshes.first + meshes.count; ++mesh) {
+        rows.fill(static_cast<int>(mesh));
+        for (std::size_t step = 0; step < grid.steps.size(); ++step) {
+            if (grid.steps[step].sample >= 0) {
+                times.push_back(*rows.time(static_cast<int>(step)));
+            }
+        }
+    }
+    if (meshes.first > 0) {
+        const double start = times.front();
+        for (double& time : times) {
+            time -= start;
+        }
+    }
+    return times;
+}
+
+}  // namespace
+
+GearboxId id_of_row(const Study& study, long row) {
+    const long records = study.ensemble.threshold_records;
+    const long thresholds = study.ensemble.threshold_instances * records;
+    return row < thresholds
+               ? GearboxId{Group::threshold, static_cast<std::uint64_t>(row / records),
+                           Record::test, static_cast<std::uint64_t>(row % records),
+                           threshold_noise_sampling(study)}
+               : GearboxId{Group::graded, static_cast<std::uint64_t>(row - thresholds)};
+}
+
+Simulation simulate(const Scene& scene, const GearboxId& id, long meshes) {
+    const SensorPaths path = sensor_paths(scene);
+    const MeshRange range{
+        has_record_length(scene.study())
+            ? record_window(scene, id, record_turns(scene, scene.sampler().draw(id).inputs))
+                  .first_mesh
+            : 0,
+        meshes};
+    const GearboxTile tile =
+        run_gearboxes(scene, path, std::span(&id, 1), 1,
+                      {.records = lockstep::RecordOptions{
+                           .motion_meshes = static_cast<int>(range.first + range.count)}});
+    if (tile.status[0] != Status::ok) {
+        throw std::runtime_error(fmt::format("this gearbox {}", failure_text(tile.status[0])));
+    }
+    const HealthyReference healthy = healthy_reference(scene, path);
+    RealizationFeatures features(scene, &healthy);
+    Simulation out;
+    out.noise_levels = scene.study().sensor.noise_levels;
+    out.feature_names = scene.study().features.use;
+    out.features = features.compute(lane_signals(scene, path, tile, 0, features.meshes()),
+                                    tile.realizations[0]);
+
+    const int samples = scene.samples_per_mesh();
+    const auto inputs = scene.inputs(tile.realizations[0].inputs);
+    const auto rows = static_cast<std::size_t>(meshes) * static_cast<std::size_t>(samples);
+    Column time{"time", "s", {}}, phase{"mesh_phase", "mesh periods", {}},
+        angle{"carrier_angle", "rad", {}};
+    const double period_s = dynamics::mesh_period_s(inputs);
+    for (std::size_t i = 0; i < rows; ++i) {
+        const double mesh = static_cast<double>(range.first) + static_cast<double>(i) / samples;
+        phase.values.push_back(mesh);
+        angle.values.push_back(mesh * period_s * dynamics::frame_speed_rad_s(inputs));
+    }
+    time.values = sample_times(scene, tile.realizations[0], range);
+    out.columns = {time, phase};
+    if (scene.study().gearbox.kind == GearboxKind::planetary) {
+        out.columns.push_back(angle);
+    }
+    if (!scene.study().effects.quasi_static()) {
+        add_sensors(scene, tile, path, features, rows, out);
+    }
+    add_motion(scene, tile, range, out);
+    if (!tile.integration.contact_loss.empty()) {
+        const auto meshes_of_kind = meshes_of(scene.study().gearbox.kind);
+        const auto loss = contact_loss(tile, 0, meshes_of_kind.size());
+        for (std::size_t m = 0; m < loss.size(); ++m) {
+            out.contact_loss.push_back({mesh_name(meshes_of_kind[m]), {loss[m]}});
+        }
+    }
+    return out;
+}
+
+}  // namespace gearpod::mc

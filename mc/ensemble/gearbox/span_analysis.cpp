@@ -1,0 +1,165 @@
+#include "mc/ensemble/gearbox/span_analysis.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "mc/plan/feature_needs.hpp"
+#include "mc/study/gears.hpp"
+#include "signals/spectra/synchronous_average.hpp"
+#include "signals/windowing/vibration_separation.hpp"
+
+namespace gearpod::mc {
+namespace {
+
+using features::Gear;
+
+features::SeparatedTurn views(std::span<const double> turn, const signals::MeshSeparation& parts,
+                              int mesh_order) {
+    return {turn,
+            parts.regular(),
+            parts.residual(),
+            parts.difference(),
+            parts.envelope(),
+            parts.amplitude(),
+            mesh_order};
+}
+
+// Divides the statistics by their trend along the path; the squared RMS becomes a ratio, too.
+// Statistics that were not needed are empty.
+void remove_path_trend(int planets, signals::ToothStatistics& teeth) {
+    for (double& rms : teeth.rms) {
+        rms *= rms;
+    }
+    for (std::vector<double>* values : {&teeth.rms, &teeth.kurtosis, &teeth.crest, &teeth.m8a}) {
+        signals::remove_path_trend(*values, planets);
+    }
+    for (double& rms : teeth.rms) {
+        rms = std::sqrt(rms);
+    }
+}
+
+}  // namespace
+
+SpanAnalysis::SpanAnalysis(const Scene& scene, features::SignalSet needs)
+    : scene_(scene), needs_(needs) {
+    const int teeth = scene.span().planet_teeth;
+    if (needs_samples(needs)) {
+        window_ =
+            signals::tukey_window(scene.samples_per_mesh(), scene.study().features.tukey_taper);
+    }
+    if (needs.has<features::SensorTurn>()) {
+        sensor_turn_ =
+            std::make_unique<signals::MeshSeparation>(teeth * scene.samples_per_mesh(), teeth);
+    }
+    if (needs.has<features::TeParts>()) {
+        te_turn_ =
+            std::make_unique<signals::MeshSeparation>(teeth * scene.te_samples_per_mesh(), teeth);
+    }
+}
+
+void SpanAnalysis::te(std::span<const double> turn, features::FeatureInput& input) {
+    if (te_turn_) {
+        te_turn_->load(turn);
+        input.get<features::TeParts>() = {views(turn, *te_turn_, scene_.span().planet_teeth)};
+    }
+}
+
+void SpanAnalysis::sensor(std::span<const double> samples, int planet_turns, int planet_offset,
+                          features::FeatureInput& input) {
+    const auto phases = static_cast<std::size_t>(scene_.samples_per_mesh());
+    const signals::GearTurns planet{scene_.span().planet_teeth, planet_turns};
+    const auto span = samples.first(static_cast<std::size_t>(planet.meshes()) * phases);
+    input.get<features::SensorSamples>() = {span};
+    if (sensor_turn_) {
+        average_ = signals::synchronous_average(
+            span, static_cast<std::size_t>(scene_.span().planet_teeth) * phases);
+        sensor_turn_->load(average_);
+        input.get<features::SensorTurn>() = {
+            views(average_, *sensor_turn_, scene_.span().planet_teeth)};
+    }
+    if (needs_.has<features::FilteredSensor>()) {
+        const std::size_t path = static_cast<std::size_t>(scene_.path_meshes()) * phases;
+        input.get<features::FilteredSensor>().rms =
+            span.size() < path ? std::nan("") : signals::rms_without_average(span, path);
+    }
+    if (needs_.has<features::ToothMoments<Gear::planet>>()) {
+        planet_ = signals::tooth_statistics(span, planet, window_, planet_offset);
+        input.get<features::ToothMoments<Gear::planet>>() = {planet_.kurtosis, planet_.crest,
+                                                             planet_.m8a};
+    }
+    if (needs_.has<features::WhitenedToothRms>()) {
+        whitened_teeth(span, planet, input);
+    }
+    if (needs_.has<features::SeparatedPlanets>()) {
+        separated_planets(span, input);
+    }
+    central_teeth<Gear::sun>(samples, Member::sun, sun_, input);
+    central_teeth<Gear::ring>(samples, Member::ring, ring_, input);
+}
+
+void SpanAnalysis::whitened_teeth(std::span<const double> span, const signals::GearTurns& planet,
+                                  features::FeatureInput& input) {
+    if (!prewhitening_ || static_cast<std::size_t>(prewhitening_->points()) != span.size()) {
+        prewhitening_ = std::make_unique<signals::Prewhitening>(static_cast<int>(span.size()));
+    }
+    const int phases = scene_.samples_per_mesh();
+    signals::Windowing windowing(planet.layout(), phases, scene_.study().features.tukey_taper);
+    windowing.load(signals::fold_of_squares(prewhitening_->whitened(span),
+                                            static_cast<std::size_t>(planet.teeth) * phases));
+    whitened_rms_.resize(static_cast<std::size_t>(planet.teeth));
+    windowing.search(0.0, whitened_rms_);
+    input.get<features::WhitenedToothRms>() = {whitened_rms_};
+}
+
+void SpanAnalysis::separated_planets(std::span<const double> span, features::FeatureInput& input) {
+    const int phases = scene_.samples_per_mesh();
+    planets_ =
+        signals::planet_averages(span, scene_.span(), scene_.study().gearbox.planets, phases);
+    signals::MeshSeparation parts(scene_.span().planet_teeth * phases, scene_.span().planet_teeth);
+    planet_differences_.clear();
+    for (const std::vector<double>& planet : planets_) {
+        parts.load(planet);
+        planet_differences_.emplace_back(parts.difference().begin(), parts.difference().end());
+    }
+    input.get<features::SeparatedPlanets>() = {planets_, planet_differences_};
+}
+
+// The teeth of a fixed gear have constant positions along the path; their statistics are freed of
+// its trend.
+template <Gear kGear>
+void SpanAnalysis::central_teeth(std::span<const double> samples, Member member,
+                                 signals::ToothStatistics& statistics,
+                                 features::FeatureInput& input) {
+    using Rms = features::ToothRms<kGear>;
+    using Moments = features::ToothMoments<kGear>;
+    if (!needs_.has<Rms, Moments>()) {
+        return;
+    }
+    const int teeth = *teeth_of(scene_.study(), member);
+    const signals::GearTurns gear = central_turns(scene_.span(), teeth);
+    const auto phases = static_cast<std::size_t>(scene_.samples_per_mesh());
+    if (samples.size() < static_cast<std::size_t>(gear.meshes()) * phases) {
+        const std::vector<double> none(static_cast<std::size_t>(teeth), std::nan(""));
+        statistics = {none, none, none, none};
+        input.get<Rms>() = {statistics.rms};
+        input.get<Moments>() = {statistics.kurtosis, statistics.crest, statistics.m8a};
+        return;
+    }
+    const auto span = samples.first(static_cast<std::size_t>(gear.meshes()) * phases);
+    signals::Windowing windowing(gear.layout(), scene_.samples_per_mesh(),
+                                 scene_.study().features.tukey_taper);
+    std::vector<double> rms(static_cast<std::size_t>(teeth));
+    windowing.load(signals::fold_of_squares(span, static_cast<std::size_t>(teeth) * phases));
+    const int offset = windowing.search(0.0, rms);
+    if (needs_.has<Moments>()) {
+        statistics = signals::tooth_statistics(span, gear, window_, offset);
+    }
+    statistics.rms = std::move(rms);
+    if (scene_.path_meshes() == teeth) {
+        remove_path_trend(scene_.study().gearbox.planets, statistics);
+    }
+    input.get<Rms>() = {statistics.rms};
+    input.get<Moments>() = {statistics.kurtosis, statistics.crest, statistics.m8a};
+}
+
+}  // namespace gearpod::mc

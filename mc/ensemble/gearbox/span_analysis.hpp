@@ -1,0 +1,54 @@
+// Computes further signals that features need from the sensor samples over a span and from the
+// averaged transmission error. Used for simulated gearboxes and for measured signals.
+#pragma once
+
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "features/feature.hpp"
+#include "mc/plan/scene.hpp"
+#include "signals/prediction/inverse_filters.hpp"
+#include "signals/spectra/order_spectrum.hpp"
+#include "signals/windowing/vibration_separation.hpp"
+#include "signals/windowing/windowing.hpp"
+
+namespace gearpod::mc {
+
+// Holds scratch memory: use one object per thread.
+class SpanAnalysis {
+  public:
+    // `needs`: signals that features need.
+    SpanAnalysis(const Scene& scene, features::SignalSet needs);
+
+    // `samples`: m/s^2, P per mesh period. Features of the planets' teeth and turns need
+    // `planet_turns` turns: Z_r, or fewer in a short recording. Signals that need more mesh periods
+    // than there are (meshes_needed()) become NaN.
+    // `planet_offset`: first sample of the best window of the planets' teeth. Fills the needed
+    // parts of `input`, which refer to memory of this object.
+    void sensor(std::span<const double> samples, int planet_turns, int planet_offset,
+                features::FeatureInput& input);
+    // `turn`: averaged transmission error, rad.
+    void te(std::span<const double> turn, features::FeatureInput& input);
+
+  private:
+    // Adds the statistics of the teeth of a central gear if they are needed.
+    template <features::Gear kGear>
+    void central_teeth(std::span<const double> samples, Member member,
+                       signals::ToothStatistics& statistics, features::FeatureInput& input);
+
+    void whitened_teeth(std::span<const double> span, const signals::GearTurns& planet,
+                        features::FeatureInput& input);
+    void separated_planets(std::span<const double> span, features::FeatureInput& input);
+
+    const Scene& scene_;
+    features::SignalSet needs_;
+    std::vector<double> window_;  // one mesh period
+    std::unique_ptr<signals::MeshSeparation> sensor_turn_, te_turn_;
+    std::unique_ptr<signals::Prewhitening> prewhitening_;  // of the length used last
+    std::vector<double> average_, whitened_rms_;
+    std::vector<std::vector<double>> planets_, planet_differences_;
+    signals::ToothStatistics planet_, sun_, ring_;
+};
+
+}  // namespace gearpod::mc

@@ -1,0 +1,108 @@
+// Estimates a small miss rate for faults of one size by importance sampling. The noise of records
+// of faulty gearboxes is exponentially tilted towards misses
+// (signals/windowing/noise_importance_sampler.hpp).
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "analysis/detection/importance_sample.hpp"
+#include "analysis/detection/splitting.hpp"
+#include "mc/ensemble/ensemble.hpp"
+#include "mc/plan/scene.hpp"
+
+namespace gearpod::mc {
+
+struct MissRateRequest {
+    std::string feature;
+    double threshold = 0.0;    // alarm threshold in the feature's unit
+    double noise_level = 1.0;  // one of sensor.noise_levels
+    double size = 0.0;         // fault size, SI
+    long gearboxes = 0;
+    int records = 0;  // per gearbox, a multiple of NoiseImportanceSampler::kKinds
+};
+
+// Study restricted to one of its features and one noise level.
+Study of_feature(const Study& study, const std::string& feature, double noise_level);
+// Study in which all test gearboxes have a fault of this size (SI). The other inputs keep their
+// distributions.
+Study with_fault(const Study& study, double size);
+// Study restricted to the feature, noise level and fault size of the question, with its numbers of
+// gearboxes and records.
+Study study_for_miss_rate(const Study& study, const MissRateRequest& request);
+
+struct MissRateResult {
+    // Miss rate; empty if too few gearboxes contribute to it.
+    std::optional<analysis::ImportanceSample::Estimate> misses;
+    long gearboxes = 0, failed = 0;
+    long records = 0;  // number computed
+    // Number of plain records, one per gearbox, that would give the same standard error. NaN
+    // without `misses`, or if all faults are missed.
+    double counted = 0.0;
+};
+
+// Reason why a run of batches has no result, or "".
+std::string failure_reason(const EnsembleOutcome& outcome);
+// Sample size of plain counting that gives this relative variance of a rate; NaN for a rate of 1.
+double equivalent_sample_size(double rate, double variance);
+
+// Every rank must call it with the scene of study_for_miss_rate(); only rank 0 gets the result.
+// Throws std::runtime_error if a batch fails or the run is interrupted.
+MissRateResult estimate_miss_rate(const Scene& scene, const MissRateRequest& request,
+                                  const Ranks& ranks, Progress& progress,
+                                  const Interruption* interruption = nullptr);
+
+// Estimates small false-alarm or miss rates that are due to gearbox-to-gearbox variation, by
+// multilevel splitting of the random inputs (analysis/detection/splitting.hpp).
+
+// Either the threshold of healthy gearboxes for a false-alarm rate, or the miss rate of a given
+// threshold for gearboxes with a fault.
+struct RareRateRequest {
+    std::string feature;
+    double noise_level = 1.0;    // one of sensor.noise_levels
+    std::optional<double> rate;  // false-alarm rate; if empty, the miss rate is estimated for:
+    double size = 0.0;           // fault size, SI
+    double threshold = 0.0;      // alarm threshold in the feature's unit
+    long gearboxes = 0;          // members per level
+
+    // Side on which the rare values lie. Misses lie on the opposite side of alarms.
+    analysis::Alarm towards() const;
+};
+
+// Lower limit of miss rates that are estimated.
+inline constexpr double kSmallestMissRate = 1e-9;
+
+// Study for multilevel splitting. Healthy gearboxes are those of its threshold group.
+Study study_for_rare_rate(const Study& study, const RareRateRequest& request);
+
+// Random input whose distribution near an alarm or a miss differs from that of all gearboxes.
+struct ShiftedInput {
+    std::string name, unit;        // as in the column of the results
+    double all = 0.0, rare = 0.0;  // means
+};
+
+struct RareRateResult {
+    // Empty if too few families reach the rare event.
+    std::optional<analysis::SplitTail::Estimate> estimate;
+    analysis::Interval threshold;   // confidence interval of the threshold for the false-alarm rate
+    long computed = 0, failed = 0;  // number of gearboxes
+    std::size_t levels = 0;
+    double last_rate = 1.0;   // rate at which gearboxes fall into the last level
+    double least_kept = 1.0;  // smallest fraction of accepted exchanges of a level
+    // Number of gearboxes that plain counting needs for the same standard error; NaN without an
+    // estimate.
+    double counted = 0.0;
+    std::vector<ShiftedInput> shifted;  // in the last level
+};
+
+// Largest number of gearboxes that estimate_rare_rate() computes.
+long largest_gearbox_count(const RareRateRequest& request);
+
+// Every rank must call it with the scene of study_for_rare_rate(); only rank 0 gets the result.
+// Throws std::runtime_error if a batch fails or the run is interrupted.
+RareRateResult estimate_rare_rate(const Scene& scene, const RareRateRequest& request,
+                                  const Ranks& ranks, Progress& progress,
+                                  const Interruption* interruption = nullptr);
+
+}  // namespace gearpod::mc

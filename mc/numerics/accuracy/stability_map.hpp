@@ -1,0 +1,35 @@
+// Stability map of a study: steps per mesh period at which each integrator is stable, over the
+// stiffness of the meshes.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "mc/plan/scene.hpp"
+
+namespace gearpod::mc {
+
+struct StabilityCurve {
+    std::string integrator;
+    std::vector<double> steps;  // fewest stable ones, by factor
+};
+
+// The gearbox with one of the properties that tests/hard examines.
+struct HardCase {
+    std::string name;
+    std::vector<double> steps;  // fewest stable ones, by curve of the map
+};
+
+struct StabilityMap {
+    std::vector<double> factors;         // on the largest stiffness of every gear pair
+    std::vector<StabilityCurve> curves;  // of explicit integrators
+    std::vector<HardCase> hard;          // at the study's own mesh stiffness
+    std::vector<std::string> implicit;   // integrators that are stable everywhere
+    std::string own;                     // the study's integrator
+    double own_steps = 0.0;
+};
+
+// Map of the nominal gearbox. Bearings and masses stay; mesh damping follows the study's law.
+StabilityMap stability_map(const Scene& scene);
+
+}  // namespace gearpod::mc

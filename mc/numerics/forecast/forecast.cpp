@@ -1,0 +1,427 @@
+#include "mc/numerics/forecast/forecast.hpp"
+
+#include <algorithm>
+#include <boost/random/normal_distribution.hpp>
+#include <boost/random/uniform_int_distribution.hpp>
+#include <cmath>
+#include <functional>
+#include <numeric>
+#include <queue>
+#include <vector>
+
+#include "machine/clocks.hpp"
+#include "mc/ensemble/ensemble.hpp"
+#include "mc/ensemble/gearbox/simulation.hpp"
+#include "mc/ensemble/gearbox/solution_choice.hpp"
+#include "mc/numerics/numerical_error.hpp"
+#include "mc/results/reliability_of_results.hpp"
+
+namespace gearpod::mc {
+namespace {
+
+// Peak memory of the assessment in bytes per value (gearbox, feature and noise level): at first
+// while thresholds are set, which holds up to 64 MB of values at once, later for the columns of all
+// values and of the pairs in work. Measured with 0.2, 2.6, 4 and 40 million values.
+constexpr double kFirstBytesOfValue = 40.0, kBytesOfValue = 22.0, kBytesBeyond = 70e6;
+
+// Memory in bytes per record while the rates of a feature are counted at one noise level, and per
+// value of its columns (result_rows.hpp), which grow by doubling.
+constexpr double kBytesOfRecord = 60.0, kBytesOfColumns = 16.0;
+
+double sum_of_products(const std::vector<double>& a, const std::vector<double>& b) {
+    return std::inner_product(a.begin(), a.end(), b.begin(), 0.0);
+}
+
+// Least-squares parabola through values over sizes, in terms that are orthogonal over the sizes.
+// Only terms of at least three standard errors are kept: the uncertainty of a few gearboxes must
+// not look like an effect.
+class Trend {
+  public:
+    Trend(const std::vector<double>& sizes, const std::vector<double>& values) {
+        const auto n = static_cast<double>(sizes.size());
+        if (n < 4.0) {
+            return;
+        }
+        mean_ = std::accumulate(sizes.begin(), sizes.end(), 0.0) / n;
+        std::vector<double> linear, square;
+        for (const double size : sizes) {
+            linear.push_back(size - mean_);
+            square.push_back((size - mean_) * (size - mean_));
+        }
+        const double x2 = sum_of_products(linear, linear);
+        if (!(x2 > 0.0)) {
+            return;
+        }
+        square_mean_ = x2 / n;
+        square_slope_ = sum_of_products(linear, square) / x2;
+        for (std::size_t i = 0; i < square.size(); ++i) {
+            square[i] -= square_mean_ + square_slope_ * linear[i];
+        }
+        const double mean = std::accumulate(values.begin(), values.end(), 0.0) / n;
+        const double p2 = sum_of_products(square, square);
+        const double b1 = sum_of_products(linear, values) / x2;
+        const double b2 = p2 > 0.0 ? sum_of_products(square, values) / p2 : 0.0;
+        double residual = 0.0;
+        for (std::size_t i = 0; i < values.size(); ++i) {
+            const double rest = values[i] - mean - b1 * linear[i] - b2 * square[i];
+            residual += rest * rest;
+        }
+        const double least = 9.0 * residual / (n - 3.0);
+        linear_ = b1 * b1 * x2 >= least ? b1 : 0.0;
+        square_ = b2 * b2 * p2 >= least ? b2 : 0.0;
+    }
+
+    // Without the constant term.
+    double at(double size) const {
+        const double x = size - mean_;
+        return linear_ * x + square_ * (x * x - square_mean_ - square_slope_ * x);
+    }
+
+  private:
+    double mean_ = 0.0, square_mean_ = 0.0, square_slope_ = 0.0;
+    double linear_ = 0.0, square_ = 0.0;
+};
+
+// Computed gearboxes of one group, sorted by fault size.
+class Pool {
+  public:
+    Pool(const RunCost& calibration, const RowShape& shape, Group group)
+        : rows_(calibration.rows), shape_(shape) {
+        for (std::size_t row = 0; row < calibration.gearboxes.size(); ++row) {
+            if (calibration.gearboxes[row].group == group) {
+                order_.push_back(row);
+            }
+        }
+        std::sort(order_.begin(), order_.end(),
+                  [&](std::size_t a, std::size_t b) { return size(a) < size(b); });
+    }
+
+    bool empty() const { return order_.empty(); }
+
+    // Random gearbox with this fault size, or any gearbox of the group if there is none.
+    std::size_t draw(double requested, Philox& engine) const {
+        auto [low, high] = std::pair(
+            std::partition_point(order_.begin(), order_.end(),
+                                 [&](std::size_t row) { return size(row) < requested; }),
+            std::partition_point(order_.begin(), order_.end(),
+                                 [&](std::size_t row) { return size(row) <= requested; }));
+        if (low == high) {
+            low = order_.begin();
+            high = order_.end();
+        }
+        return *(low + boost::random::uniform_int_distribution<std::ptrdiff_t>(
+                           0, high - low - 1)(engine));
+    }
+
+    // Trend of a feature over the fault size.
+    Trend trend(std::size_t feature, std::size_t level) const {
+        std::vector<double> sizes, values;
+        for (const std::size_t row : order_) {
+            if (const double one = value(row, feature, level); std::isfinite(one)) {
+                sizes.push_back(size(row));
+                values.push_back(one);
+            }
+        }
+        return {sizes, values};
+    }
+
+    double value(std::size_t row, std::size_t feature, std::size_t level) const {
+        return rows_.values[row * shape_.values() + shape_.value_of(feature, level)];
+    }
+
+    // Standard deviation of the smoothing: that of the values, divided by the fifth root of their
+    // number.
+    double smoothing(std::size_t feature, std::size_t level) const {
+        double sum = 0.0, squares = 0.0, n = 0.0;
+        for (const std::size_t row : order_) {
+            if (const double one = value(row, feature, level); std::isfinite(one)) {
+                sum += one;
+                squares += one * one;
+                n += 1.0;
+            }
+        }
+        const double variance = n > 1.0 ? (squares - sum * sum / n) / (n - 1.0) : 0.0;
+        return std::sqrt(std::max(0.0, variance)) * std::pow(std::max(1.0, n), -0.2);
+    }
+
+    // The last parameter.
+    double size(std::size_t row) const {
+        return rows_.values[row * shape_.values() + shape_.fault_size()];
+    }
+
+  private:
+    const BatchRows& rows_;
+    const RowShape shape_;
+    std::vector<std::size_t> order_;
+};
+
+// Noise levels in order of their distance from the middle one.
+std::vector<std::size_t> level_order(std::size_t levels) {
+    std::vector<std::size_t> order(levels);
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    const auto middle = static_cast<double>(levels / 2);
+    std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+        return std::abs(static_cast<double>(a) - middle) <
+               std::abs(static_cast<double>(b) - middle);
+    });
+    return order;
+}
+
+// Number of gearboxes, on which areas and curves are based, independent of the number of records.
+std::size_t gearboxes_of(const BatchPlan& plan) {
+    return plan.threshold_gearboxes() + plan.graded_rows();
+}
+
+std::size_t values_of(const Study& study, const BatchPlan& plan) {
+    return gearboxes_of(plan) * study.features.use.size() * study.sensor.noise_levels.size();
+}
+
+double seconds_of_analysis(Results results, int threads, bool assessed) {
+    const auto start = WallClock::now();
+    results.detection = detect_all(results);
+    if (assessed) {
+        reliability_of(results, ColumnRows(results), "", threads);
+    }
+    return seconds_since(start);
+}
+
+}  // namespace
+
+Results synthetic_results(const Scene& scene, const RunCost& calibration, const BatchPlan& plan,
+                          std::size_t rows, const std::vector<std::size_t>& levels) {
+    Study study = scene.study();
+    study.ensemble.threshold_records = 1;  // a row for each gearbox
+    const RowShape shape = row_shape(study);
+    Results results = results_frame(study);
+    results.noise_levels.clear();
+    for (const std::size_t level : levels) {
+        results.noise_levels.push_back(study.sensor.noise_levels[level]);
+    }
+    results.request.noise_levels = results.noise_levels;
+    results.contact_loss.clear();  // not part of the analysis
+    results.variants.clear();
+
+    std::array<Pool, 2> pools{Pool(calibration, shape, Group::threshold),
+                              Pool(calibration, shape, Group::graded)};
+    // Values of healthy gearboxes scatter as in the threshold sample; without one, as in all
+    // gearboxes.
+    const Pool& scatter = pools[pools[0].empty() ? 1 : 0];
+    std::vector<double> smoothing;
+    std::array<std::vector<Trend>, 2> trends;
+    for (std::size_t f = 0; f < shape.features; ++f) {
+        for (const std::size_t level : levels) {
+            smoothing.push_back(scatter.smoothing(f, level));
+            for (std::size_t g = 0; g < pools.size(); ++g) {
+                trends[g].push_back((pools[g].empty() ? scatter : pools[g]).trend(f, level));
+            }
+        }
+    }
+    for (std::size_t i = 0; i < rows; ++i) {
+        const GearboxId id = id_of_row(study, static_cast<long>(i * gearboxes_of(plan) / rows));
+        const Realization realization = scene.sampler().draw(id);
+        const double size = realization.inputs.fault_size;
+        std::vector<double> parameters;
+        append_random_inputs(study, realization, 1.0, parameters);
+        parameters.push_back(size);
+        Philox engine(static_cast<std::uint64_t>(study.ensemble.seed), id.group, id.index,
+                      StreamPurpose::forecast_rows);
+        boost::random::normal_distribution<double> normal;
+        const Pool& own = pools[static_cast<std::size_t>(id.group)];
+        const Pool& pool = own.empty() ? scatter : own;
+        const std::size_t template_row = pool.draw(size, engine);
+        results.group.push_back(static_cast<int>(id.group));
+        results.status.push_back(calibration.rows.status[template_row]);
+        for (std::size_t p = 0; p < shape.parameters; ++p) {
+            results.parameters[p].values.push_back(parameters[p]);
+        }
+        for (std::size_t f = 0; f < shape.features; ++f) {
+            for (std::size_t l = 0; l < levels.size(); ++l) {
+                const std::size_t at = f * levels.size() + l;
+                const Trend& trend = trends[static_cast<std::size_t>(id.group)][at];
+                results.features[f].values.push_back(
+                    pool.value(template_row, f, levels[l]) + trend.at(size) -
+                    trend.at(pool.size(template_row)) + smoothing[at] * normal(engine));
+            }
+        }
+    }
+    return results;
+}
+
+double assessment_bytes(const Study& study, const BatchPlan& plan) {
+    const auto assessed = [](std::size_t count) {
+        const auto values = static_cast<double>(count);
+        return std::min(kFirstBytesOfValue * values, kBytesBeyond + kBytesOfValue * values);
+    };
+    const double gearboxes = assessed(std::min(values_of(study, plan), kMostAssessedValues));
+    if (plan.threshold_records() == 1) {
+        return gearboxes;
+    }
+    // With several records per gearbox, all records count if they fit into memory.
+    const std::size_t of_feature = plan.rows() * study.sensor.noise_levels.size();
+    const std::size_t all = of_feature * study.features.use.size();
+    if (all <= kMostAssessedValues) {
+        return assessed(all);
+    }
+    const double at_once = std::max(64e6 / 8.0, static_cast<double>(of_feature));
+    return std::max(gearboxes,
+                    kBytesOfColumns * at_once + kBytesOfRecord * static_cast<double>(plan.rows()));
+}
+
+AnalysisTrial measure_analysis(const Scene& scene, const RunCost& calibration,
+                               const BatchPlan& plan, int threads, double budget_s) {
+    AnalysisTrial trial;
+    const Study& study = scene.study();
+    const std::size_t levels = study.sensor.noise_levels.size();
+    const bool assessed = values_of(study, plan) <= kMostAssessedValues;
+    trial.bytes = assessment_bytes(study, plan);
+    if (calibration.gearboxes.empty()) {
+        return trial;
+    }
+    trial.rows = std::min(gearboxes_of(plan), kTrialRows);
+    const std::vector<std::size_t> order = level_order(levels);
+    const auto start = WallClock::now();
+    while (trial.levels < levels && (trial.levels == 0 || trial.trial_s < budget_s)) {
+        const auto first = order.begin() + static_cast<std::ptrdiff_t>(trial.levels);
+        const auto count =
+            std::min(levels - trial.levels, static_cast<std::size_t>(std::max(1, threads)));
+        std::vector<std::size_t> now(first, first + static_cast<std::ptrdiff_t>(count));
+        std::sort(now.begin(), now.end());
+        trial.total_s += seconds_of_analysis(
+            synthetic_results(scene, calibration, plan, trial.rows, now), threads, assessed);
+        trial.levels += count;
+        trial.trial_s = seconds_since(start);
+    }
+    trial.total_s *= static_cast<double>(levels) / static_cast<double>(trial.levels) *
+                     static_cast<double>(gearboxes_of(plan)) / static_cast<double>(trial.rows);
+    return trial;
+}
+
+namespace {
+
+// Costs of a run that `describe` does not have: writing a checkpoint and a results file, and the
+// HDF5 library. Measured for runs of two gearboxes; syncing to a slow disk takes longer.
+constexpr double kFiles_s = 0.01, kFileBytes = 4.5e6;
+
+// Share of the memory of the gearboxes that the analysis reuses. The rest lies between used blocks.
+constexpr double kReused = 0.5;
+
+// Costs of the tiles of a group in order: first those to integrate, then those found in the cache.
+class Tiles {
+  public:
+    Tiles(const GroupCost& cost, std::size_t integrated)
+        : cost_(cost), integrations_left_(integrated) {}
+
+    const TileCost& next() {
+        if (integrations_left_ == 0) {
+            return cost_.reused;
+        }
+        --integrations_left_;
+        return cost_.integrated;
+    }
+
+  private:
+    const GroupCost& cost_;
+    std::size_t integrations_left_;
+};
+
+// Calls visit(cost, rows) for the tiles of a batch.
+template <class Visit>
+void for_each_tile(const Batch& batch, std::size_t lanes, Tiles& tiles, Visit visit) {
+    for (std::size_t first = 0; first < batch.gearboxes; first += lanes) {
+        visit(tiles.next(), std::min(lanes, batch.gearboxes - first) * batch.records);
+    }
+}
+
+std::array<Tiles, 2> tiles_of(const RunCost& calibration, const IntegrationCounts& integrations) {
+    return {Tiles(calibration.cost[0], integrations.integrated[0]),
+            Tiles(calibration.cost[1], integrations.integrated[1])};
+}
+
+Seconds all_work(const RunCost& calibration, const BatchPlan& plan, std::size_t lanes,
+                 const IntegrationCounts& integrations) {
+    auto tiles = tiles_of(calibration, integrations);
+    Seconds work;
+    for (std::size_t b = 0; b < plan.batches(); ++b) {
+        const Batch batch = plan.batch(b);
+        for_each_tile(batch, lanes, tiles[static_cast<std::size_t>(batch.group)],
+                      [&](const TileCost& cost, std::size_t rows) {
+                          work += cost.whole;
+                          work.noise += static_cast<double>(rows) * cost.row.noise;
+                          work.features += static_cast<double>(rows) * cost.row.features;
+                      });
+    }
+    return work;
+}
+
+}  // namespace
+
+double gearboxes_s(const RunCost& calibration, const BatchPlan& plan, std::size_t lanes,
+                   const IntegrationCounts& integrations) {
+    auto tiles = tiles_of(calibration, integrations);
+    // Times at which the threads become free; the earliest is on top.
+    std::priority_queue<double, std::vector<double>, std::greater<>> free(
+        {},
+        std::vector<double>(static_cast<std::size_t>(calibration.threads), calibration.start_s));
+    double last = calibration.start_s;
+    for (std::size_t b = 0; b < plan.batches(); ++b) {
+        const Batch batch = plan.batch(b);
+        double seconds = 0.0;
+        for_each_tile(
+            batch, lanes, tiles[static_cast<std::size_t>(batch.group)],
+            [&](const TileCost& cost, std::size_t rows) { seconds += cost.seconds(rows); });
+        const double done = free.top() + seconds;
+        free.pop();
+        free.push(done);
+        last = std::max(last, done);
+    }
+    return last;
+}
+
+double verification_s(const Scene& scene, const RunCost& calibration) {
+    const auto start = WallClock::now();
+    const FinerScene finer = finer_scene(scene);
+    if (!finer.scene) {
+        return 0.0;
+    }
+    const double setup_s = seconds_since(start);
+    const TileCost& own = calibration.cost[static_cast<std::size_t>(Group::graded)].integrated;
+    const auto lanes = static_cast<std::size_t>(scene.study().numerics.lanes);
+    const double integration_s = mesh_period_s(*finer.scene) * integrated_meshes(*finer.scene);
+    const std::int64_t pairs = scene.study().numerics.paired_gearboxes;
+    const auto batches = static_cast<double>((2 * pairs + kBatchRows - 1) / kBatchRows);
+    const double tiles = pairs > 0 ? std::ceil(batches / calibration.threads) * kBatchRows /
+                                         static_cast<double>(lanes)
+                                   : 1.0;
+    return setup_s + tiles * (2.0 * own.seconds(lanes) - own.whole.integration + integration_s);
+}
+
+double memory_bytes(const MemoryUse& memory, const IntegrationCounts& integrations,
+                    double motion_bytes, double analysis_bytes) {
+    const double kept =
+        std::max(0.0, memory.kept + static_cast<double>(integrations.kept) * motion_bytes);
+    const double held = memory.before + (1.0 - kReused) * (memory.held - memory.before);
+    return memory.fragments +
+           std::max(memory.peak + memory.records + kept, held + analysis_bytes + kFileBytes);
+}
+
+double least_memory_bytes(const Scene& scene, const BatchPlan& plan, int threads) {
+    const auto teams = std::min(static_cast<std::size_t>(threads), plan.batches());
+    return std::max(static_cast<double>(teams) * motion_bytes(scene),
+                    assessment_bytes(scene.study(), plan));
+}
+
+RunForecast forecast_run(const Scene& scene, const BatchPlan& plan, const RunCost& calibration,
+                         const AnalysisTrial& analysis, double setup_s) {
+    const auto lanes = static_cast<std::size_t>(scene.study().numerics.lanes);
+    const double motion = motion_bytes(scene);
+    const IntegrationCounts integrations = count_integrations(scene, plan, motion);
+    RunForecast forecast;
+    forecast.setup_s = setup_s + calibration.task_s + kFiles_s;
+    forecast.gearboxes_s = gearboxes_s(calibration, plan, lanes, integrations);
+    forecast.work = all_work(calibration, plan, lanes, integrations);
+    forecast.detection_s = analysis.total_s + verification_s(scene, calibration);
+    forecast.memory_bytes = memory_bytes(calibration.memory, integrations, motion, analysis.bytes);
+    return forecast;
+}
+
+}  // namespace gearpod::mc

@@ -1,0 +1,73 @@
+// Estimates the time for the analysis of a run's results before the run, on synthetic results made
+// from a few computed gearboxes.
+#pragma once
+
+#include "mc/ensemble/gearbox/integration_cache.hpp"
+#include "mc/numerics/forecast/run_cost.hpp"
+#include "mc/results/results_file.hpp"
+
+namespace gearpod::mc {
+
+struct AnalysisTrial {
+    double total_s = 0.0;    // for all gearboxes and noise levels
+    double bytes = 0.0;      // memory
+    double trial_s = 0.0;    // time of the trial itself
+    std::size_t rows = 0;    // synthetic gearboxes
+    std::size_t levels = 0;  // noise levels of the trial
+};
+
+// Synthetic results of `rows` gearboxes, evenly spaced in the ensemble, at the noise levels with
+// indices `levels`. The inputs are those of the run. The features come from a random computed
+// gearbox of the same group and fault size; for continuous sizes, from any of the group, shifted
+// along the feature's trend over the size. A smoothed bootstrap (B. W. Silverman, G. A. Young,
+// Biometrika 74 (1987), 469-479) avoids ties that a run would not have. Detection results are not
+// filled in.
+Results synthetic_results(const Scene& scene, const RunCost& calibration, const BatchPlan& plan,
+                          std::size_t rows, const std::vector<std::size_t>& levels);
+
+// Runs detection and reliability analysis on synthetic results, as `run` does: all features, up to
+// kTrialRows gearboxes, and as many noise levels at once as there are threads, until `budget_s`
+// seconds are over. The rest is extrapolated in proportion.
+AnalysisTrial measure_analysis(const Scene& scene, const RunCost& calibration,
+                               const BatchPlan& plan, int threads, double budget_s);
+
+inline constexpr std::size_t kTrialRows = 6000;
+
+// Peak memory for assessing all gearboxes of a run.
+double assessment_bytes(const Study& study, const BatchPlan& plan);
+
+// Computes the time and memory of a run from the cost of some gearboxes.
+
+// Wall-clock times of a run in one process, s, by the items that `run` reports.
+struct RunForecast {
+    double setup_s = 0.0;      // set-up of the study and of the data common to all threads
+    double gearboxes_s = 0.0;  // until the last thread has finished its last batch
+    double detection_s = 0.0;  // and results
+    Seconds work;              // sum over all threads, without `rest` and `start_s`
+    double memory_bytes = 0.0;
+
+    double total_s() const { return setup_s + gearboxes_s + detection_s; }
+};
+
+// Time for `threads` threads to compute the batches of the plan. A thread takes the next batch when
+// it is free, so some threads may be idle at the end.
+double gearboxes_s(const RunCost& calibration, const BatchPlan& plan, std::size_t lanes,
+                   const IntegrationCounts& integrations);
+
+// Peak memory: that of the gearboxes with cached motion, or that of the analysis after them.
+double memory_bytes(const MemoryUse& memory, const IntegrationCounts& integrations,
+                    double motion_bytes, double analysis_bytes);
+
+// Time for integrating some gearboxes again if the run verifies its numerics; 0 otherwise.
+double verification_s(const Scene& scene, const RunCost& calibration);
+
+// Lower limit of the additional memory of a run: the motion of one tile per thread, or the columns
+// of the analysis. See memory_bytes() for an estimate.
+double least_memory_bytes(const Scene& scene, const BatchPlan& plan, int threads);
+
+// Forecast of a run. `setup_s`: time for starting the program and setting up the scene. It is an
+// upper limit if ensemble.until may end the run earlier.
+RunForecast forecast_run(const Scene& scene, const BatchPlan& plan, const RunCost& calibration,
+                         const AnalysisTrial& analysis, double setup_s);
+
+}  // namespace gearpod::mc

@@ -1,0 +1,344 @@
+#include "mc/plan/drivetrain.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <stdexcept>
+#include <utility>
+
+#include "mc/study/gears.hpp"
+#include "mc/study/housing.hpp"
+
+namespace gearpod::mc {
+
+using std::numbers::pi;
+
+gears::Member central_member(Member member) {
+    switch (member) {
+        case Member::sun:
+            return gears::Member::sun;
+        case Member::carrier:
+            return gears::Member::carrier;
+        case Member::ring:
+            return gears::Member::ring;
+        case Member::planet:
+        case Member::pinion:
+        case Member::gear:
+            break;
+    }
+    throw std::logic_error("no central member");
+}
+
+gears::PlanetaryTrain planetary_train(const Study& study) {
+    const Gearbox& g = study.gearbox;
+    return {teeth_of(study, Member::sun).value(), teeth_of(study, Member::planet).value(),
+            teeth_of(study, Member::ring).value(), g.planets, g.planet_positions_rad};
+}
+
+namespace {
+
+double phase_of_teeth(const Study& study, const gears::PlanetaryTrain& train,
+                      gears::PlanetSense sense) {
+    return gears::ring_to_sun_phase(train, gear_of(study, Member::planet),
+                                    working_angle_rad(study, MeshKind::sun_planet),
+                                    working_angle_rad(study, MeshKind::ring_planet), sense);
+}
+
+}  // namespace
+
+PlanetaryDrivetrain::PlanetaryDrivetrain(const Study& study)
+    : train_(planetary_train(study)),
+      flow_{central_member(study.operation.fixed), central_member(study.operation.input)},
+      speed_of_(central_member(speed_member(study))),
+      torque_on_(central_member(study.operation.torque_on)),
+      sense_(gears::planet_sense(speeds(1.0))),
+      ring_to_sun_phase_(study.gearbox.ring_to_sun_phase ? *study.gearbox.ring_to_sun_phase
+                                                         : phase_of_teeth(study, train_, sense_)),
+      radius_m_{centre_distance_m(study), gear_of(study, Member::ring).base_radius(),
+                gear_of(study, Member::sun).base_radius()} {}
+
+double PlanetaryDrivetrain::mesh_frequency_rad_s(double speed_rad_s) const {
+    return gears::mesh_frequency(train_, speeds(speed_rad_s));
+}
+
+double PlanetaryDrivetrain::turns_per_mesh(gears::Member member) const {
+    const gears::Speeds turning = speeds(1.0);
+    return std::abs(gears::speed_of(turning, member)) / gears::mesh_frequency(train_, turning);
+}
+
+double PlanetaryDrivetrain::input_turns_per_mesh() const {
+    return turns_per_mesh(flow_.input);
+}
+
+double PlanetaryDrivetrain::shaft_turns_per_mesh(Member member) const {
+    return turns_per_mesh(central_member(member));
+}
+
+double PlanetaryDrivetrain::frame_turns_per_mesh() const {
+    return speeds(1.0).carrier / mesh_frequency_rad_s(1.0);
+}
+
+int PlanetaryDrivetrain::input_degree_of_freedom(const dynamics::GearboxLayout& layout) const {
+    return std::get<dynamics::PlanetaryLayout>(layout).rotation_index(
+        dynamics::body_of(flow_.input));
+}
+
+// Along rigid_rotation the carrier's displacement is 1, or the sun's if the carrier is fixed.
+double PlanetaryDrivetrain::rotation_m_s(const InstanceInputs& instance) const {
+    const gears::Speeds turning = speeds(instance.speed_rad_s);
+    return flow_.fixed == gears::Member::carrier ? radius_m_.sun * turning.sun
+                                                 : radius_m_.carrier * turning.carrier;
+}
+
+ShaftDegree PlanetaryDrivetrain::shaft_degree(const dynamics::GearboxLayout& layout,
+                                              Member member) const {
+    const auto& planetary = std::get<dynamics::PlanetaryLayout>(layout);
+    switch (central_member(member)) {
+        case gears::Member::carrier:
+            return {planetary.rotation_index(dynamics::carrier), radius_m_.carrier};
+        case gears::Member::ring:
+            return {planetary.rotation_index(dynamics::ring), radius_m_.ring};
+        case gears::Member::sun:
+            break;
+    }
+    return {planetary.rotation_index(dynamics::sun), radius_m_.sun};
+}
+
+void PlanetaryDrivetrain::set(const InstanceInputs& instance,
+                              dynamics::GearboxInputs& inputs) const {
+    auto& out = std::get<dynamics::PlanetaryInputs>(inputs);
+    const gears::Speeds turning = speeds(instance.speed_rad_s);
+    out.carrier_speed_rad_s = turning.carrier;
+    out.mesh_period_s = 2.0 * pi / gears::mesh_frequency(train_, turning);
+    const gears::CentralMembers torque =
+        gears::balanced_torques(train_, torque_on_, instance.torque_N_m);
+    out.force_N[dynamics::sun] = torque.sun / radius_m_.sun;
+    out.force_N[dynamics::ring] = torque.ring / radius_m_.ring;
+    out.force_N[dynamics::carrier] = torque.carrier / radius_m_.carrier;
+    // The support's reaction balances the fixed member.
+    out.force_N[dynamics::body_of(flow_.fixed)] = 0.0;
+}
+
+double PlanetaryDrivetrain::mesh_force_N(const InstanceInputs& instance) const {
+    const gears::CentralMembers torque =
+        gears::balanced_torques(train_, torque_on_, instance.torque_N_m);
+    return torque.sun / radius_m_.sun / train_.planets;
+}
+
+std::string PlanetaryDrivetrain::pair_name(int pair) const {
+    const int n = train_.planets;
+    return pair < n ? fmt::format("sp{}", pair + 1) : fmt::format("rp{}", pair - n + 1);
+}
+
+std::string PlanetaryDrivetrain::pair_members(int pair) const {
+    const int n = train_.planets;
+    return fmt::format("{} and planet {}", pair < n ? "sun" : "ring", pair % n + 1);
+}
+
+double PlanetaryDrivetrain::pitch_phase(int pair) const {
+    const int n = train_.planets;
+    return pair < n ? gears::sun_mesh_phase(train_, pair, sense_)
+                    : gears::ring_mesh_phase(train_, pair - n, sense_) + ring_to_sun_phase_;
+}
+
+std::vector<double> PlanetaryDrivetrain::te_weight(const dynamics::GearboxLayout& layout) const {
+    const auto& planetary = std::get<dynamics::PlanetaryLayout>(layout);
+    const gears::CentralMembers rotation = gears::transmission_error_weights(train_, flow_);
+    std::vector<double> weight(static_cast<std::size_t>(planetary.degrees_of_freedom()), 0.0);
+    const auto set = [&](dynamics::Body body, double value) {
+        weight[static_cast<std::size_t>(planetary.rotation_index(body))] = value;
+    };
+    set(dynamics::carrier, rotation.carrier / radius_m_.carrier);
+    set(dynamics::ring, rotation.ring / radius_m_.ring);
+    set(dynamics::sun, rotation.sun / radius_m_.sun);
+    return weight;
+}
+
+// The planets' teeth are monitored: after Z_p Z_r mesh periods every planet tooth has met every
+// ring tooth. With a fixed carrier the path repeats every mesh period.
+signals::SpanLayout PlanetaryDrivetrain::span() const {
+    return {train_.planet_teeth, train_.ring_teeth,
+            gears::meshes_per_carrier_turn(train_, flow_.fixed).value_or(1)};
+}
+
+bool PlanetaryDrivetrain::carrier_turns_backwards() const {
+    return speeds(1.0).carrier < 0.0;
+}
+
+using std::numbers::pi;
+
+// The monitored gear is the one with the fault, else the pinion.
+FixedShaftDrivetrain::FixedShaftDrivetrain(const Study& study)
+    : pinion_teeth_(teeth_of(study, Member::pinion).value()),
+      gear_teeth_(teeth_of(study, Member::gear).value()),
+      pinion_radius_m_(gear_of(study, Member::pinion).base_radius()),
+      gear_radius_m_(gear_of(study, Member::gear).base_radius()),
+      gear_monitored_(study.fault.member == Member::gear) {}
+
+double FixedShaftDrivetrain::mesh_frequency_rad_s(double speed_rad_s) const {
+    return pinion_teeth_ * speed_rad_s;
+}
+
+double FixedShaftDrivetrain::rotation_m_s(const InstanceInputs& instance) const {
+    return pinion_radius_m_ * instance.speed_rad_s;
+}
+
+ShaftDegree FixedShaftDrivetrain::shaft_degree(const dynamics::GearboxLayout&,
+                                               Member member) const {
+    return member == Member::pinion ? ShaftDegree{dynamics::u_m, pinion_radius_m_}
+                                    : ShaftDegree{dynamics::u_b, gear_radius_m_};
+}
+
+void FixedShaftDrivetrain::set(const InstanceInputs& instance,
+                               dynamics::GearboxInputs& inputs) const {
+    auto& out = std::get<dynamics::FixedShaftInputs>(inputs);
+    out.mesh_period_s = 2.0 * pi / mesh_frequency_rad_s(instance.speed_rad_s);
+    out.motor_torque_N_m = instance.torque_N_m;
+    out.load_torque_N_m = instance.fixed_shaft.load_torque_N_m;
+}
+
+// Unbalanced torques accelerate the whole train as one rigid body. The mesh carries the motor's
+// force minus the part that accelerates the motor's side.
+double FixedShaftDrivetrain::mesh_force_N(const InstanceInputs& instance) const {
+    const FixedShaftInstance& f = instance.fixed_shaft;
+    const double motor_N = instance.torque_N_m / pinion_radius_m_;
+    const double surplus_N = motor_N - f.load_torque_N_m / gear_radius_m_;
+    const double input_kg =
+        (f.motor_inertia_kg_m2 + instance.bodies[Member::pinion].inertia_kg_m2) /
+        (pinion_radius_m_ * pinion_radius_m_);
+    const double output_kg = (f.load_inertia_kg_m2 + instance.bodies[Member::gear].inertia_kg_m2) /
+                             (gear_radius_m_ * gear_radius_m_);
+    const double all_kg = input_kg + output_kg;
+    return all_kg > 0.0 ? motor_N - surplus_N * input_kg / all_kg : motor_N;
+}
+
+// The gear's rotation is counted opposite to the pinion's, so that the pair turns without error
+// while u_1 = u_2.
+std::vector<double> FixedShaftDrivetrain::te_weight(const dynamics::GearboxLayout& layout) const {
+    std::vector<double> weight(static_cast<std::size_t>(dynamics::degrees_of_freedom(layout)), 0.0);
+    weight[dynamics::u_1] = -1.0 / gear_radius_m_;
+    weight[dynamics::u_2] = 1.0 / gear_radius_m_;
+    return weight;
+}
+
+// After Z_1 Z_2 mesh periods every tooth of the monitored gear has met every tooth of its mate.
+signals::SpanLayout FixedShaftDrivetrain::span() const {
+    return gear_monitored_ ? signals::SpanLayout{gear_teeth_, pinion_teeth_, 1}
+                           : signals::SpanLayout{pinion_teeth_, gear_teeth_, 1};
+}
+
+double nominal_mesh_frequency_Hz(const Study& study, const Drivetrain& drivetrain) {
+    return drivetrain.mesh_frequency_rad_s(nominal_inputs(study).speed_rad_s) /
+           (2.0 * std::numbers::pi);
+}
+
+std::unique_ptr<const Drivetrain> make_drivetrain(const Study& study) {
+    if (study.gearbox.kind == GearboxKind::fixed_shaft) {
+        return std::make_unique<const FixedShaftDrivetrain>(study);
+    }
+    return std::make_unique<const PlanetaryDrivetrain>(study);
+}
+
+namespace {
+
+dynamics::PlanetaryLayout planetary_layout(const Study& study) {
+    dynamics::PlanetaryLayout result;
+    const Gearbox& g = study.gearbox;
+    result.planets = g.planets;
+    result.pressure_angle_rad = g.pressure_angle_rad;
+    result.helix_angle_rad = g.helix_angle_rad;
+    result.positions_rad = g.planet_positions_rad;
+    result.fixed = central_member(study.operation.fixed);
+    result.motion = study.effects.torsional() ? dynamics::Motion::torsional
+                                              : dynamics::Motion::translational_torsional;
+    result.inertial_terms = study.effects.inertial_terms;
+    result.mesh_damping = study.effects.mesh_damping;
+    result.bearing_sources = !housing_bearings(study).empty();
+    if (has_gears(study)) {
+        result.carrier_radius_m = centre_distance_m(study);
+        if (working_shifts(study).centre_distance_m) {
+            result.sun_working_angle_rad = working_angle_rad(study, MeshKind::sun_planet);
+            result.ring_working_angle_rad = working_angle_rad(study, MeshKind::ring_planet);
+        }
+    }
+    return result;
+}
+
+dynamics::FixedShaftLayout fixed_shaft_layout(const Study& study) {
+    dynamics::FixedShaftLayout result;
+    result.base_radius_m[dynamics::pinion] = gear_of(study, Member::pinion).base_radius();
+    result.base_radius_m[dynamics::gear] = gear_of(study, Member::gear).base_radius();
+    result.mesh_damping = study.effects.mesh_damping;
+    result.sensor = study.sensor.position == Member::gear ? dynamics::gear : dynamics::pinion;
+    return result;
+}
+
+dynamics::PlanetaryInputs planetary_inputs(const InstanceInputs& in) {
+    constexpr std::pair<dynamics::Body, Member> kBodies[] = {{dynamics::sun, Member::sun},
+                                                             {dynamics::planet, Member::planet},
+                                                             {dynamics::ring, Member::ring},
+                                                             {dynamics::carrier, Member::carrier}};
+    dynamics::PlanetaryInputs out;
+    for (const auto& [body, member] : kBodies) {
+        const BodyInstance& b = in.bodies[member];
+        out.mass_kg[body] = b.mass_kg;
+        out.inertia_over_r2_kg[body] = b.inertia_over_r2_kg;
+        out.bearing_stiffness_N_m[body] = b.bearing_stiffness_N_m;
+        out.bearing_damping_N_s_m[body] = b.bearing_damping_N_s_m;
+    }
+    std::ranges::copy(in.planets, out.planet_deviations);
+    out.support_stiffness_N_m = in.support_stiffness_N_m;
+    out.support_damping_N_s_m = in.support_damping_N_s_m;
+    return out;
+}
+
+dynamics::FixedShaftInputs fixed_shaft_inputs(const InstanceInputs& in) {
+    using namespace dynamics;
+    FixedShaftInputs out;
+    for (const auto& [which, member] :
+         {std::pair{pinion, Member::pinion}, std::pair{gear, Member::gear}}) {
+        const BodyInstance& b = in.bodies[member];
+        out.mass_kg[which] = b.mass_kg;
+        out.inertia_kg_m2[which] = b.inertia_kg_m2;
+        out.bearing_stiffness_N_m[which] = b.bearing_stiffness_N_m;
+        out.bearing_damping_N_s_m[which] = b.bearing_damping_N_s_m;
+    }
+    const FixedShaftInstance& f = in.fixed_shaft;
+    out.coupling_stiffness_N_m_rad[pinion] = f.motor_coupling_stiffness_N_m_rad;
+    out.coupling_stiffness_N_m_rad[gear] = f.load_coupling_stiffness_N_m_rad;
+    out.coupling_damping_N_m_s_rad[pinion] = f.motor_coupling_damping_N_m_s_rad;
+    out.coupling_damping_N_m_s_rad[gear] = f.load_coupling_damping_N_m_s_rad;
+    out.motor_inertia_kg_m2 = f.motor_inertia_kg_m2;
+    out.load_inertia_kg_m2 = f.load_inertia_kg_m2;
+    return out;
+}
+
+// Sets the inputs that both kinds of gearbox have.
+template <class Inputs>
+dynamics::GearboxInputs with_mesh(const Study& study, const InstanceInputs& instance,
+                                  Inputs inputs) {
+    inputs.mesh_damping = instance.mesh_damping;
+    if (study.effects.separation == Separation::two_sided) {
+        inputs.backlash_m = instance.backlash_m;
+    }
+    return inputs;
+}
+
+}  // namespace
+
+dynamics::GearboxLayout gearbox_layout(const Study& study) {
+    if (study.gearbox.kind == GearboxKind::fixed_shaft) {
+        return fixed_shaft_layout(study);
+    }
+    return planetary_layout(study);
+}
+
+dynamics::GearboxInputs body_inputs(const Study& study, const InstanceInputs& instance) {
+    return study.gearbox.kind == GearboxKind::fixed_shaft
+               ? with_mesh(study, instance, fixed_shaft_inputs(instance))
+               : with_mesh(study, instance, planetary_inputs(instance));
+}
+
+}  // namespace gearpod::mc

@@ -1,0 +1,135 @@
+// Data that all gearboxes of a study have in common, computed once: drive, stiffness curves, fault
+// pattern, phase grid.
+#pragma once
+
+#include <algorithm>
+#include <limits>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "mc/plan/drivetrain.hpp"
+#include "mc/plan/sampling.hpp"
+#include "mc/plan/scene_error.hpp"
+#include "mc/plan/scene_plan.hpp"
+#include "mc/plan/scene_stiffness.hpp"
+#include "mc/study/study.hpp"
+
+namespace gearpod::mc {
+
+// Studies of the neighbouring stages, with the speed of their common shafts and the sensor of the
+// study. Only their vibration is used: they have no records and one feature. Throws SceneError.
+std::vector<Study> stage_studies(const Study& study);
+
+// Immutable. Copies, and scenes derived from it, share the parts that are equal.
+class Scene {
+  public:
+    // Precondition: has_gears(study). The study's numerics are used as they are; numerics.tolerance
+    // must be resolved before (resolve_numerics). Throws SceneError.
+    explicit Scene(const Study& study);
+    Scene(const Scene&) = default;
+    Scene& operator=(const Scene&) = delete;
+
+    // Scene of the same gearboxes with other numerics. The stiffness is recomputed only for another
+    // stiffness_tolerance or face_slices; the plan is shared if only settle_tolerance differs.
+    // Throws SceneError.
+    Scene with(const Numerics& numerics) const;
+    // The same scene with another [life].
+    Scene with(const Life& life) const;
+    // The same scene with at most this many recorded mesh periods, which the signal repeats. Used
+    // to measure the cost of time integration.
+    Scene recording_at_most(int meshes) const;
+
+    const Study& study() const { return study_; }
+    // Draws the gearboxes of the study.
+    const Sampler& sampler() const { return *sampler_; }
+    const Drivetrain& drivetrain() const { return *drivetrain_; }
+    const std::vector<SceneMesh>& meshes() const { return stiffness_->meshes(); }
+    const lockstep::PairSet& pairs() const { return stiffness_->pairs(); }
+    const SceneFault& fault() const { return stiffness_->fault(); }
+    const lockstep::IntegrationPlan& plan() const { return plan_->integration; }
+    const lockstep::FaultPattern& pattern() const { return fault().pattern(); }
+    // Gear pair that the first passage of the faulty tooth weakens, or -1.
+    int faulty_pair() const { return pattern().passages.empty() ? -1 : pattern().passages[0].pair; }
+    // Gear pair faulty_pair() with the faulty tooth of that size; null if the size is 0.
+    std::shared_ptr<const stiffness::FaultyMesh> faulty_mesh(double size) const {
+        return fault().mesh(0, size);
+    }
+    // See SceneStiffness.
+    const MemberArray<gears::DeviationScales>& tooth_scales() const {
+        return stiffness_->tooth_scales();
+    }
+
+    // Scenes of the neighbouring stages, in the order of the study.
+    const std::vector<Scene>& stages() const { return *stages_; }
+
+    const signals::SpanLayout& span() const { return span_; }
+    // Number of mesh periods after which every tooth of the monitored gear has met every tooth of
+    // its mate that it can meet.
+    int span_meshes() const { return span_.meshes(); }
+    // Number of mesh periods of sensor signal from which records are taken: the span, or more for
+    // the teeth of the sun or the ring, or the span and a record of given length.
+    int signal_meshes() const { return signal_meshes_; }
+    // Number of mesh periods that are recorded individually where every mesh period is integrated:
+    // those of the signal, limited by recording_at_most().
+    int recorded_meshes() const { return std::min(signal_meshes_, most_recorded_); }
+    // Number of mesh periods after which the transmission path repeats; 1 if the carrier is fixed.
+    int path_meshes() const { return span_.carrier_meshes; }
+    // Number of samples per mesh period of the sensor and of the encoders.
+    int samples_per_mesh() const { return plan().grid.samples; }
+    int te_samples_per_mesh() const { return plan_->te_samples; }
+    double nominal_mesh_frequency_Hz() const { return nominal_mesh_frequency_Hz_; }
+    // See Stepping.
+    int least_steps() const { return plan_->stepping.least; }
+    double explicit_steps() const { return plan_->stepping.explicit_steps; }
+    double longest_step() const { return plan_->stepping.longest_step; }
+    // Calibration of the steps on a pilot sample; empty if there was none.
+    const std::optional<Calibration>& calibration() const { return plan_->calibration; }
+    double decay_meshes() const { return plan_->stepping.decay_meshes; }
+    // Largest number of mesh periods within which a gearbox must converge.
+    int max_meshes() const { return max_meshes_; }
+    // See SceneStiffness.
+    std::vector<double> transitions() const { return stiffness_->transitions(); }
+    std::vector<double> stiffest_pairs() const { return stiffness_->stiffest_pairs(); }
+    const std::vector<double>& mean_pairs() const { return stiffness_->mean_pairs(); }
+
+    dynamics::GearboxInputs inputs(const InstanceInputs& instance) const {
+        return gearbox_inputs(study_, *drivetrain_, instance);
+    }
+
+  private:
+    using SharedStiffness = std::shared_ptr<const SceneStiffness>;
+    using SharedPlan = std::shared_ptr<const ScenePlan>;
+    using SharedSampler = std::shared_ptr<const Sampler>;
+    using SharedStages = std::shared_ptr<const std::vector<Scene>>;
+    // Null stiffness, plan and stages are computed.
+    Scene(Study study, SharedSampler sampler, std::shared_ptr<const Drivetrain> drivetrain,
+          SharedStiffness stiffness, SharedPlan plan, SharedStages stages, int most_recorded);
+
+    Study study_;
+    SharedSampler sampler_;
+    std::shared_ptr<const Drivetrain> drivetrain_;
+    SharedStiffness stiffness_;
+    SharedPlan plan_;
+    SharedStages stages_;
+    signals::SpanLayout span_;
+    double nominal_mesh_frequency_Hz_;
+    int signal_meshes_;
+    int most_recorded_;
+    int max_meshes_;
+};
+
+// Mesh stiffness while a faulty tooth engages, and the gear pairs in which it engages.
+
+// First gear pair in which the faulty tooth engages, for each of its stiffness curves.
+std::vector<int> faulty_pairs(const Scene& scene);
+
+// Stiffness, N/m, of the gear pair `since` mesh periods after its faulty tooth started to engage;
+// outside its engagement, that of the healthy pair.
+double faulty_total(const Scene& scene, int pair, const stiffness::FaultyMesh& mesh, double since);
+
+// Loaded static transmission error of a gear pair, m: approach of its gears along the line of
+// action at a phase of the mesh period under the nominal load.
+double loaded_approach(const Scene& scene, int pair, double phase);
+
+}  // namespace gearpod::mc

@@ -1,0 +1,116 @@
+// Mesh stiffness of a study's healthy gear pairs.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "gears/mesh_geometry.hpp"
+#include "gears/tooth_deviations.hpp"
+#include "lockstep/plan/fault_schedule.hpp"
+#include "lockstep/plan/stiffness_nodes.hpp"
+#include "mc/plan/drivetrain.hpp"
+#include "mc/study/gears.hpp"
+#include "stiffness/foundation/fillet_foundation.hpp"
+#include "stiffness/loaded_mesh.hpp"
+#include "stiffness/mesh_stiffness.hpp"
+
+namespace gearpod::mc {
+
+// One kind of gear pair. It has no geometry if the stiffness is given instead of tooth shapes.
+struct SceneMesh {
+    MeshMembers members;
+    std::optional<gears::MeshGeometry> geometry;
+    std::unique_ptr<const stiffness::MeshStiffness> stiffness;
+    // Quasi-static contact under the mean force of a pair, including the flanks' gaps.
+    std::unique_ptr<const stiffness::LoadedMesh> loaded;
+    // Elastic bodies of the two gears, if modelled.
+    const stiffness::FilletFoundation* body[2] = {nullptr, nullptr};
+};
+
+// Radius of the circle on which a gear's body is held, m; 0 if the study gives none.
+double body_radius_m(const Study& study, Member member);
+
+// Upper estimate of the single pitch errors of a member's teeth, m: the tolerance of their grade
+// plus three times a given rms, and at least the largest measured deviation.
+double pitch_error_m(const Study& study, Member member);
+
+// Mean stiffness of a mesh, N/m, in the transverse plane. Precondition: stiffness_given().
+double given_mean_stiffness(const Study& study, MeshKind mesh);
+
+// Makes one mesh for each of meshes_of(kind). force_N: mean force of a pair, for load-dependent
+// contact and for the flanks' gaps. Throws SceneError.
+std::vector<SceneMesh> make_meshes(const Study& study, double force_N);
+
+// All gear pairs of the gearbox and their phases.
+lockstep::PairSet make_pairs(const std::vector<SceneMesh>& meshes, const Drivetrain& drivetrain);
+
+// Mean stiffness of all pairs of a gearbox with constant stiffness, N/m; also without teeth.
+std::vector<double> constant_pairs(const Study& study);
+
+// Fault of a study: which gear pairs the faulty tooth weakens, when, and by how much; or which
+// pairs have worn flanks.
+
+class SceneFault {
+  public:
+    // Precondition: the meshes outlive the fault. Throws SceneError.
+    SceneFault(const Study& study, const std::vector<SceneMesh>& meshes,
+               const lockstep::PairSet& pairs);
+
+    // Passages of the faulty tooth; empty without a fault and for wear.
+    const lockstep::FaultPattern& pattern() const { return pattern_; }
+    // Number of meshes that the tooth weakens, each with its own stiffness curve.
+    int curves() const { return static_cast<int>(laws_.size()); }
+    // Pairs whose flanks wear; their depth is the fault's size.
+    const std::vector<int>& worn_pairs() const { return worn_pairs_; }
+    // Mesh with the faulty tooth of that size; null if the size is 0 or there is no fault.
+    std::shared_ptr<const stiffness::FaultyMesh> mesh(int curve, double size) const;
+    // Size at which the tooth transmits no load, or above which the fault model is undefined; 0 if
+    // there is none.
+    double largest_size() const;
+    // Mesh phases at which a fault's stiffness jumps, whatever its size.
+    std::vector<double> jumps(const lockstep::PairSet& pairs) const;
+
+  private:
+    struct Law {
+        const stiffness::MeshStiffness* mesh;
+        std::unique_ptr<const stiffness::ToothFaultFamily> family;
+    };
+    std::vector<Law> laws_;
+    std::vector<int> worn_pairs_;
+    lockstep::FaultPattern pattern_;
+};
+
+// Stiffness of a study's gear pairs, healthy and with the fault, and the scales of their tooth
+// errors. Scenes share it unless they differ in numerics.stiffness_tolerance or
+// numerics.face_slices.
+
+class SceneStiffness {
+  public:
+    // Throws SceneError.
+    SceneStiffness(const Study& study, const Drivetrain& drivetrain);
+    SceneStiffness(const SceneStiffness&) = delete;
+    SceneStiffness& operator=(const SceneStiffness&) = delete;
+
+    const std::vector<SceneMesh>& meshes() const { return meshes_; }
+    const lockstep::PairSet& pairs() const { return pairs_; }
+    const SceneFault& fault() const { return fault_; }
+    // Mean stiffness of every pair over the mesh period, N/m.
+    const std::vector<double>& mean_pairs() const { return mean_pairs_; }
+    // Scales of the tooth errors of ISO 1328 grade 5; all 0 without a quality.
+    const MemberArray<gears::DeviationScales>& tooth_scales() const { return tooth_scales_; }
+    // Largest stiffness of every gear pair, with all tooth pairs in contact that can touch, N/m. It
+    // bounds the integrator's step.
+    std::vector<double> stiffest_pairs() const;
+    // Phases in [0, 1) at which steps must end.
+    std::vector<double> transitions() const;
+
+  private:
+    std::vector<SceneMesh> meshes_;
+    lockstep::PairSet pairs_;
+    SceneFault fault_;
+    std::vector<double> mean_pairs_;
+    MemberArray<gears::DeviationScales> tooth_scales_;
+};
+
+}  // namespace gearpod::mc

@@ -1,0 +1,57 @@
+// Numbers of samples and steps per mesh period of a study, and its integrator.
+#pragma once
+
+#include <vector>
+
+#include "lockstep/plan/integrator.hpp"
+#include "lockstep/plan/mode_inertia.hpp"
+#include "mc/plan/drivetrain.hpp"
+#include "mc/plan/sampling.hpp"
+
+namespace gearpod::mc {
+
+inline constexpr int kMostSteps = 1'000'000;  // per mesh period
+
+// Number of samples per mesh period of the sensor and of the encoders. A quasi-static gearbox has
+// no sensor, and both are the encoders'.
+struct Sampling {
+    int samples = 0;
+    int te_samples = 0;  // divides samples
+};
+// Throws SceneError.
+Sampling choose_sampling(const Study& study, double mesh_frequency_Hz);
+
+struct Stepping {
+    lockstep::Integrator integrator = lockstep::kUsualExplicit;
+    int steps = 1;
+    // Smallest number of steps per mesh period. With fewer, the integrator is unstable for some
+    // gearbox of the pilot sample or the sensor's low-pass is inaccurate.
+    int least = 1;
+    // Number of mesh periods in which a disturbance of the nominal gearbox decays by 1/e; infinite
+    // without damping.
+    double decay_meshes = 0.0;
+    // Longest step, in mesh periods, at which the integrator is stable with a margin and the
+    // sensor's low-pass still accurate.
+    double longest_step = 1.0;
+    // Number of steps per mesh period with which lockstep::kUsualExplicit is stable, used or not.
+    double explicit_steps = 0.0;
+};
+// `stiffest_N_m`: largest stiffness of every gear pair, which bounds an explicit step.
+// `mode_inertia`: additional inertia of the nominal gearbox. Throws SceneError.
+Stepping choose_stepping(const Study& study, const Sampler& sampler, const Drivetrain& drivetrain,
+                         const dynamics::GearboxLayout& layout,
+                         const std::vector<double>& stiffest_N_m,
+                         const lockstep::ModeInertia& mode_inertia);
+
+// Relative change at which an orbit counts as converged: the study's value, or the smallest that
+// its precision can resolve.
+double convergence_tolerance(const Study& study);
+
+// Largest number of mesh periods within which a gearbox must converge.
+int choose_max_meshes(const Study& study, double decay_meshes);
+
+// Inputs of one gearbox with speed, load and bodies.
+dynamics::GearboxInputs gearbox_inputs(const Study& study, const Drivetrain& drivetrain,
+                                       const InstanceInputs& instance);
+
+}  // namespace gearpod::mc

@@ -1,0 +1,80 @@
+// Sets of records of healthy gearboxes, measured or simulated, and their summary statistics.
+#pragma once
+
+#include <span>
+#include <string>
+#include <vector>
+
+#include "features/feature.hpp"
+#include "mc/files/input/problems.hpp"
+#include "mc/plan/scene.hpp"
+
+namespace gearpod::mc {
+
+// Length of each record in mesh periods: [gearbox][record].
+using RecordLengths = std::vector<std::vector<int>>;
+
+// [gearbox][record][feature], in the order of the set's features.
+using RecordValues = std::vector<std::vector<std::vector<double>>>;
+
+// Summary statistics of a set, for each feature: the mean over the gearboxes; the standard
+// deviation between gearboxes if there are at least three; and the standard deviation between
+// records if a gearbox has at least three. Taken of the logarithm if all measured values are
+// positive.
+class SetSummary {
+  public:
+    SetSummary(std::vector<const features::Feature*> features, const RecordValues& measured);
+
+    const std::vector<const features::Feature*>& features() const { return features_; }
+    // Names such as "sensor_rms", "sensor_rms between gearboxes", "sensor_rms between records".
+    const std::vector<std::string>& names() const { return names_; }
+    // Statistics in the order of the names. Empty if a value is not finite, or not positive
+    // although its logarithm is needed.
+    std::vector<double> of(const RecordValues& values) const;
+    // True if names()[i] is a mean; in_unit() converts such a mean to the unit of the feature.
+    bool is_mean(std::size_t i) const { return i < features_.size(); }
+    double in_unit(std::size_t i, double mean) const;
+
+  private:
+    std::vector<const features::Feature*> features_;
+    std::vector<char> logarithmic_;
+    bool between_gearboxes_, between_records_;
+    std::vector<std::string> names_;
+};
+
+// Records with which a study is calibrated: their gearbox, length and features.
+
+struct HealthyRecord {
+    std::string gearbox;  // "": a separate gearbox
+    int meshes = 0;
+    std::vector<double> values;  // in the order of features::record_features(); NaN if missing
+};
+
+// Reads a table as written by `features --csv` (text_table.hpp), one record per line. Columns are
+// named after features. Optional columns: gearbox, label (faulty lines are skipped), planet_turns
+// (default: the span's) and problem (lines with a problem are skipped). Problems name the line.
+// Throws SignalError if the table cannot be read.
+std::vector<HealthyRecord> read_feature_table(const std::string& path, const Scene& scene,
+                                              Problems& problems);
+
+// Largest number of gearboxes, and of records of each, that are simulated. From more, evenly spaced
+// ones are selected.
+inline constexpr std::size_t kMostGearboxes = 16, kMostRecords = 8;
+
+struct HealthySet {
+    RecordLengths lengths;
+    RecordValues values;  // in the order of `features`
+    std::vector<const features::Feature*> features;
+    std::size_t records = 0, left_out = 0;  // number selected, and number not selected
+
+    // Mean over the selected records; 0 without the feature.
+    double mean_of(const std::string& feature) const;
+};
+
+// Selects records and features. `requested` holds names of features. If it is empty, all sensor
+// features are used that all records have, that need no healthy reference, and that do not refer to
+// the teeth of the sun or the ring. Missing features are added to the problems.
+HealthySet healthy_set(const std::vector<HealthyRecord>& records,
+                       const std::vector<std::string>& requested, Problems& problems);
+
+}  // namespace gearpod::mc

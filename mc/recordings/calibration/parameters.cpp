@@ -1,0 +1,140 @@
+#include "mc/recordings/calibration/parameters.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "mc/files/input/document.hpp"
+#include "mc/files/input/spelling.hpp"
+#include "mc/files/text/text_table.hpp"
+#include "mc/study/noise.hpp"
+#include "mc/study/schema/schema.hpp"
+#include "signals/noise/coloured_noise.hpp"
+
+namespace gearpod::mc {
+namespace {
+
+std::vector<std::string> random_keys() {
+    std::vector<std::string> names;
+    for (const Key& key : schema()) {
+        if (key.may_be_random() && key.section != "fault") {
+            names.push_back(key.path());
+        }
+    }
+    return names;
+}
+
+class ParameterReader {
+  public:
+    explicit ParameterReader(Problems& problems) : problems_(problems) {}
+
+    void read(const std::string& text, std::vector<CalibratedInput>& inputs) {
+        const std::size_t equals = text.find('=');
+        const std::string name = text.substr(0, equals);
+        const auto reject = [&](const std::string& what, const std::string& remedy) {
+            problems_.push_back({"--prior", 0, name, what, remedy});
+        };
+        if (equals == std::string::npos) {
+            return reject("no range", "write KEY=LOW:HIGH or KEY=LOW:HIGH:log");
+        }
+        const Key* key = find_key(name);
+        if (key == nullptr || !key->may_be_random() || key->section == "fault") {
+            const std::vector<std::string> known = random_keys();
+            return reject(key == nullptr            ? "unknown key"
+                          : key->section == "fault" ? "healthy gearboxes have no fault"
+                                                    : "may not be random",
+                          suggest(name, {known.begin(), known.end()}));
+        }
+        CalibratedInput input{name, 0.0, 0.0, false, key->unit.to_si};
+        const std::vector<std::string> parts = split(text.substr(equals + 1), ':');
+        const auto low = number_of(parts.front(), false);
+        const auto high = parts.size() > 1 ? number_of(parts[1], false) : std::nullopt;
+        input.logarithmic = parts.size() == 3 && parts[2] == "log";
+        if (!low || !high || parts.size() > 3 || (parts.size() == 3 && !input.logarithmic)) {
+            return reject("\"" + text.substr(equals + 1) + "\" is not a range",
+                          "write LOW:HIGH or LOW:HIGH:log");
+        }
+        if (!std::isfinite(*low) || !std::isfinite(*high) || *low >= *high) {
+            return reject("LOW must be below HIGH, both finite", "");
+        }
+        if (input.logarithmic && *low <= 0.0) {
+            return reject("LOW must be > 0 on a logarithmic scale", "");
+        }
+        if (std::ranges::any_of(inputs, [&](const auto& one) { return one.key == name; })) {
+            return reject("is given twice", "");
+        }
+        input.low = *low;
+        input.high = *high;
+        inputs.push_back(input);
+    }
+
+  private:
+    Problems& problems_;
+};
+
+}  // namespace
+
+double CalibratedInput::at(double unit) const {
+    return logarithmic ? low * std::pow(high / low, unit) : low + unit * (high - low);
+}
+
+bool CalibratedInput::independent_of_motion() const {
+    constexpr std::array kSensor{"sensor.path_exponent", "sensor.gain",
+                                 "sensor.tone_level",    "sensor.background_level",
+                                 "sensor.noise_m_s2",    "sensor.noise_density_m_s2_per_sqrt_Hz"};
+    return std::ranges::find(kSensor, key) != kSensor.end();
+}
+
+std::string CalibratedInput::as_override() const {
+    return fmt::format("random.{}={{distribution='uniform',low={},high={}}}", key, low, high);
+}
+
+std::vector<CalibratedInput> read_priors(const std::vector<std::string>& texts,
+                                         Problems& problems) {
+    std::vector<CalibratedInput> inputs;
+    ParameterReader reader(problems);
+    for (const std::string& text : texts) {
+        reader.read(text, inputs);
+    }
+    return inputs;
+}
+
+std::vector<CalibratedInput> default_inputs(const Study& study, double rms) {
+    const MeshErrors& errors = study.errors;
+    const bool pitch =
+        errors.pitch_error_m > 0.0 || study.find_random("gearbox.pitch_error_um") != nullptr;
+    std::vector<CalibratedInput> usual;
+    if (pitch) {
+        usual.push_back({"gearbox.pitch_error_um", 0.2, 100.0, true, 1e-6});
+    } else {
+        usual.push_back({"gearbox.tooth_quality", 2.0, 11.0, false, 1.0});
+    }
+    // Amplitude in the unit of the key that corresponds to an rms of 1 m/s^2.
+    const double unit =
+        noise_by_density(study)
+            ? 1.0 / std::sqrt(signals::low_pass_noise_bandwidth_Hz(study.sensor.low_pass_Hz))
+            : 1.0;
+    usual.push_back({noise_key(study), 0.01 * rms * unit, 1.05 * rms * unit, true, 1.0});
+    usual.push_back({"sensor.gain", 0.05, 20.0, true, 1.0});
+    usual.push_back({"sensor.path_exponent", -0.2, 0.4, false, 1.0});
+    usual.push_back({"sensor.tone_level", 0.01, 20.0, true, 1.0});  // only for studies with tones
+    std::erase_if(usual, [&](const CalibratedInput& input) {
+        const bool forbidden = find_key(input.key)->presence(study).need == Need::forbidden;
+        const bool no_path = input.key == "sensor.path_exponent" && study.effects.path == nullptr;
+        return forbidden || no_path;
+    });
+    return usual;
+}
+
+std::vector<GivenInput> given_at(std::span<const CalibratedInput> inputs,
+                                 std::span<const double> unit) {
+    std::vector<GivenInput> given;
+    for (std::size_t p = 0; p < inputs.size(); ++p) {
+        given.push_back({inputs[p].key, inputs[p].at(unit[p]) * inputs[p].to_si});
+    }
+    return given;
+}
+
+}  // namespace gearpod::mc

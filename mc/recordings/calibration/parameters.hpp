@@ -1,0 +1,40 @@
+// Inputs to calibrate: random inputs of a study with their prior ranges.
+#pragma once
+
+#include <span>
+#include <string>
+#include <vector>
+
+#include "mc/files/input/problems.hpp"
+#include "mc/plan/sampling.hpp"
+#include "mc/study/study.hpp"
+
+namespace gearpod::mc {
+
+struct CalibratedInput {
+    std::string key;           // "gearbox.tooth_quality"
+    double low = 0, high = 1;  // range of the prior, in the unit of the key
+    bool logarithmic = false;  // uniform in the logarithm
+    double to_si = 1.0;
+
+    // Quantile of the prior, in the unit of the key.
+    double at(double unit) const;
+    // True if the motion does not depend on this input, so that another value needs no integration.
+    bool independent_of_motion() const;
+    // The prior as an override of the study.
+    std::string as_override() const;
+};
+
+// Parses texts such as "gearbox.tooth_quality=3:10" and "sensor.noise_m_s2=0.01:1:log". Problems
+// refer to `--prior`.
+std::vector<CalibratedInput> read_priors(const std::vector<std::string>& texts, Problems& problems);
+
+// Default inputs of a study whose sensor measures `rms` m/s^2: tooth errors, noise, level of the
+// tones, gain and path exponent, as far as the study allows them.
+std::vector<CalibratedInput> default_inputs(const Study& study, double rms);
+
+// Inputs at the given quantiles of their priors; `unit` has one value per input.
+std::vector<GivenInput> given_at(std::span<const CalibratedInput> inputs,
+                                 std::span<const double> unit);
+
+}  // namespace gearpod::mc

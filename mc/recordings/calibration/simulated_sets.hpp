@@ -1,0 +1,50 @@
+// Simulates sets of records like the measured ones, at random values of the calibrated inputs. One
+// time integration serves several values of the inputs on which it does not depend: background,
+// gain and path exponent.
+#pragma once
+
+#include <cstddef>
+#include <functional>
+#include <span>
+#include <vector>
+
+#include "mc/plan/scene.hpp"
+#include "mc/recordings/calibration/healthy_records.hpp"
+#include "mc/recordings/calibration/parameters.hpp"
+
+namespace gearpod::mc {
+
+// Part of the prior from which values are sampled, as quantiles from 0 to 1.
+struct PriorRegion {
+    std::vector<double> low, high;  // for each input
+};
+
+// Size of a simulation.
+struct SetPlan {
+    // samples of the inputs of the time integration, each for all gearboxes
+    std::size_t integrated = 0;
+    std::size_t backgrounds = 1;  // samples of the other inputs for each of these
+    std::size_t first = 0;  // number of the first integrated sample; determines the random numbers
+};
+
+struct SimulatedSet {
+    std::vector<double> unit;     // quantile of each input in its prior
+    std::size_t integration = 0;  // number of its integrated sample
+    std::vector<double> summary;  // empty if a gearbox failed or a feature has no value
+};
+
+// Simulates the sets of a plan. Each input must be random in the scene's study. `report_time` is
+// called once, after the first tile, with the estimated time of one thread for all sets, s. The
+// sets do not depend on the number of threads.
+std::vector<SimulatedSet> simulate_sets(const Scene& scene, std::span<const CalibratedInput> inputs,
+                                        const PriorRegion& region, const SetPlan& plan,
+                                        const RecordLengths& lengths, const SetSummary& summary,
+                                        int threads,
+                                        const std::function<void(double)>& report_time);
+
+// Features of one set: records of simulated gearboxes with `given` inputs and the random numbers of
+// set `number`. Empty if a gearbox failed.
+RecordValues simulate_set(const Scene& scene, std::span<const GivenInput> given, std::size_t number,
+                          const RecordLengths& lengths, const SetSummary& summary);
+
+}  // namespace gearpod::mc

@@ -1,0 +1,293 @@
+#include "mc/report/description/describe_lives.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "machine/instruction_sets.hpp"
+#include "mc/ensemble/gearbox/solution_choice.hpp"
+#include "mc/ensemble/ranks.hpp"
+#include "mc/lives/campaign.hpp"
+#include "mc/lives/interpolation.hpp"
+#include "mc/lives/life_tile.hpp"
+#include "mc/numerics/forecast/memory.hpp"
+#include "mc/plan/scene_error.hpp"
+#include "mc/report/description/terminal_text.hpp"
+
+namespace gearpod::mc {
+namespace {
+
+// Describes how records at other torques or speeds are computed.
+std::string load_text(const RecordDistribution& law, const std::optional<int>& evenly_spaced,
+                      const std::optional<int>& nodes, double tolerance) {
+    const char* const unit = law.given() ? "the study's value" : "the gearbox's value";
+    if (const std::vector<double> distinct = law.distinct_factors(); distinct.size() > 1) {
+        return fmt::format(
+            "{}; {} values occur, equally often, and each is integrated: {:.4g} "
+            "times {}",
+            law.text(), distinct.size(), fmt::join(distinct, ", "), unit);
+    }
+    const LoadAxis axis(law, evenly_spaced.value_or(2), nodes);
+    return law.text() +
+           (axis.factors().size() > 1
+                ? fmt::format(
+                      "; records between are interpolated from solutions at {:.3g} times {}{}",
+                      fmt::join(axis.factors(), ", "), unit,
+                      evenly_spaced || nodes
+                          ? ""
+                          : fmt::format(", or at more if the error is above {:g} "
+                                        "(life.interpolation_tolerance)",
+                                        tolerance))
+                : "");
+}
+
+// True for fault inputs, which only `run` uses: in a life the crack grows to its depth.
+bool is_of_fault(const RandomInput& input) {
+    return input.key.starts_with("fault.");
+}
+
+std::string growth_text(const Study& study) {
+    std::string text = study.life.curve_h.empty()
+                           ? "Paris law, with the torque and speed of the records"
+                           : "along the given curve";
+    for (const RandomInput& input : study.random) {
+        text += is_of_fault(input) ? "; " + input.key + " in [random] is ignored" : "";
+    }
+    return text;
+}
+
+std::string of_gearbox(const Study& study) {
+    std::string text = has_tooth_errors(study) ? "tooth errors" : "";
+    for (const RandomInput& input : study_of_gearboxes(study).random) {
+        if (!is_of_fault(input)) {
+            text += (text.empty() ? "" : ", ") + input.key;
+        }
+    }
+    return text.empty() ? "nothing: all gearboxes are identical" : text;
+}
+
+}  // namespace
+
+void print_life(const Scene& scene) {
+    const Study& study = scene.study();
+    const Life& life = study.life;
+    if (!life.interval_h) {
+        return;
+    }
+    print_heading("lives");
+    try {
+        check_superposable(scene);
+        print_entry("record", record_text(scene));
+    } catch (const SceneError& error) {
+        print_entry("no lives",
+                    fmt::format("{}: {}; {}", error.key(), error.what(), error.remedy()));
+        return;
+    }
+    print_entry("random per gearbox", of_gearbox(study));
+    const RecordDistributions laws(study);
+    print_entry("torque per record",
+                load_text(laws.torque, life.given_torques, life.polynomial_torques,
+                          life.interpolation_tolerance));
+    print_entry("speed per record", load_text(laws.speed, life.given_speeds, life.polynomial_speeds,
+                                              life.interpolation_tolerance));
+    print_entry("gain per record", laws.gain.text());
+    print_entry("noise per record", laws.noise.text());
+    print_entry("crack growth", growth_text(study));
+    print_entry("crack depths integrated",
+                fmt::format("0 and {} depths up to {:g} mm, with interpolation in between",
+                            life.depth_steps, 1e3 * *life.last_depth_m));
+    print_entry("gearboxes", fmt::format("{} with a crack, {} healthy for the thresholds, {} "
+                                         "healthy to count false alarms",
+                                         study.ensemble.instances,
+                                         study.ensemble.threshold_instances, life.healthy_lives));
+}
+
+namespace {
+
+// Integrated mesh periods of a tile without a fault, and the additional ones of each crack depth.
+struct IntegratedMeshes {
+    double healthy, depth;
+};
+
+IntegratedMeshes meshes_of(const Scene& scene) {
+    const double all = integrated_meshes(scene);
+    return {all, integrates_perturbation_only(scene) ? passage_meshes_of_span(scene) : all};
+}
+
+// Integration time of one tile of a batch, s.
+double tile_s(const LifeTiles& tiles, const IntegratedMeshes& meshes, double mesh_s, bool cracked,
+              bool tested) {
+    const Life& life = tiles.scene().study().life;
+    const auto loads = static_cast<double>(tiles.load_count());
+    double integrated = loads * meshes.healthy;
+    if (cracked) {
+        integrated += loads * life.depth_steps * meshes.depth;
+    }
+    if (tested) {
+        integrated += 2.0 * meshes.depth + static_cast<double>(tiles.gap_count()) * meshes.healthy;
+    }
+    return integrated * mesh_s;
+}
+
+// Mean number of records until the end of life, over the first gearboxes with a crack.
+double mean_records(const LifeTiles& tiles) {
+    constexpr std::uint64_t kMost = 64;
+    const auto count = std::clamp<std::uint64_t>(
+        static_cast<std::uint64_t>(tiles.scene().study().ensemble.instances), 1, kMost);
+    double sum = 0.0;
+    for (std::uint64_t i = 0; i < count; ++i) {
+        sum += static_cast<double>(tiles.history({Group::graded, i}).records.size());
+    }
+    return sum / static_cast<double>(count);
+}
+
+// Memory of a tile, in bytes. For each load it holds the signals kept by the integration, and those
+// without a crack and at the depths below and above. If only the perturbation due to the fault is
+// integrated, the transmission errors of all meshes are added. A depth being integrated and tested
+// adds two more. One gearbox also holds the folded products of its records.
+double tile_bytes(const LifeTiles& tiles) {
+    const Scene& scene = tiles.scene();
+    const double samples = static_cast<double>(scene.span_meshes()) * scene.samples_per_mesh();
+    const auto lanes = static_cast<double>(tiles.lanes()),
+               loads = static_cast<double>(tiles.load_count());
+    const double signals = (integrates_perturbation_only(scene) ? 5.0 : 4.0) * loads + 2.0;
+    const double basis = 3.0 * loads + 1.0;
+    const double bins = static_cast<double>(scene.span().planet_teeth) * scene.samples_per_mesh();
+    return 8.0 * (signals * lanes * samples + 0.5 * basis * (basis + 1.0) * bins) +
+           record_bytes(scene);
+}
+
+double file_bytes(const Study& study) {
+    const RowShape shape = row_shape(lives_frame(study));
+    return 8.0 * static_cast<double>(lives_plan(study).rows()) *
+           static_cast<double>(shape.values() + 1);
+}
+
+std::string time_text(double seconds) {
+    return seconds < 9.95 ? fmt::format("{:.2g} s", seconds) : fmt::format("{:.0f} s", seconds);
+}
+
+std::string bytes_text(double bytes) {
+    return bytes < 1e8 ? fmt::format("{:.2g} MB", bytes / 1e6)
+                       : fmt::format("{:.0f} MB", bytes / 1e6);
+}
+
+// Numbers of torques and speeds with the most loads that may be chosen.
+Life most_loads(const Study& study) {
+    Life life = study.life;
+    const RecordDistributions distributions(study);
+    if (distributions.speed.varies() && !gives_speeds(life)) {
+        life.polynomial_speeds = kMostNodes;
+    } else if (distributions.torque.varies() && !gives_torques(life)) {
+        life.polynomial_torques = kMostNodes;
+    }
+    return life;
+}
+
+}  // namespace
+
+LivesForecast forecast_lives(const LifeTiles& tiles, int threads, double setup_s, int pilot_loads) {
+    const Scene& scene = tiles.scene();
+    const Study& study = scene.study();
+    const BatchPlan plan = lives_plan(study);
+    LivesForecast all;
+    all.threads = std::max(1, std::min(threads, static_cast<int>(plan.batches())));
+    all.setup_s = setup_s;
+    const IntegratedMeshes meshes = meshes_of(scene);
+    const double mesh_s = study.effects.quasi_static() ? 0.0 : mesh_period_s(scene);
+    const RecordTimes trial = tiles.time_records();
+    const double cracked_records = mean_records(tiles);
+    std::vector<double> busy_s(static_cast<std::size_t>(all.threads), 0.0);
+    double integrating_s = 0.0, records_s = 0.0, record_count = 0.0;
+    for (std::size_t b = 0; b < plan.batches(); ++b) {
+        const Batch batch = plan.batch(b);
+        const bool cracked = batch.group == Group::graded;
+        const double records = cracked ? cracked_records : study.life.records;
+        double batch_s = 0.0;
+        for (std::size_t first = 0; first < batch.gearboxes; first += tiles.lanes()) {
+            const bool tested = measures_interpolation({batch.group, batch.first_index + first});
+            batch_s += tile_s(tiles, meshes, mesh_s, cracked, tested);
+        }
+        integrating_s += batch_s;
+        const double own_s =
+            static_cast<double>(batch.gearboxes) *
+            (records * trial.record_s + (cracked ? study.life.depth_steps : 1) * trial.step_s);
+        record_count += static_cast<double>(batch.gearboxes) * records;
+        records_s += own_s;
+        *std::ranges::min_element(busy_s) += batch_s + own_s;
+    }
+    const double pilot_tiles =
+        std::ceil(static_cast<double>(kInterpolationPilots) / static_cast<double>(tiles.lanes()));
+    all.pilots_s = pilot_loads == 0
+                       ? 0.0
+                       : mesh_s * pilot_tiles * (pilot_loads * meshes.healthy + meshes.depth);
+    all.processor_s = all.pilots_s + integrating_s + records_s;
+    all.gearboxes = static_cast<long>(plan.rows());
+    all.records = std::lround(record_count);
+    all.gearbox_s = integrating_s / static_cast<double>(std::max<std::size_t>(1, plan.rows()));
+    all.record_s = records_s / std::max(1.0, record_count);
+    all.integration_s = std::ranges::max(busy_s);
+    all.file_bytes = file_bytes(study);
+    all.memory_bytes = peak_memory_bytes() + all.threads * tile_bytes(tiles) + all.file_bytes;
+    return all;
+}
+
+void print_lives_forecast(const Scene& scene, double setup_s) {
+    constexpr double kMostPilots_s = 5.0;
+    const Life& life = scene.study().life;
+    const RecordDistributions distributions(scene.study());
+    // Torques and speeds that pilots examine.
+    const auto interpolated = [](const RecordDistribution& one) {
+        return one.varies() && one.distinct_factors().empty() ? 1 : 0;
+    };
+    const int axes = interpolated(distributions.torque) + interpolated(distributions.speed);
+    const int threads = thread_count(scene.study());
+    // One load and five more for each quantity that varies are integrated at least.
+    const int least_loads = axes == 0 ? 0 : 1 + 5 * axes;
+    LivesForecast all = forecast_lives(LifeTiles(scene), threads, setup_s, least_loads);
+    std::string loads, most;
+    if (axes > 0 && all.pilots_s <= kMostPilots_s) {
+        const InterpolationChoice choice = choose_interpolation(scene);
+        const Scene chosen = scene.with(choice.life);
+        const LifeTiles tiles(chosen);
+        all = forecast_lives(tiles, threads, setup_s, choice.loads);
+        loads = fmt::format("{}; pilots are off by {:.2g} of what a crack of {:g} mm changes",
+                            tiles.load_count(), choice.error, 1e3 * smallest_depth_m(life));
+    } else if (const Life largest = most_loads(scene.study()); axes > 0 && largest == life) {
+        loads = fmt::format("{}; pilots measure the error when the run starts",
+                            LifeTiles(scene).load_count());
+    } else if (axes > 0) {
+        const Scene chosen = scene.with(largest);
+        const LifeTiles tiles(chosen);
+        const LivesForecast upper =
+            forecast_lives(tiles, threads, setup_s, static_cast<int>(kMostLoads));
+        loads = fmt::format("at least {}, at most {}: chosen when the run starts",
+                            LifeTiles(scene).load_count(), tiles.load_count());
+        most = ", at most " + time_text(upper.total_s());
+    }
+    print_heading("forecast of lives");
+    print_entry("based on",
+                "the time of one mesh period, the number of mesh periods that the damping "
+                "requires, and records of artificial signals");
+    print_entry("threads", fmt::format("{}, {}", all.threads,
+                                       machine::name(machine::active_instruction_set())));
+    print_entry("set-up", time_text(all.setup_s));
+    if (!loads.empty()) {
+        print_entry("integrated loads", loads);
+        print_entry("pilots", time_text(all.pilots_s) + " on one thread");
+    }
+    print_entry("gearboxes", fmt::format("{}, time integration {:.2g} s of processor time each",
+                                         all.gearboxes, all.gearbox_s));
+    print_entry("records", fmt::format("{}, superposition {:.2g} ms of processor time each",
+                                       all.records, 1e3 * all.record_s));
+    print_entry("processor time", time_text(all.processor_s));
+    print_entry("estimated time", time_text(all.total_s()) + most);
+    print_entry("estimated memory", bytes_text(all.memory_bytes));
+    print_entry("results file",
+                bytes_text(all.file_bytes) + "; the checkpoint is as large until the run ends");
+}
+
+}  // namespace gearpod::mc

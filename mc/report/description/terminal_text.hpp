@@ -1,0 +1,25 @@
+// Headings, entries and paragraphs of the text printed by `describe`.
+#pragma once
+
+#include <string>
+#include <string_view>
+
+namespace gearpod::mc {
+
+void print_heading(const std::string& text);
+
+// Prints a name and a value in two columns, with long values in several lines. Names longer than 25
+// characters shift the value to the right.
+void print_entry(const std::string& name, const std::string& value);
+
+// Prints a text as indented lines.
+void print_paragraph(const std::string& text);
+
+// Study text for a terminal.
+
+// Breaks lines of a study that are longer than 80 characters where TOML allows it: an inline table
+// becomes dotted keys, and an array takes several lines. Strings stay whole. The meaning is the
+// same.
+std::string wrapped_study(std::string_view toml);
+
+}  // namespace gearpod::mc

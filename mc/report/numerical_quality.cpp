@@ -1,0 +1,303 @@
+#include "mc/report/numerical_quality.hpp"
+
+#include <fmt/core.h>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <utility>
+
+#include "analysis/report/wording.hpp"
+#include "mc/files/input/terminal_text.hpp"
+#include "mc/numerics/numerical_error.hpp"
+#include "mc/results/layout.hpp"
+
+namespace gearpod::mc {
+namespace {
+
+constexpr std::size_t kMostNamedRows = 20;
+
+// Meaning of a status, from the list "0 ok, 1 diverged, ...".
+std::string status_meaning(int status) {
+    const std::string all = std::string(", ") + kStatusMeanings + ",";
+    const std::string start = fmt::format(", {} ", status);
+    const std::size_t at = all.find(start);
+    if (at == std::string::npos) {
+        return fmt::format("status {}", status);
+    }
+    const std::size_t first = at + start.size();
+    return all.substr(first, all.find(',', first) - first);
+}
+
+std::string rows_text(const Failures& failures) {
+    std::vector<std::string> named;
+    for (const auto& [row, status] : failures.first) {
+        named.push_back(fmt::format("{} ({})", row, status_meaning(status)));
+    }
+    if (named.empty()) {
+        return "";
+    }
+    const std::size_t more =
+        failures.counts.failed() - std::min(failures.counts.failed(), named.size());
+    if (more > 0) {
+        named.push_back(fmt::format("{} more", more));
+    }
+    return "Rows: " + analysis::joined(named) + ".";
+}
+
+}  // namespace
+
+RowCounts count_rows(const RowSource& rows, std::size_t records) {
+    RowCounts counts;
+    for_each_row(rows, [&](const ResultRow& row) {
+        const bool threshold = row.group == static_cast<int>(Group::threshold);
+        if (threshold && row.index % records != 0) {
+            return;  // a further record of the gearbox before
+        }
+        ++counts.all;
+        const int status = row.status;
+        if (status >= 0 && status < kStatuses) {
+            ++counts.with_status[static_cast<std::size_t>(status)];
+        }
+    });
+    counts.not_converged = counts.with_status[static_cast<std::size_t>(Status::not_converged)];
+    counts.diverged = counts.all - counts.not_converged -
+                      counts.with_status[static_cast<std::size_t>(Status::ok)];
+    return counts;
+}
+
+Failures failures_of(const Results& frame, const RowSource& rows) {
+    const RowShape shape = row_shape(frame);
+    Failures failures;
+    failures.counts = count_rows(rows, frame.request.threshold_records);
+    failures.no_value.assign(shape.features, std::vector<long>(shape.levels, 0));
+    for_each_row(rows, [&](const ResultRow& row) {
+        if (row.status != static_cast<int>(Status::ok)) {
+            if (failures.first.size() < kMostNamedRows) {
+                failures.first.emplace_back(row.index, row.status);
+            }
+            return;
+        }
+        const double* values = row.values + shape.parameters;
+        for (std::size_t v = 0; v < shape.features * shape.levels; ++v) {
+            failures.no_value[v / shape.levels][v % shape.levels] +=
+                std::isfinite(values[v]) ? 0 : 1;
+        }
+    });
+    return failures;
+}
+
+analysis::Section failures_section(const Results& frame, const Failures& failures) {
+    const RowCounts& counts = failures.counts;
+    analysis::Section section{"failures", "", {}};
+    section.state("failures",
+                  fmt::format("{} of {} gearboxes failed: {} diverged, {} did not converge to the "
+                              "periodic orbit. Failed gearboxes count neither as detected nor as "
+                              "missed.",
+                              counts.failed(), counts.all, counts.diverged, counts.not_converged),
+                  true);
+    section.state("failures.rows", rows_text(failures), true);
+    std::vector<std::string> without;
+    for (std::size_t f = 0; f < failures.no_value.size(); ++f) {
+        for (std::size_t n = 0; n < failures.no_value[f].size(); ++n) {
+            if (failures.no_value[f][n] > 0) {
+                without.push_back(fmt::format("{} at noise x {}: {}", frame.features[f].name,
+                                              analysis::number_text(frame.noise_levels[n]),
+                                              failures.no_value[f][n]));
+            }
+        }
+    }
+    section.state("failures.no_value",
+                  !without.empty()
+                      ? fmt::format("Gearboxes that did not fail, but for which a feature has no "
+                                    "value (not a number): {}.",
+                                    analysis::joined(without))
+                  : counts.all > counts.failed()
+                      ? "Every feature has a value for every gearbox that did not fail."
+                      : "",
+                  true);
+    return section;
+}
+
+nlohmann::json failures_json(const Results& frame, const Failures& failures) {
+    nlohmann::json named = nlohmann::json::array(), without = nlohmann::json::array();
+    for (const auto& [row, status] : failures.first) {
+        named.push_back({{"row", row}, {"status", status}});
+    }
+    for (std::size_t f = 0; f < failures.no_value.size(); ++f) {
+        without.push_back({{"name", frame.features[f].name}, {"gearboxes", failures.no_value[f]}});
+    }
+    return {{"gearboxes", failures.counts.all},
+            {"diverged", failures.counts.diverged},
+            {"not_settled", failures.counts.not_converged},
+            {"status_meanings", kStatusMeanings},
+            {"first_rows", named},
+            {"no_value", without}};
+}
+
+void print_failures(const RowCounts& rows, int max_meshes) {
+    fmt::print("gearboxes: {} of {} failed ({} diverged, {} did not converge)\n", rows.failed(),
+               rows.all, rows.diverged, rows.not_converged);
+    for (const Status status : {Status::supercritical, Status::parametric, Status::step_too_long,
+                                Status::no_equilibrium}) {
+        const std::size_t count = rows.with_status[static_cast<std::size_t>(status)];
+        if (count > 0) {
+            const std::string reason =
+                fmt::format("{} of them: each {}", count, failure_text(status));
+            fmt::print("  {}\n", wrapped_text(reason, 2));
+        }
+    }
+    if (rows.not_converged > 0) {
+        fmt::print(
+            "  (no convergence to the periodic orbit within {} mesh periods: raise\n"
+            "  numerics.max_meshes or numerics.settle_tolerance)\n",
+            max_meshes);
+    }
+}
+
+namespace {
+
+using analysis::number_text;
+
+std::string error_size(double size, const analysis::SizeUnit& unit) {
+    return std::isfinite(size) ? analysis::with_unit(size, unit, 2) : "-";
+}
+
+analysis::Table error_table(const Results& frame,
+                            const std::vector<NumericalContribution>& contributions) {
+    analysis::Table table{"numerical",
+                          "Numerical error (rms, of Pd, of a90) and statistical error (half width "
+                          "of the interval of Pd, distance of a90 from its upper bound)",
+                          {"feature", "noise", "rms", "spread of healthy gearboxes", "of Pd",
+                           "half width of Pd", "of a90", "a90 to its bound", "larger"},
+                          {}};
+    table.labels = 2;
+    for (const NumericalContribution& one : contributions) {
+        table.rows.push_back({one.feature, "x " + number_text(one.noise_level),
+                              number_text(one.rms, 2), number_text(one.spread, 2),
+                              number_text(one.pd, 2), number_text(one.pd_half_width, 2),
+                              error_size(one.a90, frame.request.size),
+                              error_size(one.a90_interval, frame.request.size),
+                              one.numerical_dominates ? "numerical" : "statistical"});
+    }
+    return table;
+}
+
+// Share of the scatter of healthy gearboxes, with its standard error.
+std::string share_text(double value, double error, double scatter) {
+    return scatter > 0.0 && std::isfinite(value)
+               ? fmt::format("{:+.3f} +-{:.3f}", value / scatter, error / scatter)
+               : "-";
+}
+
+analysis::Table correction_table(const Results& frame,
+                                 const std::vector<NumericalContribution>& contributions) {
+    analysis::Table table{
+        "correction",
+        "Error of the run's steps over the scatter of healthy gearboxes (mean, standard error) and "
+        "detection without it",
+        {"feature", "noise", "of healthy", "of faulty", "scatter x", "change of Pd",
+         "a90 corrected", "its 95 % interval"},
+        {}};
+    table.labels = 2;
+    for (const NumericalContribution& one : contributions) {
+        if (!one.correction) {
+            continue;
+        }
+        const PairedCorrection& c = *one.correction;
+        table.rows.push_back(
+            {one.feature, "x " + number_text(one.noise_level),
+             share_text(c.healthy_bias, c.healthy_error, one.spread),
+             share_text(c.faulty_bias, c.faulty_error, one.spread), number_text(c.scatter_ratio, 3),
+             number_text(one.corrected->pd_change, 2),
+             error_size(one.corrected->a90, frame.request.size),
+             std::isfinite(one.corrected->a90_lower)
+                 ? error_size(one.corrected->a90_lower, frame.request.size) + " to " +
+                       error_size(one.corrected->a90_upper, frame.request.size)
+                 : "-"});
+    }
+    return table;
+}
+
+}  // namespace
+
+analysis::Section numerical_section(const Results& frame,
+                                    const std::vector<NumericalContribution>& contributions) {
+    analysis::Section section{"numerical", "Numerical and statistical error", {}};
+    if (frame.step_error) {
+        section.state("step_error",
+                      "Error of the time steps: " + step_error_text(*frame.step_error) + ".");
+    }
+    if (!frame.numerical) {
+        section.state("numerical.none",
+                      "The study requested no check of its numerical error (numerics.verify or "
+                      "numerics.tolerance), so it cannot be compared with the statistical error.",
+                      true);
+        return section;
+    }
+    std::vector<std::string> dominated;
+    for (const NumericalContribution& one : contributions) {
+        if (one.numerical_dominates) {
+            dominated.push_back(
+                fmt::format("{} at noise x {}", one.feature, number_text(one.noise_level)));
+        }
+    }
+    section.state(
+        "numerical.text",
+        fmt::format(
+            "The run used {}; {} of its gearboxes were computed again with {}. {}",
+            frame.numerical->setting, frame.numerical->gearboxes, frame.numerical->finer,
+            dominated.empty()
+                ? std::string("For every feature and noise level the statistical error is larger "
+                              "than the numerical error: finer time steps would not help.")
+                : fmt::format("The numerical error is larger than the statistical error for {}.",
+                              analysis::joined(dominated))));
+    section.add(error_table(frame, contributions));
+    const NumericalError& error = *frame.numerical;
+    if (error.corrections.empty()) {
+        return section;
+    }
+    const std::string pairs =
+        fmt::format("{} healthy and {} faulty gearboxes", error.healthy_pairs, error.faulty_pairs);
+    if (std::min(error.healthy_pairs, error.faulty_pairs) < kFewestPairs) {
+        section.state("numerical.correction",
+                      fmt::format("{} were computed with and without these finer steps, too few to "
+                                  "correct the others: at least {} of each are needed.",
+                                  pairs, kFewestPairs));
+        return section;
+    }
+    section.state("numerical.correction",
+                  pairs +
+                      " with and without these finer steps give the error of all: its mean in "
+                      "healthy and in faulty gearboxes, and detection after the fitted "
+                      "difference is added to every gearbox. The interval is that of the "
+                      "correction alone.");
+    section.add(correction_table(frame, contributions));
+    return section;
+}
+
+std::string numerical_limit(const std::vector<NumericalContribution>& contributions,
+                            const std::string& feature, double noise_level,
+                            const analysis::SizeUnit& unit) {
+    for (const NumericalContribution& one : contributions) {
+        if (one.feature == feature && one.noise_level == noise_level && std::isfinite(one.pd) &&
+            std::isfinite(one.pd_half_width)) {
+            const std::string text = fmt::format(
+                "Error of the detection rate: at most {} numerical and +-{} statistical.",
+                number_text(one.pd, 2), number_text(one.pd_half_width, 2));
+            return one.corrected && std::isfinite(one.corrected->a90)
+                       ? text + fmt::format(
+                                    " Without the error of the steps a90 would be {} ({} to "
+                                    "{}).",
+                                    error_size(one.corrected->a90, unit),
+                                    error_size(one.corrected->a90_lower, unit),
+                                    error_size(one.corrected->a90_upper, unit))
+                       : text;
+        }
+    }
+    return "";
+}
+
+}  // namespace gearpod::mc

@@ -1,0 +1,243 @@
+#include "mc/report/sweep/compared_results.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "mc/ensemble/ranks.hpp"
+#include "mc/ensemble/results_check.hpp"
+#include "mc/files/input/find_in.hpp"
+#include "mc/files/input/terminal_text.hpp"
+#include "mc/results/reliability_of_results.hpp"
+#include "mc/results/result_rows.hpp"
+#include "mc/study/random/philox.hpp"
+
+namespace gearpod::mc {
+namespace {
+
+const ParameterResult* find_parameter(const Results& frame, const std::string& name) {
+    return find_in(frame.parameters, name, &ParameterResult::name);
+}
+
+double compared_size(const Results& frame, std::size_t row) {
+    const ParameterResult* size = find_parameter(frame, frame.request.size.name);
+    return size != nullptr ? size->values[row] : 0.0;
+}
+
+// ComparedRows of both files to be compared, paired or not.
+struct ComparedRows {
+    std::vector<std::size_t> threshold_a, graded_a, threshold_b, graded_b;
+    std::string unpaired;  // why the rows are not paired; "": they are
+};
+
+ComparedRows compared_rows(const ComparedSide& a, const ComparedSide& b) {
+    ComparedRows rows{a.threshold, a.graded, b.threshold, b.graded, ""};
+    const std::string seed = a.frame.provenance_value("seed");
+    if (a.frame.provenance_value("kind") == kRecordingsKind ||
+        b.frame.provenance_value("kind") == kRecordingsKind || seed.empty()) {
+        rows.unpaired = "recordings";
+        return rows;
+    }
+    if (seed != b.frame.provenance_value("seed")) {
+        rows.unpaired = fmt::format("seed {} and {}", printable(seed),
+                                    printable(b.frame.provenance_value("seed")));
+        return rows;
+    }
+    if (a.sampling != b.sampling) {
+        rows.unpaired = "ensemble.sampling differs";
+        return rows;
+    }
+    // With the same seed, rows at the same position of a group have the same random inputs.
+    const std::size_t graded = std::min(a.graded.size(), b.graded.size());
+    for (std::size_t i = 0; i < graded; ++i) {
+        if (compared_size(a.frame, a.graded[i]) != compared_size(b.frame, b.graded[i])) {
+            rows.unpaired = "their fault sizes differ";
+            return rows;
+        }
+    }
+    const std::size_t healthy = std::min(a.threshold.size(), b.threshold.size());
+    // Pairing would discard more than half of the larger file.
+    if (2 * graded < std::max(a.graded.size(), b.graded.size()) ||
+        2 * healthy < std::max(a.threshold.size(), b.threshold.size())) {
+        rows.unpaired = "one has more than twice as many as the other";
+        return rows;
+    }
+    for (auto* group : {&rows.threshold_a, &rows.threshold_b}) {
+        group->resize(healthy);
+    }
+    for (auto* group : {&rows.graded_a, &rows.graded_b}) {
+        group->resize(graded);
+    }
+    return rows;
+}
+
+// Lines such as "torque_N_m differs in 500 of them", one for each input that differs in some pair.
+std::vector<std::string> differing_inputs(const ComparedSide& a, const ComparedSide& b,
+                                          const ComparedRows& rows) {
+    std::vector<std::string> lines;
+    for (const ParameterResult& parameter : a.frame.parameters) {
+        const ParameterResult* other = find_parameter(b.frame, parameter.name);
+        std::size_t differ = 0;
+        for (std::size_t i = 0; other != nullptr && i < rows.graded_a.size(); ++i) {
+            differ += parameter.values[rows.graded_a[i]] != other->values[rows.graded_b[i]];
+        }
+        if (differ > 0) {
+            lines.push_back(fmt::format("{} differs in {} of them", parameter.name, differ));
+        }
+    }
+    return lines;
+}
+
+std::vector<double> feature_column(const FeatureResult& feature,
+                                   const std::vector<std::size_t>& rows, std::size_t level,
+                                   std::size_t levels) {
+    std::vector<double> out;
+    for (const std::size_t row : rows) {
+        out.push_back(feature.values[row * levels + level]);
+    }
+    return out;
+}
+
+std::vector<double> size_column(const Results& frame, const std::vector<std::size_t>& rows) {
+    std::vector<double> out;
+    for (const std::size_t row : rows) {
+        out.push_back(compared_size(frame, row));
+    }
+    return out;
+}
+
+const FeatureResult* find_result(const Results& frame, const std::string& name) {
+    return find_in(frame.features, name, &FeatureResult::name);
+}
+
+// Compares values; NaN equals NaN, because a gearbox may fail in both files.
+bool same_values(const std::vector<double>& a, const std::vector<double>& b) {
+    return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](double x, double y) {
+        return x == y || (std::isnan(x) && std::isnan(y));
+    });
+}
+
+void add_features(analysis::ComparedFile& file, const ComparedSide& a, const ComparedSide& b,
+                  const ComparedRows& rows, analysis::ComparisonRequest request,
+                  const ComparedSelection& selection) {
+    const auto& levels_a = a.frame.noise_levels;
+    const auto& levels_b = b.frame.noise_levels;
+    for (const analysis::SizeGroup& group : a.frame.request.groups) {
+        for (const analysis::SizeGroup& other : b.frame.request.groups) {
+            if (group.low == other.low && group.high == other.high) {
+                request.groups.push_back(group);
+            }
+        }
+    }
+    const auto sizes_a = size_column(a.frame, rows.graded_a),
+               sizes_b = size_column(b.frame, rows.graded_b);
+    for (const FeatureResult& feature : a.frame.features) {
+        const FeatureResult* other = find_result(b.frame, feature.name);
+        for (std::size_t n = 0; other != nullptr && n < levels_a.size(); ++n) {
+            const auto at = std::find(levels_b.begin(), levels_b.end(), levels_a[n]);
+            if (at == levels_b.end() || !selection.holds(feature.name, levels_a[n])) {
+                continue;
+            }
+            const auto m = static_cast<std::size_t>(at - levels_b.begin());
+            const auto column_a = [&](const auto& of) {
+                return feature_column(feature, of, n, levels_a.size());
+            };
+            const auto column_b = [&](const auto& of) {
+                return feature_column(*other, of, m, levels_b.size());
+            };
+            const auto healthy_a = column_a(rows.threshold_a), graded_a = column_a(rows.graded_a);
+            const auto healthy_b = column_b(rows.threshold_b), graded_b = column_b(rows.graded_b);
+            file.features.push_back(
+                {feature.name, levels_a[n],
+                 request.paired && same_values(healthy_a, healthy_b) &&
+                     same_values(graded_a, graded_b),
+                 compare_detection({feature.alarm, healthy_a, sizes_a, graded_a},
+                                   {other->alarm, healthy_b, sizes_b, graded_b}, request,
+                                   thread_count())});
+        }
+    }
+    const auto missing = [&](const ComparedSide& has, const ComparedSide& lacks) {
+        std::string names;
+        for (const FeatureResult& feature : has.frame.features) {
+            if (find_result(lacks.frame, feature.name) == nullptr) {
+                names += (names.empty() ? "" : ", ") + feature.name;
+            }
+        }
+        if (!names.empty()) {
+            file.left_out.push_back(fmt::format("{} (only in {})", names, has.path));
+        }
+    };
+    missing(a, b);
+    missing(b, a);
+}
+
+}  // namespace
+
+ComparedSide read_compared(const std::string& path) {
+    ComparedSide side;
+    side.path = path;
+    side.frame = read_results(path);
+    const ColumnRows rows(side.frame);
+    check_results(path, side.frame, rows);
+    side.frame.detection = detect_all(side.frame, rows);
+    for (std::size_t row = 0; row < side.frame.group.size(); ++row) {
+        const bool threshold = side.frame.group[row] == static_cast<int>(Group::threshold);
+        // The bootstrap resamples gearboxes, so only the first record of each threshold gearbox is
+        // used.
+        const bool repeats = threshold && row % side.frame.request.threshold_records != 0;
+        if (side.frame.group[row] != kUngraded && !repeats) {
+            (threshold ? side.threshold : side.graded).push_back(row);
+        }
+    }
+    const auto study = read_study_text(side.frame.provenance_value("study"), "").study;
+    side.sampling = study ? study->ensemble.sampling : SamplingKind::plain;
+    return side;
+}
+
+// Reasons why two files cannot be compared, one line each; "" if they can.
+std::string mismatch(const ComparedSide& a, const ComparedSide& b) {
+    std::string text;
+    const analysis::DetectionRequest &one = a.frame.request, &two = b.frame.request;
+    if (one.size.name != two.size.name || one.size.unit != two.size.unit) {
+        text += fmt::format(
+            "{}: its fault size is {}, that of {} is {}; compare results with the same kind of "
+            "fault\n",
+            b.path, two.size.name, a.path, one.size.name);
+    }
+    if (one.false_alarm_rate != two.false_alarm_rate) {
+        text += fmt::format(
+            "{}: its false-alarm rate is {:g}, that of {} is {:g}; run both at the same "
+            "detection.false_alarm_rate\n",
+            b.path, two.false_alarm_rate, a.path, one.false_alarm_rate);
+    }
+    const auto common = [](const auto& first, const auto& second, auto same) {
+        return std::any_of(first.begin(), first.end(), [&](const auto& x) {
+            return std::any_of(second.begin(), second.end(),
+                               [&](const auto& y) { return same(x, y); });
+        });
+    };
+    if (!common(a.frame.features, b.frame.features,
+                [](const auto& x, const auto& y) { return x.name == y.name; })) {
+        text += fmt::format("{}: has no feature in common with {}\n", b.path, a.path);
+    }
+    if (!common(a.frame.noise_levels, b.frame.noise_levels, std::equal_to<>())) {
+        text += fmt::format("{}: has no noise level in common with {}\n", b.path, a.path);
+    }
+    return text;
+}
+
+void compare_with(const ComparedSide& a, const ComparedSide& b, analysis::ComparisonRequest request,
+                  const ComparedSelection& selection, analysis::ComparedFile& file) {
+    const ComparedRows rows = compared_rows(a, b);
+    file.unpaired = rows.unpaired;
+    request.false_alarm_rate = a.frame.request.false_alarm_rate;
+    request.paired = rows.unpaired.empty();
+    if (request.paired) {
+        file.pairs = static_cast<long>(rows.graded_a.size());
+        file.differing = differing_inputs(a, b, rows);
+    }
+    add_features(file, a, b, rows, request, selection);
+}
+
+}  // namespace gearpod::mc

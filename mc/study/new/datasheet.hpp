@@ -1,0 +1,90 @@
+// Datasheet values common to planetary stages and gear pairs.
+#pragma once
+
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "mc/files/input/problems.hpp"
+
+namespace gearpod::mc {
+
+// Values in the usual units. Missing ones follow from rules of thumb or the geometry.
+struct StageDatasheet {
+    double module_mm = 0;  // normal
+    double helix_deg = 0, pressure_angle_deg = 20;
+    std::optional<double> face_width_mm;
+    std::optional<double> addendum;  // divided by the normal module
+    std::optional<double> centre_distance_mm;
+    std::optional<double> young_modulus_Pa, poisson_ratio;
+    double quality = 6;  // ISO 1328 grade
+    // Torque, speed and power of the driving member; exactly two of the three.
+    std::optional<double> torque_N_m, speed_rpm, power_kW;
+    std::string origin = "datasheet";  // kind of document, for the study's first comment
+    std::vector<std::string> notes;    // further comments at the head of the study
+};
+
+// Datasheet of a gear pair on fixed shafts.
+
+// Datasheet values in the usual units. The pinion drives the gear and may be the larger of the two.
+struct PairDatasheet : StageDatasheet {
+    int pinion = 0, gear = 0;  // teeth
+    std::optional<double> pinion_shift, gear_shift;
+    std::optional<double> pinion_tip_mm, gear_tip_mm;            // diameters
+    std::optional<double> pinion_bearing_N_m, gear_bearing_N_m;  // radial stiffness
+};
+
+// Datasheet of a planetary gearbox.
+
+// Datasheet values in the usual units. Missing values follow from rules of thumb or the geometry.
+struct PlanetaryDatasheet : StageDatasheet {
+    int sun = 0, planet = 0;
+    std::optional<int> ring;  // teeth; default for standard gears: sun + 2 planet
+    int planets = 3;
+    std::optional<double> sun_shift, planet_shift, ring_shift;
+    std::optional<double> sun_tip_mm, planet_tip_mm, ring_tip_mm;  // diameters
+    // Radial stiffness of the bearings of each member.
+    std::optional<double> sun_bearing_N_m, planet_bearing_N_m, ring_bearing_N_m,
+        carrier_bearing_N_m;
+    std::string input = "sun";  // or "carrier"
+};
+
+// Problems of a datasheet, in the terms of its source: options of the command line, or attributes
+// of a model.
+
+struct NewStudy {
+    std::string text;  // TOML with comments; empty if there are problems
+    Problems problems;
+    Problems notices = {};  // statements of a model that the study does not take
+};
+
+// Names of a datasheet's values for messages.
+struct DatasheetSource {
+    std::string file;                         // stands for the file in messages
+    std::map<std::string, std::string> keys;  // by study key
+    std::string meshing_remedy;               // for gears that do not mesh
+};
+
+// Options of `new planetary`.
+DatasheetSource planetary_options();
+
+// Replaces study keys in problems by the names of their values, because the study is not written
+// yet.
+Problems as_named_by(const DatasheetSource& source, Problems problems);
+
+struct InputLoad {
+    double torque_N_m = 0, speed_rpm = 0;
+};
+
+// Problems of torque, speed and power; `input` is the driving member.
+Problems load_problems(const StageDatasheet& data, const DatasheetSource& source,
+                       const std::string& input);
+// Torque and speed from two of torque, speed and power.
+InputLoad load_of(const StageDatasheet& data);
+
+// Face width, rounded to whole millimetres from 10 mm if it follows by rule. Any number if the
+// module is invalid.
+double face_width_mm(const StageDatasheet& data);
+
+}  // namespace gearpod::mc

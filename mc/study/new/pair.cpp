@@ -1,0 +1,169 @@
+#include "mc/study/new/pair.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <iterator>
+#include <utility>
+
+#include "mc/numerics/study_scene.hpp"
+#include "mc/study/faults/crack.hpp"
+#include "mc/study/gears.hpp"
+#include "mc/study/new/rules.hpp"
+#include "mc/study/new/study_text.hpp"
+
+namespace gearpod::mc {
+namespace {
+
+// Values of one gear that follow by the rules.
+struct DerivedGear {
+    Annulus body;
+    double bearing_N_m = 0;
+    double shaft_N_m_rad = 0;  // torsion between the gear and its motor or load
+};
+
+struct DerivedPair {
+    DerivedGear pinion, gear;
+    double mesh_frequency_Hz = 0, deepest_crack_m = 0, tooth_force_N = 0;
+};
+
+std::string pair_teeth(const PairDatasheet& data) {
+    std::string text =
+        fmt::format("[gearbox]\nkind = \"fixed-shaft\"\npinion_teeth = {}\ngear_teeth = {}\n",
+                    data.pinion, data.gear);
+    text += module_lines(data);
+    for (const auto& [key, value] :
+         {std::pair{"addendum_coefficient", data.addendum},
+          std::pair{"pinion_shift", data.pinion_shift}, std::pair{"gear_shift", data.gear_shift},
+          std::pair{"centre_distance_mm", data.centre_distance_mm},
+          std::pair{"pinion_tip_mm", data.pinion_tip_mm},
+          std::pair{"gear_tip_mm", data.gear_tip_mm}}) {
+        if (value) {
+            text += fmt::format("{} = {}\n", key, *value);
+        }
+    }
+    return text + body_lines(data, face_width_mm(data)) + "tooth_profile = \"fillet\"\n";
+}
+
+// Minimal study with the teeth only. Reading it checks the teeth.
+std::string minimal_pair(const PairDatasheet& data) {
+    return pair_teeth(data) +
+           "motor_coupling_stiffness_N_m_rad = 1\nload_coupling_stiffness_N_m_rad = 1\n"
+           "pinion_bearing_stiffness_N_m = 1e8\ngear_bearing_stiffness_N_m = 1e8\n"
+           "[operation]\ntorque_N_m = 1\npinion_speed_rpm = 1\n"
+           "[effects]\nmotion = \"quasi-static\"\npath = \"none\"\n"
+           "[fault]\nkind = \"crack\"\nmember = \"pinion\"\ndepth_mm = 0\nangle_deg = 45\n"
+           "[sensor]\nencoder_sampling_Hz = 1000\n"
+           "[ensemble]\ninstances = 1\nthreshold_instances = 1\nseed = 1\n";
+}
+
+DerivedGear derive_gear(const gears::Gear& gear, double width_m, double force_N,
+                        const std::optional<double>& given_N_m) {
+    const double bore = default_bore_radius_m(gear);
+    return {{gear.pitch_radius(), bore, width_m},
+            given_N_m.value_or(bearings_on_shaft(2.0 * bore).stiffness_N_m(force_N)),
+            shaft_torsion_N_m_rad(2.0 * bore)};
+}
+
+DerivedPair derive_pair(const Study& study, const PairDatasheet& data, const InputLoad& load) {
+    const gears::Gear pinion = gear_of(study, Member::pinion), gear = gear_of(study, Member::gear);
+    const double width = study.gearbox.face_width_m.value();
+    DerivedPair d;
+    d.tooth_force_N = load.torque_N_m / pinion.base_radius();
+    d.pinion = derive_gear(pinion, width, d.tooth_force_N, data.pinion_bearing_N_m);
+    d.gear = derive_gear(gear, width, d.tooth_force_N, data.gear_bearing_N_m);
+    d.mesh_frequency_Hz = data.pinion * load.speed_rpm / 60.0;
+    d.deepest_crack_m = max_crack_depth_m(study);
+    return d;
+}
+
+std::string gear_lines(const PairDatasheet& data, const DerivedPair& d) {
+    constexpr double kMotorInertia = 10.0;  // times the gear's; chosen
+    std::string bores, masses, inertias, bearings, couplings, damping;
+    for (const auto& [name, machine, gear, given] :
+         {std::tuple{"pinion", "motor", d.pinion, data.pinion_bearing_N_m.has_value()},
+          std::tuple{"gear", "load", d.gear, data.gear_bearing_N_m.has_value()}}) {
+        const bool first = name == std::string("pinion");
+        const auto key = [](const char* subject, const char* what) {
+            return fmt::format("{}_{}", subject, what);
+        };
+        bores += line(key(name, "bore_mm"), 2e3 * gear.body.inner_m,
+                      first ? "rims of 1.2 tooth heights: thinner ones weaken the root (AGMA "
+                              "2001-D04, backup ratio)"
+                            : "");
+        masses += line(key(name, "mass_kg"), gear.body.mass_kg(),
+                       first ? "steel rings between bore and reference circle (7850 kg/m^3)" : "");
+        masses += line(key(name, "inertia_kg_m2"), gear.body.inertia_kg_m2());
+        inertias += line(key(machine, "inertia_kg_m2"), kMotorInertia * gear.body.inertia_kg_m2(),
+                         "ten times the gear's (chosen)");
+        bearings += given
+                        ? given_line(key(name, "bearing_stiffness_N_m"), gear.bearing_N_m, "given")
+                        : line(key(name, "bearing_stiffness_N_m"), gear.bearing_N_m);
+        damping +=
+            line(key(name, "bearing_damping_N_s_m"), bearing_damping_N_s_m(gear.bearing_N_m));
+        couplings +=
+            line(key(machine, "coupling_stiffness_N_m_rad"), gear.shaft_N_m_rad,
+                 first ? "steel shafts of the bore's diameter, ten diameters long (chosen)" : "");
+        damping += line(key(machine, "coupling_damping_N_m_s_rad"),
+                        bearing_damping_N_s_m(gear.shaft_N_m_rad));
+    }
+    return bores + line("tooth_quality", data.quality, "ISO 1328 grade of both gears") +
+           line("mesh_damping_ratio", 0.1, "0.03 to 0.17 of critical (Kasuba and Evans, 1981)") +
+           masses + inertias +
+           fmt::format(
+               "# Bearings: two roller bearings on each shaft, loaded with {} kN together:\n"
+               "# 1e9 Z^0.9 l^0.8 F^0.1 (Kraemer, after Palmgren). Damping: 1e-5 s times\n"
+               "# the stiffness (Kraemer: 0.25e-5 to 2.5e-5 s).\n",
+               rounded_text(1e-3 * d.tooth_force_N)) +
+           bearings + couplings + damping;
+}
+
+std::string pair_text(const PairDatasheet& data, const DerivedPair& d, const InputLoad& load,
+                      const std::string& command) {
+    const Background noise = background(sensor_rates(d.mesh_frequency_Hz));
+    return study_header(data,
+                        fmt::format("A pair of gears with {} and {} teeth", data.pinion, data.gear),
+                        command) +
+           fmt::format("title = \"Gear pair {}/{}: crack of a pinion tooth\"\n\n", data.pinion,
+                       data.gear) +
+           pair_teeth(data) + gear_lines(data, d) + "\n[operation]\n" +
+           (data.torque_N_m ? given_line("torque_N_m", load.torque_N_m)
+                            : line("torque_N_m", load.torque_N_m)) +
+           (data.speed_rpm ? given_line("pinion_speed_rpm", load.speed_rpm)
+                           : line("pinion_speed_rpm", load.speed_rpm)) +
+           "\n[effects]\n" + line("motion", "\"translational-torsional\"", "") +
+           line("foundation", "\"elastic-ring\"",
+                "agrees with finite elements (docs/validation/mesh-stiffness-level.md)") +
+           line("contact_onset", "\"extended\"", "tip corners touch before and after the path") +
+           line("mesh_damping", "\"ratio\"", "") + line("path", "\"none\"", "") +
+           "\n[fault]                                     # another gear or kind: gearpod describe "
+           "--keys fault\nkind = \"crack\"\nmember = \"pinion\"\ndepth_mm = 0\nangle_deg = 45\n" +
+           sensor_section(d.mesh_frequency_Hz, line("position", "\"pinion\"", "")) +
+           "\n[random]                                    # variation between gearboxes "
+           "(chosen)\n" +
+           varied("gearbox.pinion_bearing_stiffness_N_m", lognormal(d.pinion.bearing_N_m, 0.3)) +
+           varied("gearbox.gear_bearing_stiffness_N_m", lognormal(d.gear.bearing_N_m, 0.3)) +
+           varied("gearbox.mesh_damping_ratio", "\"uniform\", low = 0.03, high = 0.17") +
+           varied_torque(load.torque_N_m) +
+           varied("sensor." + std::string(noise.key), lognormal(noise.value, 0.2)) +
+           varied_depth(d.deepest_crack_m) + output_sections();
+}
+
+}  // namespace
+
+NewStudy new_pair(const PairDatasheet& data, const std::string& command,
+                  const DatasheetSource& source) {
+    Problems problems = load_problems(data, source, "driving gear");
+    const StudyReading teeth = read_study_text(minimal_pair(data), source.file);
+    std::ranges::move(as_named_by(source, teeth.problems), std::back_inserter(problems));
+    if (!teeth.study || !problems.empty()) {
+        return {"", std::move(problems)};
+    }
+    const InputLoad load = load_of(data);
+    const std::string text = pair_text(data, derive_pair(*teeth.study, data, load), load, command);
+    problems =
+        as_named_by(source, make_scene(source.file, read_study_text(text, source.file)).problems);
+    return problems.empty() ? NewStudy{text, {}} : NewStudy{"", std::move(problems)};
+}
+
+}  // namespace gearpod::mc

@@ -1,0 +1,139 @@
+#include "mc/study/new/study_text.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+
+#include "mc/files/input/terminal_text.hpp"
+
+namespace gearpod::mc {
+
+std::string rounded_text(double value) {
+    const double rounded = std::strtod(fmt::format("{:.3e}", value).c_str(), nullptr);
+    return std::abs(rounded) < 1e6 ? fmt::format("{:.9g}", rounded)
+                                   : fmt::format("{:.4g}", rounded);
+}
+
+std::string line(const std::string& key, const std::string& value, const std::string& comment) {
+    return comment.empty() ? fmt::format("{} = {}\n", key, value)
+                           : fmt::format("{:<43} # {}\n", key + " = " + value, comment);
+}
+std::string line(const std::string& key, double value, const std::string& comment) {
+    return line(key, rounded_text(value), comment);
+}
+
+std::string given_line(const std::string& key, double value, const std::string& comment) {
+    return line(key, fmt::format("{:.9g}", value), comment);
+}
+
+std::string study_header(const StageDatasheet& data, const std::string& gearbox,
+                         const std::string& command) {
+    std::string text = fmt::format("# {}, from its {} by\n#   gearpod {}\n", gearbox, data.origin,
+                                   printable(command));
+    for (const std::string& note : data.notes) {
+        std::string lines = wrapped_text("- " + printable(note), 4);
+        for (std::size_t at = 0; (at = lines.find("\n  ", at)) != std::string::npos; ++at) {
+            lines.replace(at, 3, "\n# ");
+        }
+        text += "# " + lines + "\n";
+    }
+    return text + fmt::format(
+                      "# Values that the {} does not give follow from rules of thumb with "
+                      "their\n# sources, or are chosen. Replace the values that you know.\n"
+                      "# Shigley: Mechanical Engineering Design. Kraemer: Dynamics of Rotors "
+                      "and\n# Foundations (1993), section 3.4.\n"
+                      "# `gearpod describe` prints the resulting gearbox. `gearpod calibrate` "
+                      "fits tooth\n# errors, path and background noise to recordings of "
+                      "healthy gearboxes.\n",
+                      data.origin);
+}
+
+std::string module_lines(const StageDatasheet& data) {
+    const std::string module = data.helix_deg != 0.0
+                                   ? given_line("normal_module_mm", data.module_mm) +
+                                         given_line("helix_angle_deg", data.helix_deg)
+                                   : given_line("module_mm", data.module_mm);
+    return module + given_line("pressure_angle_deg", data.pressure_angle_deg);
+}
+
+std::string body_lines(const StageDatasheet& data, double face_width_mm) {
+    constexpr double kSteel_Pa = 2.06e11, kSteelPoisson = 0.3;
+    return (data.face_width_mm ? given_line("face_width_mm", face_width_mm)
+                               : line("face_width_mm", face_width_mm,
+                                      "four circular pitches (Shigley: three to five)")) +
+           line("young_modulus_Pa", data.young_modulus_Pa.value_or(kSteel_Pa),
+                data.young_modulus_Pa ? "given" : "steel") +
+           line("poisson_ratio", data.poisson_ratio.value_or(kSteelPoisson));
+}
+
+SensorRates sensor_rates(double mesh_frequency_Hz) {
+    constexpr double kHarmonics = 20.0, kHighest_Hz = 10000.0, kAnalyser = 2.56,
+                     kFewestPerMesh = 12.0;
+    const double low_pass = std::min(kHarmonics * mesh_frequency_Hz, kHighest_Hz);
+    return {low_pass, std::max(kAnalyser * low_pass, kFewestPerMesh * mesh_frequency_Hz)};
+}
+
+Background background(const SensorRates& rates) {
+    constexpr double kDensity = 1e-3, kMostPerLowPass = 50.0;
+    if (rates.sampling <= kMostPerLowPass * rates.low_pass) {
+        return {"noise_density_m_s2_per_sqrt_Hz", kDensity};
+    }
+    return {"noise_m_s2", kDensity * std::sqrt(0.5 * rates.sampling)};
+}
+
+std::string sensor_section(double mesh_frequency_Hz, const std::string& place) {
+    const SensorRates rates = sensor_rates(mesh_frequency_Hz);
+    return "\n[sensor]\n" +
+           line("low_pass_Hz", rates.low_pass,
+                fmt::format("20 times the mesh frequency, {} Hz; 10 kHz at most",
+                            rounded_text(mesh_frequency_Hz))) +
+           line("sampling_Hz", rates.sampling,
+                "2.56 times the low-pass, at least 12 per mesh period") +
+           place +
+           line(background(rates).key, background(rates).value,
+                "background of the machine; measure or calibrate it") +
+           line("encoder_sampling_Hz", rates.sampling, "same as the sensor") +
+           line("encoder_noise_arcsec", 1.0, "a good encoder (chosen)") +
+           line("noise_levels", "[0.005, 0.25, 1, 4]",
+                "0.005: a low-noise accelerometer alone, 0.5 ug/sqrt(Hz); 0.25: an industrial "
+                "MEMS one, 25 ug/sqrt(Hz)");
+}
+
+std::string varied(const std::string& key, const std::string& distribution) {
+    return line(key, "{ distribution = " + distribution + " }", "");
+}
+
+std::string lognormal(double median, double cv) {
+    return fmt::format("\"lognormal\", median = {}, cv = {}", rounded_text(median), cv);
+}
+
+std::string varied_torque(double torque_N_m) {
+    return varied("operation.torque_N_m",
+                  fmt::format("\"truncated-normal\", mean = {}, sd = {}, low = {}, high = {}",
+                              rounded_text(torque_N_m), rounded_text(0.05 * torque_N_m),
+                              rounded_text(0.85 * torque_N_m), rounded_text(1.15 * torque_N_m)));
+}
+
+std::string varied_depth(double deepest_m) {
+    std::string depths;
+    for (const double share : {0.0, 0.1, 0.2, 0.3, 0.45, 0.6, 0.8}) {
+        depths += (depths.empty() ? "" : ", ") + fmt::format("{:.3g}", 1e3 * share * deepest_m);
+    }
+    return fmt::format("# 0 to 80 % of the way through the root, {} mm at 45 degrees\n",
+                       rounded_text(1e3 * deepest_m)) +
+           varied("fault.depth_mm", "\"levels\", values = [" + depths + "]");
+}
+
+std::string output_sections() {
+    return "\n[features]\n"
+           "use = [\"te_kurtosis\", \"sensor_rms\", \"window_ratio\", \"window_z\", "
+           "\"own_window_ratio\", \"change_window_ratio\"]\n"
+           "baseline_torque_scatter = 0.02\n"
+           "\n[detection]\nfalse_alarm_rate = 0.05\nconfidence = 0.95\n"
+           "\n[ensemble]                                  # more gearboxes narrow the intervals\n"
+           "instances = 128\nthreshold_instances = 96\nseed = 1\n";
+}
+
+}  // namespace gearpod::mc

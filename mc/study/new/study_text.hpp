@@ -1,0 +1,60 @@
+// Lines and sections of a study's text that planetary gearboxes and gear pairs share.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "mc/study/new/datasheet.hpp"
+
+namespace gearpod::mc {
+
+// Formats a number to four significant digits, with an exponent from a million on.
+std::string rounded_text(double value);
+
+// Formats a key with its value and the source of the value. Numbers are rounded to four digits.
+std::string line(const std::string& key, const std::string& value, const std::string& comment);
+std::string line(const std::string& key, double value, const std::string& comment = "");
+// The same for a given number, to nine digits.
+std::string given_line(const std::string& key, double value, const std::string& comment = "");
+
+// First comment of a study: kind of gearbox, command, notes of the datasheet, sources of the rules.
+std::string study_header(const StageDatasheet& data, const std::string& gearbox,
+                         const std::string& command);
+
+// Module, helix and pressure angle; then material and face width.
+std::string module_lines(const StageDatasheet& data);
+std::string body_lines(const StageDatasheet& data, double face_width_mm);
+
+// Sensor rates, Hz.
+struct SensorRates {
+    double low_pass = 0, sampling = 0;
+};
+
+// Rates for twenty mesh harmonics, limited to the range of a general-purpose accelerometer. At
+// higher mesh frequencies a mesh period still has enough samples for the encoders and the windows.
+SensorRates sensor_rates(double mesh_frequency_Hz);
+
+// Background noise of the machine at the sensor: a one-sided density of 1e-3 m/s^2/sqrt(Hz), which
+// is 0.1 m/s^2 up to 10 kHz (chosen). At sampling rates far above the low-pass the rms of white
+// noise is used instead.
+struct Background {
+    const char* key;
+    double value;
+};
+Background background(const SensorRates& rates);
+
+// Section [sensor]. `place`: the keys of the sensor's position and path.
+std::string sensor_section(double mesh_frequency_Hz, const std::string& place);
+
+// Line of [random], and distributions for it.
+std::string varied(const std::string& key, const std::string& distribution);
+std::string lognormal(double median, double cv);
+// Torque of 5 % scatter within 15 %.
+std::string varied_torque(double torque_N_m);
+// Levels of a crack's depth up to 80 % of the deepest one.
+std::string varied_depth(double deepest_m);
+
+// Sections [features], [detection] and [ensemble].
+std::string output_sections();
+
+}  // namespace gearpod::mc

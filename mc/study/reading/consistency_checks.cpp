@@ -1,0 +1,269 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "analysis/monitoring/detector.hpp"
+#include "features/feature.hpp"
+#include "mc/files/input/spelling.hpp"
+#include "mc/study/fluctuations.hpp"
+#include "mc/study/gears.hpp"
+#include "mc/study/reading/parts.hpp"
+#include "signals/windowing/noise_importance_sampler.hpp"
+
+namespace gearpod::mc {
+namespace {
+
+// Quoted names of the central members that turn, e.g. "sun" or "carrier".
+std::string turning_members(Member fixed) {
+    std::string names;
+    for (const Member member : {Member::sun, Member::ring, Member::carrier}) {
+        if (member != fixed) {
+            names += fmt::format("{}\"{}\"", names.empty() ? "" : " or ", member_name(member));
+        }
+    }
+    return names;
+}
+
+void check_operation(StudyDraft& draft) {
+    const Operation& o = draft.study.operation;
+    if (draft.study.gearbox.kind != GearboxKind::planetary ||
+        !draft.all_usable({"gearbox.kind", "operation.fixed"})) {
+        return;
+    }
+    const std::string_view fixed = member_name(o.fixed);
+    const auto check_turns = [&](const std::string& key, Member member) {
+        if (draft.all_usable({key}) && member == o.fixed) {
+            draft.reject(key, fmt::format("is \"{}\", which stands still (operation.fixed)", fixed),
+                         "use " + turning_members(o.fixed));
+        }
+    };
+    check_turns("operation.input", o.input);
+    check_turns("operation.torque_on", o.torque_on);
+    const std::string speed = fmt::format("operation.{}_speed_rpm", fixed);
+    if (draft.is_given(speed)) {
+        draft.reject(speed, fmt::format("the {} stands still (operation.fixed)", fixed),
+                     "give the speed of another member");
+    }
+}
+
+void check_path(StudyDraft& draft) {
+    const Study& s = draft.study;
+    if (!draft.all_usable({"gearbox.kind", "effects.motion", "effects.path"})) {
+        return;
+    }
+    const bool fixed_shaft = s.gearbox.kind == GearboxKind::fixed_shaft;
+    const bool none = s.effects.path == nullptr;
+    if (s.effects.quasi_static() && !none) {
+        draft.reject(
+            "effects.path",
+            "must be \"none\" (a quasi-static gearbox has no accelerations: effects.motion)",
+            "use path = \"none\", or leave the key out");
+    } else if (fixed_shaft && !none) {
+        draft.reject("effects.path",
+                     "must be \"none\" (the sensor of a fixed-shaft gearbox is on a bearing, and "
+                     "no mesh moves past it)",
+                     "use path = \"none\", or leave the key out");
+    } else if (!fixed_shaft && !s.effects.quasi_static() && none) {
+        draft.reject("effects.path",
+                     "is \"none\" (a planetary gearbox's planets move past the sensor)",
+                     "use path = \"rectangular\" to weight all planets equally");
+    }
+}
+
+// Tian's model of a fixed-shaft gearbox has translations as well as rotations.
+void check_fixed_shaft_motion(StudyDraft& draft) {
+    const Study& s = draft.study;
+    if (s.gearbox.kind == GearboxKind::fixed_shaft && s.effects.torsional() &&
+        draft.all_usable({"gearbox.kind", "effects.motion"})) {
+        draft.reject("effects.motion",
+                     "has rotations only (a fixed-shaft gearbox's gears move on their bearings, "
+                     "too)",
+                     "use motion = \"translational-torsional\" or \"quasi-static\"");
+    }
+}
+
+void check_feature(StudyDraft& draft, const std::string& name) {
+    const features::Feature* feature = find_feature(draft.study, name);
+    if (feature == nullptr) {
+        std::vector<std::string_view> known;
+        for (const features::Feature& other : features::all_features()) {
+            known.push_back(other.name);
+        }
+        for (const PythonFeature& own : draft.study.features.python) {
+            known.push_back(own.feature->name);
+        }
+        draft.reject("features.use", fmt::format("unknown feature \"{}\"", name),
+                     suggest(name, known));
+    } else if (feature->from_sensor && draft.study.effects.quasi_static() &&
+               draft.usable("effects.motion")) {
+        draft.reject("features.use",
+                     fmt::format("\"{}\" needs the sensor (a quasi-static gearbox has no "
+                                 "accelerations: effects.motion)",
+                                 name),
+                     "use features of the transmission error");
+    } else if (feature->needs.overlaps(features::kCentralGears) &&
+               draft.study.gearbox.kind == GearboxKind::fixed_shaft &&
+               draft.usable("gearbox.kind")) {
+        draft.reject("features.use",
+                     fmt::format("\"{}\" needs a sun and a ring (gearbox.kind)", name),
+                     "use window features without sun_ or ring_: they use the teeth of the gear "
+                     "with the fault, else of the pinion");
+    }
+}
+
+void check_features(StudyDraft& draft) {
+    const std::vector<std::string> use = draft.study.features.use;
+    for (auto name = use.begin(); name != use.end(); ++name) {
+        if (std::find(use.begin(), name, *name) != name) {
+            draft.reject("features.use", fmt::format("names \"{}\" twice", *name),
+                         "remove one of them");
+        } else {
+            check_feature(draft, *name);
+        }
+    }
+}
+
+void check_detectors(StudyDraft& draft) {
+    const std::vector<std::string> named = draft.study.monitoring.detectors;
+    for (auto text = named.begin(); text != named.end(); ++text) {
+        if (!analysis::parse_detector(*text)) {
+            draft.reject("monitoring.detectors", fmt::format("\"{}\" is not a detector", *text),
+                         "use " + analysis::detector_forms());
+        } else if (std::find(named.begin(), text, *text) != text) {
+            draft.reject("monitoring.detectors", fmt::format("names \"{}\" twice", *text),
+                         "name it once");
+        }
+    }
+}
+
+// One bad recording is in as many averages as there are recordings in an average.
+void check_sustained(StudyDraft& draft) {
+    const Monitoring& watch = draft.study.monitoring;
+    const double needed = watch.sustained_share * watch.sustained_records;
+    if (!(needed > watch.average_records)) {
+        draft.reject("monitoring.sustained_records",
+                     fmt::format("{:g} of the {} next recordings sustain an alarm, but one bad "
+                                 "recording is in the averages of {} (average_records)",
+                                 needed, watch.sustained_records, watch.average_records),
+                     fmt::format("give at least {:.0f}",
+                                 std::floor(watch.average_records / watch.sustained_share) + 1));
+    }
+}
+
+void check_uncertain_inputs(StudyDraft& draft) {
+    const std::vector<std::string> named = draft.study.detection.uncertain_inputs;
+    for (auto key = named.begin(); key != named.end(); ++key) {
+        const auto drawn = std::ranges::find(draft.study.random, *key, &RandomInput::key);
+        if (drawn == draft.study.random.end() || key->starts_with("fault.")) {
+            draft.reject("detection.uncertain_inputs",
+                         fmt::format("\"{}\" is not a random input of the gearboxes", *key),
+                         "name keys of [random] other than the fault's");
+        } else if (std::find(named.begin(), key, *key) != key) {
+            draft.reject("detection.uncertain_inputs", fmt::format("names \"{}\" twice", *key),
+                         "name it once");
+        }
+    }
+}
+
+// Rejects numbers of records that cannot be divided equally among the kinds of importance-sampled
+// records.
+void check_importance_sampling(StudyDraft& draft) {
+    const Ensemble& e = draft.study.ensemble;
+    constexpr auto kKinds = static_cast<int>(signals::NoiseImportanceSampler::kKinds);
+    // The presence check rejects tilting of a single record.
+    if (e.uses_importance_sampling() && e.threshold_records > 1 &&
+        draft.all_usable({"ensemble.threshold_records"}) && e.threshold_records % kKinds != 0) {
+        draft.reject("ensemble.threshold_records",
+                     fmt::format("{} is not a multiple of {} (ensemble.threshold_tilt)",
+                                 e.threshold_records, kKinds),
+                     fmt::format("use {}", (e.threshold_records / kKinds + 1) * kKinds));
+    }
+}
+
+void check_record_keys(StudyDraft& draft) {
+    const Sensor& sensor = draft.study.sensor;
+    if (sensor.record_s && sensor.record_turns) {
+        draft.reject("sensor.record_turns",
+                     "conflicts with record_s (both give the length of a record)",
+                     "remove one of them");
+    }
+}
+
+// Rejects unknown properties of an assembly, and properties that no gearbox of the study has.
+void check_baseline_redraws(StudyDraft& draft) {
+    const Study& study = draft.study;
+    const std::vector<std::string> named = study.features.baseline_redraws;
+    for (auto one = named.begin(); one != named.end(); ++one) {
+        const auto reject = [&](const std::string& what, const std::string& remedy) {
+            draft.reject("features.baseline_redraws", what, remedy);
+        };
+        const bool pins = *one == "pins";
+        if (!pins && *one != "teeth") {
+            reject(fmt::format("unknown property \"{}\"", *one), suggest(*one, {"pins", "teeth"}));
+        } else if (std::find(named.begin(), one, *one) != one) {
+            reject(fmt::format("names \"{}\" twice", *one), "name it once");
+        } else if (!(pins ? has_random_planets(study) : has_tooth_errors(study))) {
+            reject(pins ? "\"pins\", but no pin has a random position"
+                        : "\"teeth\", but all teeth are alike",
+                   pins ? "give gearbox.pin_tangential_rms_um or pin_radial_rms_um, or remove it"
+                        : "give gearbox.tooth_quality, or remove it");
+        }
+    }
+}
+
+}  // namespace
+
+void check_consistency(StudyDraft& draft) {
+    check_importance_sampling(draft);
+    check_operation(draft);
+    check_path(draft);
+    check_fixed_shaft_motion(draft);
+    check_sampling(draft);
+    check_features(draft);
+    check_detectors(draft);
+    check_sustained(draft);
+    check_uncertain_inputs(draft);
+    check_record_keys(draft);
+    check_baseline_redraws(draft);
+}
+
+namespace {
+
+void check_torque_sine(StudyDraft& draft) {
+    const std::string key = "operation.torque_fluctuation";
+    const std::string order = key + "_order", frequency = key + "_Hz";
+    if (!draft.is_given(key) || !draft.all_usable({key, order, frequency})) {
+        return;
+    }
+    if (draft.is_given(order) && draft.is_given(frequency)) {
+        draft.reject(frequency,
+                     fmt::format("conflicts with {} (both give how fast it varies)", order),
+                     "remove one of them");
+    } else if (!draft.is_given(order) && !draft.is_given(frequency)) {
+        draft.reject(key, "needs a frequency",
+                     "add torque_fluctuation_order or torque_fluctuation_Hz");
+    }
+}
+
+void check_gravity(StudyDraft& draft) {
+    const Study& s = draft.study;
+    if (s.effects.gravity && s.effects.torsional() && planets_balance(s) &&
+        draft.all_usable({"gearbox.kind", "gearbox.planet_positions_deg", "effects.motion",
+                          "effects.gravity"}) &&
+        s.gearbox.kind == GearboxKind::planetary) {
+        draft.reject("effects.gravity",
+                     "would have no effect (effects.motion has rotations only, and the torques of "
+                     "the planets' weights about the carrier's axis cancel)",
+                     "remove the key, or choose an effects.motion with translations in x and y");
+    }
+}
+
+}  // namespace
+
+void check_fluctuations(StudyDraft& draft) {
+    check_torque_sine(draft);
+    check_gravity(draft);
+}
+
+}  // namespace gearpod::mc

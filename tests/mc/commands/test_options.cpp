@@ -1,0 +1,206 @@
+// Checks options with numbers: one reader for all commands.
+#include <nlohmann/json.hpp>
+
+#include "mc/files/input/number_text.hpp"
+#include "tests/mc/program.hpp"
+
+namespace test_number_options {
+
+using namespace gearpod;
+using mc::NumberForm;
+using test::Outcome;
+using test::program;
+
+namespace {
+
+bool contains(const std::string& text, const std::string& part) {
+    return text.find(part) != std::string::npos;
+}
+
+}  // namespace
+
+TEST_CASE("A number is finite, in decimal notation, and in the range of its option") {
+    const auto real = [](const std::string& text) {
+        return mc::number_problem(text, NumberForm::real, mc::from_to(-1e6, 1e6, "Hz"));
+    };
+    for (const char* good : {"0", "-0.5", "+3", "1e3", "1E-3", ".5", "2.", "1000000"}) {
+        INFO(good);
+        CHECK(real(good).empty());
+    }
+    CHECK(mc::real_number("+1.5e2") == 150.0);
+    for (const char* bad : {"nan", "NaN", "inf", "-inf", "infinity", "nan(1)"}) {
+        INFO(bad);
+        CHECK(contains(real(bad), "is not a finite number"));
+    }
+    CHECK(contains(real(""), "the number is missing"));
+    CHECK(contains(real("1e400"), "beyond the range of numbers in double precision"));
+    CHECK(contains(real("1,5"), "the decimal separator is a point"));
+    for (const char* bad : {"0x10", "0x1p3", "5 ", " 5", "5Hz", "1e", "--5", "+-5", "1 000",
+                            "1'000", "five", "1.2.3", "\x1b[2J"}) {
+        INFO(bad);
+        CHECK(contains(real(bad), "is not a number in decimal notation"));
+        CHECK_FALSE(contains(real(bad), "\x1b"));
+    }
+    CHECK(real("2e6") == "must be -1000000 to 1000000 Hz, but is 2e6");
+    CHECK(mc::number_problem("0", NumberForm::real, mc::above(0.0, "mm")) ==
+          "must be above 0 mm, but is 0");
+    CHECK(mc::number_problem("-1", NumberForm::real, mc::at_least(0.0)) ==
+          "must be at least 0, but is -1");
+}
+
+TEST_CASE("A whole number has no fraction and fits into its type") {
+    const auto whole = [](const std::string& text) {
+        return mc::number_problem(text, NumberForm::whole, mc::from_to(-5, 1e6));
+    };
+    for (const char* good : {"0", "-3", "+7", "1000000"}) {
+        CHECK(whole(good).empty());
+    }
+    CHECK(mc::whole_number("+7") == 7);
+    CHECK(contains(whole("1.5"), "is not a whole number"));
+    CHECK(contains(whole("1e3"), "write 1000"));
+    CHECK(contains(whole("99999999999999999999"), "beyond the range of whole numbers"));
+    CHECK(contains(whole("nan"), "is not a finite number"));
+    CHECK(contains(whole("0x10"), "is not a number"));
+    CHECK(contains(whole(""), "is missing"));
+    CHECK(contains(whole("2000000"), "must be -5 to 1000000"));
+}
+
+TEST_CASE("Every numeric option of every command refuses what is no number, by its name") {
+    const auto reference = nlohmann::json::parse(program("--reference").output);
+    int options = 0;
+    for (const auto& command : reference["commands"]) {
+        for (const auto& option : command["options"]) {
+            const std::string type = option["type"];
+            if (!type.starts_with("FLOAT") && !type.starts_with("INT")) {
+                continue;
+            }
+            ++options;
+            const std::string name = option["name"];
+            for (const char* value : {"nan", "1e400"}) {
+                const Outcome outcome =
+                    program(command["name"].get<std::string>() + " " + name + "=" + value);
+                INFO(command["name"] << " " << name << "=" << value << "\n" << outcome.output);
+                CHECK(outcome.code == 2);
+                CHECK(outcome.mentions(name + ": " + value + " is "));
+            }
+        }
+    }
+    CHECK(options > 40);
+}
+
+TEST_CASE("All refused values of a command line are printed together") {
+    const Outcome outcome =
+        program("pod none.csv --floor nan --confidence 2 --target 0 --bounds exact");
+    INFO(outcome.output);
+    CHECK(outcome.code == 2);
+    CHECK(outcome.mentions("--floor: nan is not a finite number"));
+    CHECK(outcome.mentions("--confidence: must be 0.5 to 0.9999, but is 2"));
+    CHECK(outcome.mentions("--target: must be above 0, but is 0"));
+    CHECK(outcome.mentions("--bounds: exact not in {likelihood-ratio,wald}"));
+    CHECK(program("features x.csv --study s.toml --sampling-Hz 0")
+              .mentions("--sampling-Hz: must be above 0 Hz, but is 0"));
+    const Outcome teeth = program("new planetary --sun 1e1 --planet 3000000000 --module 2");
+    CHECK(teeth.mentions("--sun: 1e1 is not written as a whole number; write 10"));
+    CHECK(teeth.mentions("--planet: 3000000000 is beyond the range of whole numbers"));
+}
+
+TEST_CASE("Every key of a study refuses numbers that are not finite") {
+    const auto reference = nlohmann::json::parse(program("--reference").output);
+    for (const std::string value : {"nan", "inf"}) {
+        std::vector<std::string> names;
+        std::string settings;
+        for (const auto& key : reference["keys"]) {
+            const std::string type = key["type"];
+            if (type == "number" || type == "integer" || type == "numbers") {
+                names.push_back(key["section"].get<std::string>() + "." +
+                                key["name"].get<std::string>());
+                settings += " --set " + names.back() + "=" +
+                            (type == "numbers" ? "[" + value + "]" : value);
+            }
+        }
+        REQUIRE(names.size() > 200);
+        const Outcome outcome =
+            program("describe " + test::study("planet-crack-ideal.toml") + settings);
+        CHECK(outcome.code == 2);
+        for (const std::string& name : names) {
+            INFO(name);
+            CHECK(contains(outcome.output, "--set: " + name + ": must be "));
+        }
+    }
+}
+
+}  // namespace test_number_options
+
+// Checks options with several values after one name.
+
+namespace test_several_values {
+
+using namespace gearpod;
+using test::Folder;
+using test::Outcome;
+using test::program;
+
+TEST_CASE("`pod` takes several inspectors after one --hit, before or after the table") {
+    const Folder folder;
+    const std::string table = folder.file("t.csv");
+    std::string text = "x,A,B\n";
+    for (int i = 1; i <= 40; ++i) {
+        const int a = 7 * i % 40 + i > 38, b = 11 * i % 40 + i > 42;
+        text += std::to_string(0.1 * i) + "," + std::to_string(a) + "," + std::to_string(b) + "\n";
+    }
+    test::write_bytes(table, text);
+    const Outcome expected = program("pod " + table + " --size x --hit A --hit B --json -");
+    INFO(expected.output);
+    REQUIRE(expected.code == 0);
+    // Without another word that can be the table, it is the last word after an option.
+    for (const std::string& words :
+         {table + " --size x --hit A B", "--hit A B " + table + " --size x",
+          "--size x --hit A B " + table, table + " --hit A --size x --hit B",
+          "--size x --hit A B -- " + table, "--hit A --size x --hit B " + table,
+          "--hit=A --hit B " + table + " --size x"}) {
+        const Outcome outcome = program("pod --json - " + words);
+        INFO(words);
+        CHECK(outcome.code == 0);
+        CHECK(outcome.output == expected.output);
+    }
+    // Responses likewise, and settings of a study.
+    const Outcome responses = program("pod " + table + " --size x --response A B --threshold 1");
+    CHECK_FALSE(responses.mentions("unexpected argument"));
+    const Outcome study = program("describe " + test::study("planet-crack-ideal.toml") +
+                                  " --set ensemble.seed=nan ensemble.instances=nan");
+    CHECK(study.mentions("ensemble.seed: must be"));
+    CHECK(study.mentions("ensemble.instances: must be"));
+}
+
+TEST_CASE("A word that an option cannot take is not its value") {
+    const Folder folder;
+    const std::string table = folder.file("t.csv"), study = test::study("planet-crack-ideal.toml");
+    std::string text = "size,hit\n";
+    for (int i = 1; i <= 40; ++i) {
+        text += std::to_string(0.1 * i) + "," + std::to_string(7 * i % 40 + i > 38) + "\n";
+    }
+    test::write_bytes(table, text);
+    const Outcome links = program("pod " + table + " --link logit --link probit");
+    REQUIRE(links.code == 0);
+    for (const std::string& words :
+         {"--link logit probit " + table, "--link logit,probit " + table,
+          table + " --link logit probit", "--link logit probit " + table + " --confidence 0.95"}) {
+        INFO(words);
+        CHECK(program("pod " + words).output == links.output);
+    }
+    CHECK(program("pod " + table + " --link logit cauchit").mentions("cauchit"));
+    // A setting has an equals sign, a row is a number.
+    const std::string settings = " --set operation.torque_N_m=300 sensor.gain=2 ";
+    const Outcome after = program("stiffness " + study + settings),
+                  before = program("stiffness" + settings + study);
+    INFO(before.output);
+    CHECK(after.code == 0);
+    CHECK(before.output == after.output);
+    CHECK(program("run --signals 0 x " + study + " --out " + folder.file("r.h5")).code == 2);
+    CHECK(program("run " + study + settings + "--signals 0 99999999 --out " + folder.file("r.h5"))
+              .mentions("--signals 99999999: is not a row"));
+    // One option of several files keeps one value for each name, because signals are files, too.
+    CHECK(program("features --help").mentions("--healthy FILE "));
+}
+
+}  // namespace test_several_values

@@ -1,0 +1,168 @@
+// Checks features relative to the gearbox's record before the fault: ratios, changes, and inputs
+// that both records share.
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <numeric>
+
+#include "mc/ensemble/gearbox/realization_features.hpp"
+#include "tests/mc/study_file.hpp"
+
+namespace test_baseline {
+
+using namespace gearpod;
+using namespace gearpod::mc;
+
+namespace {
+
+Study study_with(std::vector<std::string> overrides) {
+    overrides.insert(overrides.end(), {"random.fault.depth_mm={distribution=\"constant\",value=3}",
+                                       "numerics.steps_per_mesh=9600"});
+    return test::shipped_study("planet-crack-ideal.toml", overrides);
+}
+
+const std::string kCompared =
+    "features.use=[\"sensor_rms\",\"window_ratio\",\"te_rms\",\"own_sensor_rms\","
+    "\"own_window_ratio\",\"own_te_rms\",\"change_sensor_rms\",\"change_window_ratio\"]";
+enum : std::size_t { kRms, kRatio, kTe, kOwnRms, kOwnRatio, kOwnTe, kChangeRms, kChangeRatio };
+
+// Simulated gearboxes of a study and their features.
+class Computed {
+  public:
+    Computed(const Study& study, const std::vector<GearboxId>& ids)
+        : scene_(study),
+          levels_(study.sensor.noise_levels.size()),
+          path_(sensor_paths(scene_)),
+          tile_(run_gearboxes(scene_, path_, ids, 8)),
+          features_(scene_, &healthy_) {
+        for (std::size_t lane = 0; lane < ids.size(); ++lane) {
+            REQUIRE(tile_.status[lane] == Status::ok);
+            values_.push_back(
+                features_.compute(signals(static_cast<int>(lane)), tile_.realizations[lane]));
+        }
+    }
+    double value(std::size_t feature, std::size_t level = 0, std::size_t gearbox = 0) const {
+        return values_[gearbox][feature * levels_ + level];
+    }
+    const std::vector<std::vector<double>>& values() const { return values_; }
+    LaneSignals signals(int lane) const {
+        return lane_signals(scene_, path_, tile_, lane, features_.meshes());
+    }
+    double noise_m_s2() const { return tile_.realizations[0].inputs.noise_m_s2; }
+    int integrated_meshes() const { return tile_.meshes; }
+
+  private:
+    Scene scene_;
+    std::size_t levels_;
+    SensorPaths path_;
+    GearboxTile tile_;
+    HealthyReference healthy_;
+    RealizationFeatures features_;
+    std::vector<std::vector<double>> values_;
+};
+
+const GearboxId kHealthy{Group::threshold, 4}, kFaulty{Group::graded, 4};
+
+double rms(const std::vector<double>& values) {
+    return std::sqrt(std::inner_product(values.begin(), values.end(), values.begin(), 0.0) /
+                     static_cast<double>(values.size()));
+}
+
+}  // namespace
+
+TEST_CASE("Without noise and at the same torque a healthy gearbox equals its baseline") {
+    const Computed own(study_with({kCompared, "sensor.noise_levels=[0]"}), {kHealthy});
+    CHECK(own.value(kOwnRms) == 1.0);
+    CHECK(own.value(kOwnRatio) == 1.0);
+    CHECK(own.value(kOwnTe) == 1.0);
+    CHECK(own.value(kChangeRms) == 0.0);
+    CHECK(std::isnan(own.value(kChangeRatio)));  // no tooth differs from a zero change
+}
+
+TEST_CASE("Relative features compare the gearbox with its state before the fault") {
+    const Study study = study_with(
+        {kCompared, "sensor.noise_levels=[0, 1]", "features.baseline_torque_scatter=0.03"});
+    const Computed faulty(study, {kFaulty});
+    GearboxId before = kFaulty;
+    before.record = Record::baseline;
+    const Computed healthy(study, {before});
+    for (const std::size_t level : {0, 1}) {
+        for (const auto& [feature, own] :
+             {std::pair{kRms, kOwnRms}, {kRatio, kOwnRatio}, {kTe, kOwnTe}}) {
+            CHECK(faulty.value(own, level) ==
+                  faulty.value(feature, level) / healthy.value(feature, level));
+        }
+    }
+    CHECK(healthy.value(kRatio) == Approx(1.0).margin(1e-6));
+    // The difference is due to crack and torque; the crack's part is localized at its tooth.
+    const LaneSignals now = faulty.signals(0), then = healthy.signals(0);
+    std::vector<double> change(now.sensor.size());
+    for (std::size_t i = 0; i < change.size(); ++i) {
+        change[i] = now.sensor[i] - then.sensor[i];
+    }
+    CHECK(faulty.value(kChangeRms) == Approx(rms(change)).epsilon(1e-12));
+    CHECK(faulty.value(kChangeRatio) > 2.0 * faulty.value(kRatio));
+}
+
+TEST_CASE("The two records have independent noise") {
+    const Computed own(study_with({kCompared, "sensor.noise_levels=[0, 100]"}), {kHealthy});
+    const double noise = 100.0 * own.noise_m_s2();
+    // About a million samples: 1e-3 of the mean square is one standard deviation.
+    CHECK(own.value(kChangeRms, 1) == Approx(std::sqrt(2.0) * noise).epsilon(3e-3));
+    CHECK(own.value(kRms, 1) == Approx(noise).epsilon(3e-3));
+    CHECK(own.value(kOwnRms, 1) != 1.0);
+}
+
+TEST_CASE("A baseline's values do not depend on the other gearboxes of its tile") {
+    const Study study = study_with({kCompared, "features.baseline_torque_scatter=0.03"});
+    const std::vector<GearboxId> ids{kHealthy, kFaulty, {Group::graded, 5}};
+    const Computed together(study, ids);
+    for (std::size_t i = 0; i < ids.size(); ++i) {
+        CHECK(Computed(study, {ids[i]}).values()[0] == together.values()[i]);
+    }
+}
+
+TEST_CASE("A baseline is the same in the tile of its record as in an earlier tile") {
+    const Study study = study_with({kCompared, "features.baseline_torque_scatter=0.03"});
+    const std::vector<GearboxId> ids{
+        kHealthy, kFaulty, {Group::graded, 5}, {Group::graded, 6}, {Group::threshold, 7}};
+    // With five of eight lanes taken there is no room for the baselines, with four there is.
+    const Computed before(study, ids), fewer(study, {ids.begin(), ids.end() - 1});
+    REQUIRE(fewer.values().size() == 4);
+    for (std::size_t i = 0; i < fewer.values().size(); ++i) {
+        CHECK(fewer.values()[i] == before.values()[i]);
+        CHECK(fewer.signals(static_cast<int>(i)).baseline->sensor ==
+              before.signals(static_cast<int>(i)).baseline->sensor);
+    }
+    CHECK(fewer.integrated_meshes() < before.integrated_meshes());
+}
+
+TEST_CASE("The torque of baseline records has the requested scatter on both shafts") {
+    const Study study = test::shipped_study(
+        "published/tian-fig-4-9.toml",
+        {"features.use=[\"own_te_rms\"]", "features.baseline_torque_scatter=0.05"});
+    const Sampler sampler(study);
+    double sum = 0.0, squares = 0.0;
+    constexpr int kGearboxes = 4000;
+    for (std::uint64_t i = 0; i < kGearboxes; ++i) {
+        const InstanceInputs now = sampler.draw({Group::graded, i}).inputs;
+        const InstanceInputs then = sampler.draw({Group::graded, i, Record::baseline}).inputs;
+        CHECK(then.fault_size == 0.0);
+        const double share = std::log(then.torque_N_m / now.torque_N_m);
+        CHECK(std::log(then.fixed_shaft.load_torque_N_m / now.fixed_shaft.load_torque_N_m) ==
+              Approx(share).margin(1e-12));
+        sum += share;
+        squares += share * share;
+    }
+    CHECK(sum / kGearboxes == Approx(0.0).margin(4.0 * 0.05 / std::sqrt(kGearboxes)));
+    CHECK(std::sqrt(squares / kGearboxes) == Approx(0.05).epsilon(0.05));
+}
+
+TEST_CASE("A baseline torque is refused where no feature uses it") {
+    const auto reading = read_study(test::study_path("planet-crack-ideal.toml"),
+                                    {"features.baseline_torque_scatter=0.05"});
+    REQUIRE_FALSE(reading.study);
+    CHECK(format(reading.problems).find("features.baseline_torque_scatter") != std::string::npos);
+    CHECK(format(reading.problems).find("change_") != std::string::npos);
+}
+
+}  // namespace test_baseline

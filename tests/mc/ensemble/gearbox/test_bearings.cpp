@@ -1,0 +1,259 @@
+// Checks faulty bearings in studies: as background, and as another fault in healthy gearboxes.
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "mc/ensemble/gearbox/other_sources.hpp"
+#include "mc/report/alarm_rates.hpp"
+#include "mc/results/result_rows.hpp"
+#include "mc/study/other_sources.hpp"
+#include "tests/mc/ensemble/gearbox/small_runs.hpp"
+
+namespace test_bearings {
+
+using namespace gearpod;
+using test::Folder;
+using test::kSmall;
+using test::printed_value;
+using test::program;
+
+namespace {
+
+std::string inner_ring(const std::string& role) {
+    return "--set 'sensor.bearings=[{fault=\"inner\", shaft=\"sun\", elements=9, "
+           "diameter_ratio=0.2, amplitude_m_s2=0.05, resonance_Hz=90, role=\"" +
+           role + "\"}]' ";
+}
+
+// Runs the small study with a few gearboxes; returns its results.
+mc::Results run(const Folder& folder, const std::string& name, const std::string& options) {
+    const std::string path = folder.file(name);
+    const auto outcome = program("run " + kSmall +
+                                 " --set ensemble.threshold_instances=40 --set "
+                                 "ensemble.instances=20 --out " +
+                                 path + " " + options);
+    INFO(outcome.output);
+    REQUIRE(outcome.code == 0);
+    return mc::read_results(path);
+}
+
+// Values of a feature in the rows of the threshold group.
+std::vector<double> healthy(const mc::Results& results, const mc::FeatureResult& feature) {
+    const auto rows = std::ranges::count(results.group, static_cast<int>(mc::Group::threshold)) *
+                      static_cast<std::ptrdiff_t>(results.noise_levels.size());
+    return {feature.values.begin(), feature.values.begin() + rows};
+}
+
+std::vector<double> column(const std::string& path, const std::string& name) {
+    return test::columns_of(path).at(name);
+}
+
+mc::Bearing bearing_6205(mc::BearingFault fault) {
+    mc::Bearing bearing;
+    bearing.fault = fault;
+    bearing.elements = 9;
+    bearing.diameter_ratio = 7.94 / 39.04;  // mm
+    return bearing;
+}
+
+}  // namespace
+
+// Frequencies of the drive-end bearing SKF 6205-2RS, per turn, as the bearing data centre of Case
+// Western Reserve University gives them.
+TEST_CASE("Impulses per turn are those published for a bearing 6205") {
+    using mc::BearingFault;
+    CHECK(impulses_per_turn(bearing_6205(BearingFault::inner)) == Approx(5.4152).epsilon(1e-4));
+    CHECK(impulses_per_turn(bearing_6205(BearingFault::outer)) == Approx(3.5848).epsilon(1e-4));
+    CHECK(impulses_per_turn(bearing_6205(BearingFault::cage)) == Approx(0.39828).epsilon(1e-4));
+    CHECK(impulses_per_turn(bearing_6205(BearingFault::roller)) == Approx(4.7135).epsilon(1e-4));
+    CHECK(load_turns_per_turn(bearing_6205(BearingFault::inner)) == 1.0);
+    CHECK(load_turns_per_turn(bearing_6205(BearingFault::outer)) == 0.0);
+}
+
+TEST_CASE("A bearing in the background is added to the sensor's signal") {
+    const Folder folder;
+    const auto simulate = [&](const std::string& name, const std::string& options) {
+        const auto outcome = program("simulate " + kSmall + " --instance 2 --meshes 455 --out " +
+                                     folder.file(name) + " " + options);
+        INFO(outcome.output);
+        REQUIRE(outcome.code == 0);
+        return outcome;
+    };
+    simulate("without.csv", "");
+    const auto with = simulate("with.csv", inner_ring("background"));
+    const auto measured = program("features " + folder.file("with.csv") +
+                                  " --sensor sensor_noise_1 --study " + kSmall);
+    for (const char* name : {"sensor_rms", "window_ratio", "fm4", "spectral_kurtosis"}) {
+        INFO(name << "\n" << with.output << measured.output);
+        CHECK(printed_value(with, name) != 0.0);
+        CHECK(printed_value(with, name) == Approx(printed_value(measured, name)).epsilon(1e-5));
+    }
+    simulate("quiet.csv", inner_ring("background") + "--set sensor.bearing_level=0");
+    CHECK(test::bytes_of(folder.file("without.csv")) == test::bytes_of(folder.file("quiet.csv")));
+    CHECK(column(folder.file("without.csv"), "te") == column(folder.file("with.csv"), "te"));
+    CHECK(column(folder.file("without.csv"), "sensor") !=
+          column(folder.file("with.csv"), "sensor"));
+}
+
+// The same gearboxes with the bearing in all records, which another code path computes.
+TEST_CASE("Another fault changes the healthy gearboxes as a background would") {
+    const Folder folder;
+    const mc::Results plain = run(folder, "plain.h5", ""),
+                      other = run(folder, "other.h5", inner_ring("other_fault")),
+                      background = run(folder, "background.h5", inner_ring("background"));
+    REQUIRE(other.variants.size() == 1);
+    CHECK(plain.variants.empty());
+    CHECK(background.variants.empty());
+    CHECK(other.variants[0].name == mc::kOtherFault);
+    for (std::size_t f = 0; f < plain.features.size(); ++f) {
+        const std::string& name = plain.features[f].name;
+        INFO(name);
+        const auto compared_with_healthy = [&] {
+            return name == "na4" || name == "nb4" || name == "nsds";
+        };
+        CHECK(test::bits_of_values(healthy(other, other.features[f])) ==
+              test::bits_of_values(healthy(plain, plain.features[f])));
+        if (!compared_with_healthy()) {
+            CHECK(test::bits_of_values(healthy(other, other.variants[0].features[f])) ==
+                  test::bits_of_values(healthy(background, background.features[f])));
+        }
+    }
+    const std::size_t rows = plain.group.size() - 20;
+    const auto& values = other.variants[0].features[0].values;
+    CHECK(std::all_of(values.begin() + static_cast<std::ptrdiff_t>(rows), values.end(),
+                      [](double value) { return std::isnan(value); }));
+}
+
+TEST_CASE("Alarms of another fault are counted at the thresholds of the healthy gearboxes") {
+    const Folder folder;
+    const mc::Results results = run(folder, "other.h5", inner_ring("other_fault"));
+    const auto alarms = other_fault_alarms(results, mc::ColumnRows(results));
+    // The transmission error does not change with a bearing.
+    REQUIRE(alarms.size() == static_cast<std::size_t>(std::ranges::count_if(
+                                 results.features, [](const mc::FeatureResult& feature) {
+                                     return !feature.name.starts_with("te_");
+                                 })));
+    bool any = false;
+    for (const mc::OtherFaultAlarms& one : alarms) {
+        const mc::FeatureResult& feature = results.features[one.feature];
+        const double threshold = results.detection[one.feature].levels[0].threshold;
+        long expected = 0;
+        for (const double value : healthy(results, results.variants[0].features[one.feature])) {
+            expected +=
+                feature.alarm == analysis::Alarm::high ? value > threshold : value < threshold;
+        }
+        CHECK(one.alarms == expected);
+        CHECK(one.tested == 40);
+        any |= one.alarms > one.without;
+    }
+    CHECK(any);
+    const auto report = program("report " + folder.file("other.h5"));
+    CHECK(report.mentions("a fault of the inner ring of a bearing of the sun"));
+    CHECK(program("describe " + kSmall + " " + inner_ring("other_fault"))
+              .mentions("5.400 impulses per shaft turn"));
+}
+
+TEST_CASE("Rows with another fault keep their bits over threads, parts and merging") {
+    test::check_equal_bits_over_parts(inner_ring("other_fault"));
+}
+
+TEST_CASE("The signal of the other fault is exported on its own") {
+    const Folder folder;
+    const auto simulate = [&](const std::string& name, const std::string& role) {
+        const auto outcome = program("simulate " + kSmall + " --instance 2 --meshes 30 --out " +
+                                     folder.file(name) + " " + inner_ring(role));
+        INFO(outcome.output);
+        REQUIRE(outcome.code == 0);
+    };
+    simulate("other.csv", "other_fault");
+    simulate("background.csv", "background");
+    const auto other = column(folder.file("other.csv"), "other_fault"),
+               without = column(folder.file("other.csv"), "sensor"),
+               with = column(folder.file("background.csv"), "sensor");
+    REQUIRE(other.size() == with.size());
+    for (std::size_t i = 0; i < other.size(); ++i) {
+        CHECK(std::abs(without[i] + other[i] - with[i]) < 1e-9);
+    }
+}
+
+TEST_CASE("Results whose variants were renamed are refused") {
+    const Folder folder;
+    run(folder, "r.h5", inner_ring("other_fault"));
+    const std::string script = "import h5py; f = h5py.File('" + folder.file("r.h5") +
+                               "', 'r+'); f.move('variants/other_fault', 'variants/sensor_side')";
+    if (test::shell("/usr/bin/python3 -c \"" + script + "\"").code != 0) {
+        WARN("h5py is not there");
+        return;
+    }
+    const auto repaired = program("repair " + folder.file("r.h5"));
+    CHECK(repaired.code == 2);
+    CHECK(repaired.mentions("member 1 is sensor_side, but in the study it is other_fault"));
+}
+
+TEST_CASE("A tone of a shaft has its order times the shaft's speed") {
+    const Folder folder;
+    const auto simulate = [&](const std::string& name, const std::string& tone) {
+        const auto outcome =
+            program("simulate " + kSmall + " --instance 2 --meshes 20 --out " + folder.file(name) +
+                    " --set 'sensor.tones=[{" + tone + ", amplitude_m_s2=0.5}]'");
+        INFO(outcome.output);
+        REQUIRE(outcome.code == 0);
+    };
+    simulate("shaft.csv", "shaft=\"sun\", order=2.5");
+    // The sun turns (13 + 35) / 13 times as fast as the carrier, at 1 Hz.
+    simulate("hertz.csv", fmt::format("frequency_Hz={:.17g}", 2.5 * 48.0 / 13.0));
+    const auto shaft = column(folder.file("shaft.csv"), "sensor"),
+               hertz = column(folder.file("hertz.csv"), "sensor");
+    REQUIRE(shaft.size() == hertz.size());
+    for (std::size_t i = 0; i < shaft.size(); ++i) {
+        CHECK(std::abs(shaft[i] - hertz[i]) < 1e-9);
+    }
+}
+
+TEST_CASE("A study with bearings reads back to the same study") {
+    const auto reading = mc::read_study(
+        kSmall,
+        {"sensor.bearings=[{fault='roller', shaft_Hz=12.3, elements=11, diameter_ratio=0.17, "
+         "contact_angle_deg=13.7, amplitude_m_s2=0.3, resonance_Hz=101.7, damping=0.03, "
+         "slip=0.013, "
+         "load_zone_deg=133.3, role='other_fault'}]",
+         "sensor.tones=[{shaft='carrier', order=7, amplitude_m_s2=0.1}]"});
+    INFO(format(reading.problems));
+    REQUIRE(reading.study);
+    const auto again = mc::read_study_text(resolved_text(*reading.study), "again");
+    REQUIRE(again.study);
+    CHECK(*again.study == *reading.study);
+}
+
+TEST_CASE("Problems of bearings and tones are all reported at once") {
+    const auto outcome = program(
+        "describe " + kSmall +
+        " --set 'sensor.bearings=[{fault=\"outr\", shaft=\"ring\", elements=2.5, "
+        "amplitude_m_s2=-1, resonance_Hz=90}, 3, {fault=\"cage\", shaft=\"sun\", shaft_Hz=3, "
+        "elements=9, diameter_ratio=0.2, amplitude_m_s2=1, resonance_Hz=90, ball=4}]'"
+        " --set 'sensor.tones=[{shaft=\"pinion\", order=1, amplitude_m_s2=1}, "
+        "{shaft=\"sun\", frequency_Hz=3, amplitude_m_s2=1}]'");
+    CHECK(outcome.code == 2);
+    for (const char* text :
+         {"bearing 1: fault: unknown value \"outr\"", "bearing 1: elements must be an integer",
+          "bearing 1 has no diameter_ratio", "bearing 1: amplitude_m_s2 must be > 0",
+          "bearing 2 must be a table, but is an integer", "bearing 3: unknown key ball",
+          "tone 2: has both shaft and frequency_Hz"}) {
+        INFO(outcome.output << "\n" << text);
+        CHECK(outcome.mentions(text));
+    }
+    const auto shafts =
+        program("describe " + kSmall +
+                " --set 'sensor.bearings=[{fault=\"outer\", shaft=\"ring\", elements=9, "
+                "diameter_ratio=0.2, amplitude_m_s2=1, resonance_Hz=90}]'"
+                " --set 'sensor.tones=[{shaft=\"pinion\", order=1, amplitude_m_s2=1}]'"
+                " --set ensemble.threshold_records=2");
+    CHECK(shafts.code == 2);
+    for (const char* text : {"the ring stands still", "this kind of gearbox has no pinion",
+                             "all records of a gearbox would have the same vibration"}) {
+        INFO(shafts.output);
+        CHECK(shafts.mentions(text));
+    }
+}
+
+}  // namespace test_bearings

@@ -1,0 +1,214 @@
+// Checks the response of the housing in runs: modes, measured responses, additional sensors, tones
+// and baselines. The closed forms are in tests/signals/path/test_frequency_response.cpp.
+#include <cmath>
+
+#include "mc/study/study.hpp"
+#include "tests/mc/ensemble/gearbox/small_runs.hpp"
+
+namespace test_housing {
+
+using namespace gearpod;
+using test::Folder;
+using test::kSmall;
+using test::program;
+using test::run_small;
+
+namespace {
+
+const std::string kModes =
+    " --set 'sensor.housing_modes=[{frequency_Hz=70, damping=0.03, participation=0.8}, "
+    "{frequency_Hz=90, damping=0.02, participation=0.5, nodal_diameters=2}]' ";
+
+// Measured response with this gain at all frequencies.
+std::string flat(double gain) {
+    return " --set 'sensor.response_Hz=[0, 1000]' --set 'sensor.response_phase_deg=[0, 0]'"
+           " --set 'sensor.response_gain=[" +
+           std::to_string(gain) + ", " + std::to_string(gain) + "]' ";
+}
+
+const std::vector<double>& values(const mc::Results& results, const std::string& name) {
+    return std::ranges::find(results.features, name, &mc::FeatureResult::name)->values;
+}
+
+void check_close(const std::vector<double>& a, const std::vector<double>& b, double relative) {
+    REQUIRE(a.size() == b.size());
+    for (std::size_t i = 0; i < a.size(); ++i) {
+        CHECK(a[i] == Approx(b[i]).epsilon(relative));
+    }
+}
+
+}  // namespace
+
+TEST_CASE("Modes without participation and a gain of 1 leave all features unchanged") {
+    const Folder folder;
+    const mc::Results plain = run_small(folder, "plain.h5", "");
+    const std::string none =
+        " --set 'sensor.housing_modes=[{frequency_Hz=70, damping=0.03, participation=0}, "
+        "{frequency_Hz=90, damping=0.02, participation=0, nodal_diameters=3}]'";
+    const mc::Results modes = run_small(folder, "modes.h5", none),
+                      measured = run_small(folder, "measured.h5", flat(1.0));
+    for (std::size_t f = 0; f < plain.features.size(); ++f) {
+        INFO(plain.features[f].name);
+        check_close(modes.features[f].values, plain.features[f].values, 1e-8);
+        check_close(measured.features[f].values, plain.features[f].values, 1e-8);
+    }
+}
+
+TEST_CASE("The housing amplifies the gearbox, but neither tones nor noise") {
+    const Folder folder;
+    const std::string quiet = " --set sensor.noise_levels=[0,1]",
+                      tone = " --set 'sensor.tones=[{frequency_Hz=31, amplitude_m_s2=0.7}]'";
+    const mc::Results plain = run_small(folder, "plain.h5", quiet),
+                      doubled = run_small(folder, "doubled.h5", quiet + flat(2.0)),
+                      silent = run_small(folder, "silent.h5", quiet + flat(0.0) + tone);
+    const auto &before = values(plain, "sensor_rms"), &after = values(doubled, "sensor_rms"),
+               &only_tone = values(silent, "sensor_rms");
+    for (std::size_t i = 0; i < before.size(); i += 2) {
+        CHECK(after[i] == Approx(2.0 * before[i]).epsilon(1e-10));
+        CHECK(only_tone[i] == Approx(0.7 / std::sqrt(2.0)).epsilon(2e-3));
+        // The noise, 0.002 m/s^2, adds in quadrature as before.
+        CHECK(std::abs(after[i + 1] - after[i]) < 0.0005);
+    }
+}
+
+TEST_CASE("Modes change the signal, and each gearbox may have its own natural frequencies") {
+    const Folder folder;
+    const std::string scatter =
+        " --set 'sensor.housing_frequency_factor={distribution=\"uniform\", low=0.8, high=1.2}'";
+    const mc::Results plain = run_small(folder, "plain.h5", ""),
+                      modes = run_small(folder, "modes.h5", kModes),
+                      random = run_small(folder, "random.h5", kModes + scatter);
+    const auto &before = values(plain, "sensor_rms"), &after = values(modes, "sensor_rms"),
+               &scattered = values(random, "sensor_rms");
+    int differ = 0;
+    for (std::size_t i = 0; i < before.size(); ++i) {
+        CHECK(after[i] > 1.1 * before[i]);
+        differ += std::abs(scattered[i] / after[i] - 1.0) > 1e-3;
+    }
+    CHECK(differ > 30);
+    check_close(values(modes, "te_rms"), values(plain, "te_rms"), 1e-12);
+}
+
+TEST_CASE("A sensor with the first one's participation and place has its signal") {
+    const Folder folder;
+    const std::string quiet = " --set sensor.noise_levels=[0]";
+    const std::string sensors =
+        " --set 'sensor.additional=[{name=\"twin\", angle_deg=0}, {name=\"same\", angle_deg=0, "
+        "participation=[0.8, 0.5]}, {name=\"other\", angle_deg=0, participation=[-0.4, 2]}]'";
+    const mc::Results results = run_small(folder, "r.h5", kModes + sensors + quiet);
+    for (std::size_t f = 0; f < results.features.size(); ++f) {
+        INFO(results.features[f].name);
+        const auto first = test::bits_of_values(results.features[f].values);
+        CHECK(test::bits_of_values(results.variants[0].features[f].values) == first);
+        CHECK(test::bits_of_values(results.variants[1].features[f].values) == first);
+        const bool of_te = results.features[f].name.starts_with("te_");
+        CHECK((test::bits_of_values(results.variants[2].features[f].values) == first) == of_te);
+    }
+}
+
+TEST_CASE("Responses of signals recorded during integration equal those of the kept motion") {
+    const Folder folder;
+    const std::string baselines =
+        " --set 'features.use=[\"sensor_rms\", \"window_ratio\", \"change_window_ratio\", "
+        "\"crest_factor\"]' --set features.baseline_torque_scatter=0.02"
+        " --set sensor.record_s=9 --set sensor.noise_levels=[0]";
+    const mc::Results kept = run_small(folder, "kept.h5", kModes + baselines),
+                      recorded = run_small(folder, "recorded.h5",
+                                           kModes + baselines + " --set numerics.horizon=full");
+    for (std::size_t f = 0; f < kept.features.size(); ++f) {
+        INFO(kept.features[f].name);
+        check_close(kept.features[f].values, recorded.features[f].values, 2e-3);
+    }
+}
+
+TEST_CASE("Rows with a housing keep their bits over threads, parts and merging") {
+    test::check_equal_bits_over_parts(kModes);
+}
+
+TEST_CASE("Exported samples with a housing have the features of the run") {
+    const Folder folder;
+    const mc::Results results = run_small(folder, "run.h5", kModes);
+    const auto measured = test::features_of_export(folder, "sensor_noise_1", kModes);
+    for (const char* name : {"sensor_rms", "window_ratio", "fm4", "crest_factor"}) {
+        INFO(name);
+        CHECK(values(results, name)[25] ==
+              Approx(test::printed_value(measured, name)).epsilon(1e-5));
+    }
+}
+
+TEST_CASE("A measured response is read from columns of a file, for each sensor") {
+    const Folder folder;
+    test::write_bytes(folder.file("frf.csv"), "f,top,phase,side\n0,1,0,3\n50,1,0,3\n1000,1,0,3\n");
+    const auto column = [&](const std::string& name) {
+        return "{file=\"" + folder.file("frf.csv") + "\", column=\"" + name + "\"}";
+    };
+    const std::string set = " --set 'sensor.response_Hz=" + column("f") +
+                            "' --set 'sensor.response_gain=" + column("top") +
+                            "' --set 'sensor.response_phase_deg=" + column("phase") +
+                            "' --set 'sensor.additional=[{name=\"side\", angle_deg=0, "
+                            "response_gain=" +
+                            column("side") + ", response_phase_deg=" + column("phase") +
+                            "}]' --set sensor.noise_levels=[0]";
+    const mc::Results results = run_small(folder, "r.h5", set);
+    const auto& first = values(results, "sensor_rms");
+    const auto& side =
+        std::ranges::find(results.variants[0].features, "sensor_rms", &mc::FeatureResult::name)
+            ->values;
+    for (std::size_t i = 0; i < first.size(); ++i) {
+        CHECK(side[i] == Approx(3.0 * first[i]).epsilon(1e-10));
+    }
+    // The stored study has the numbers, and needs the file no more.
+    std::filesystem::remove(folder.file("frf.csv"));
+    CHECK(program("report " + folder.file("r.h5")).code == 0);
+}
+
+TEST_CASE("Problems of the housing are all reported") {
+    const auto outcome =
+        program("describe " + kSmall +
+                " --set 'sensor.housing_modes=[{frequency_Hz=0, damping=2, participation=1}, "
+                "{frequency_Hz=90, damping=0.1, participation=\"a\", nodal_diameters=1.5}, "
+                "{damping=0.1}]'");
+    CHECK(outcome.code == 2);
+    for (const char* text :
+         {"mode 1: frequency_Hz must be", "mode 1: damping must be",
+          "mode 2: participation must be a number", "mode 2: nodal_diameters must be an integer",
+          "mode 3 has no frequency_Hz", "mode 3 has no participation"}) {
+        INFO(outcome.output << "\n" << text);
+        CHECK(outcome.mentions(text));
+    }
+    const auto counts =
+        program("describe " + kSmall + kModes +
+                " --set 'sensor.additional=[{name=\"a\", angle_deg=1, participation=[1]}]'");
+    INFO(counts.output);
+    CHECK(counts.code == 2);
+    CHECK(counts.mentions("sensor 1: participation has 1 values, but sensor.housing_modes has 2"));
+    const auto both = program("describe " + kSmall + kModes + flat(1.0));
+    CHECK(both.code == 2);
+    CHECK(both.mentions("a measured response contains the modes"));
+    const auto lengths = program("describe " + kSmall +
+                                 " --set sensor.response_Hz=[1,2] --set sensor.response_gain=[1]"
+                                 " --set sensor.response_phase_deg=[0,0,0]");
+    INFO(lengths.output);
+    CHECK(lengths.code == 2);
+    CHECK(lengths.mentions("has 1 values, but sensor.response_Hz has 2"));
+    CHECK(lengths.mentions("has 3 values, but sensor.response_Hz has 2"));
+    CHECK(program("describe " + kSmall +
+                  " --set sensor.response_Hz=[5] --set sensor.response_gain=[1]"
+                  " --set sensor.response_phase_deg=[0]")
+              .mentions("has one frequency"));
+    CHECK(program("describe " + kSmall + kModes)
+              .mentions("70 Hz, damping 0.03, participation 0.8: 13.3 times the vibration"));
+}
+
+TEST_CASE("A study with a housing reads back from its resolved text") {
+    const auto reading = mc::read_study(
+        kSmall, {"sensor.housing_modes=[{frequency_Hz=70.5, damping=0.03, participation=-0.8}, "
+                 "{frequency_Hz=90, damping=0.02, participation=0.1, nodal_diameters=2}]",
+                 "sensor.additional=[{name='b', angle_deg=30, participation=[0.1, 1e-3]}]"});
+    REQUIRE(reading.study);
+    const auto again = mc::read_study_text(resolved_text(*reading.study), "again");
+    REQUIRE(again.study);
+    CHECK(*again.study == *reading.study);
+}
+
+}  // namespace test_housing

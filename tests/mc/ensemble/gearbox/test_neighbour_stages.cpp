@@ -1,0 +1,213 @@
+// Checks neighbouring stages: their vibration at the sensor against a Fourier series of their own
+// signal, their gearboxes, records with their fault, and what is refused.
+#include <boost/random/uniform_01.hpp>
+#include <cmath>
+#include <complex>
+#include <filesystem>
+#include <fstream>
+#include <numbers>
+#include <vector>
+
+#include "mc/ensemble/coupling/neighbour_stages.hpp"
+#include "mc/ensemble/gearbox/other_sources.hpp"
+#include "mc/ensemble/gearbox/record_window.hpp"
+#include "mc/results/results_file.hpp"
+#include "tests/mc/ensemble/gearbox/small_runs.hpp"
+#include "tests/mc/ensemble/gearbox/stage_files.hpp"
+#include "tests/mc/study_file.hpp"
+
+namespace test_neighbour_stages {
+
+using namespace gearpod;
+using test::Folder;
+using test::kSmall;
+using test::program;
+using test::small_study;
+using test::stage_file;
+using test::stages;
+
+namespace {
+
+// Noise-free sensor signal of a gearbox over the span.
+std::vector<double> sensor_signal(const mc::Scene& scene, const mc::Realization& gearbox) {
+    const auto path = mc::sensor_paths(scene);
+    const auto tile = mc::run_realizations(scene, path, {gearbox}, 1);
+    REQUIRE(tile.status.front() == mc::Status::ok);
+    return mc::lane_signals(scene, path, tile, 0, scene.span_meshes()).sensor;
+}
+
+// Values of a signal of that period, at positions in samples, by its Fourier series.
+std::vector<double> series_at(const std::vector<double>& period,
+                              const std::vector<double>& positions) {
+    const auto n = static_cast<double>(period.size());
+    std::vector<double> values(positions.size(), 0.0);
+    for (std::size_t k = 0; 2 * k < period.size(); ++k) {
+        const double turn = 2.0 * std::numbers::pi * static_cast<double>(k) / n;
+        std::complex<double> coefficient = 0.0;
+        for (std::size_t i = 0; i < period.size(); ++i) {
+            coefficient += period[i] * std::polar(1.0, -turn * static_cast<double>(i));
+        }
+        for (std::size_t p = 0; p < positions.size(); ++p) {
+            values[p] += (k == 0 ? 1.0 : 2.0) / n *
+                         (coefficient * std::polar(1.0, turn * positions[p])).real();
+        }
+    }
+    return values;
+}
+
+}  // namespace
+
+TEST_CASE("The sensor picks up the stage's own signal, at the stage's time, times the gain") {
+    const Folder folder;
+    const std::string path = stage_file(folder, "stage.toml");
+    const mc::Scene scene(small_study(path, ", gain=0.5")), alone(*mc::read_study(kSmall).study);
+    const mc::GearboxId id{mc::Group::graded, 3};
+    const mc::Realization gearbox = scene.sampler().draw(id);
+    const std::vector<double> with = sensor_signal(scene, gearbox),
+                              without = sensor_signal(alone, gearbox);
+    const mc::Realization neighbour = mc::stage_gearbox(scene, 0, gearbox);
+    CHECK(neighbour.inputs.fault_size == 0.0);
+    const std::vector<double> own = sensor_signal(scene.stages()[0], neighbour);
+    // Mesh frequencies: 35 Hz here, 60 / 48 * 13 / 60 * 35 Hz there.
+    const double step =
+        mc::sample_s(scene, gearbox.inputs) / mc::sample_s(scene.stages()[0], neighbour.inputs);
+    CHECK(step == Approx((1.0 / (35.0 * scene.samples_per_mesh())) *
+                         (35.0 * 13 / 48 * scene.stages()[0].samples_per_mesh()))
+                      .epsilon(1e-9));
+    mc::Philox engine = mc::record_stream(scene.study(), id,
+                                          mc::with_suffix(mc::StreamPurpose::stage_start, "slow"));
+    const double start =
+        boost::random::uniform_01<double>()(engine) * static_cast<double>(own.size());
+    std::vector<double> positions;
+    constexpr std::size_t kEvery = 97;
+    for (std::size_t i = 0; i < with.size(); i += kEvery) {
+        positions.push_back(start + step * static_cast<double>(i));
+    }
+    const std::vector<double> expected = series_at(own, positions);
+    double sum = 0.0, error = 0.0;
+    for (std::size_t p = 0; p < positions.size(); ++p) {
+        sum += std::pow(0.5 * expected[p], 2);
+        error += std::pow(with[kEvery * p] - without[kEvery * p] - 0.5 * expected[p], 2);
+    }
+    CHECK(sum > 0.0);
+    CHECK(std::sqrt(error / sum) < 1e-3);
+}
+
+TEST_CASE("A stage's gearbox has the torque and the speed of the gearbox next to it") {
+    const Folder folder;
+    const mc::Scene scene(small_study(stage_file(folder, "stage.toml"), ""));
+    mc::Realization gearbox = scene.sampler().draw({mc::Group::threshold, 1});
+    const mc::Realization usual = mc::stage_gearbox(scene, 0, gearbox);
+    gearbox.inputs.torque_N_m *= 0.9;
+    gearbox.inputs.speed_rad_s *= 1.1;
+    const mc::Realization other = mc::stage_gearbox(scene, 0, gearbox);
+    CHECK(other.inputs.torque_N_m == Approx(0.9 * usual.inputs.torque_N_m).epsilon(1e-12));
+    CHECK(other.inputs.speed_rad_s == Approx(1.1 * usual.inputs.speed_rad_s).epsilon(1e-12));
+    CHECK(mc::stage_gearbox(scene, 0, gearbox, true).inputs.fault_size == Approx(0.4));
+}
+
+TEST_CASE("The common shaft sets the speed of a stage, and the sensor is that of the study") {
+    const Folder folder;
+    const std::string path = stage_file(folder, "fast.toml", 66.0);
+    const mc::Scene scene(small_study(path, ""));
+    const mc::Study& own = scene.stages()[0].study();
+    CHECK(mc::nominal_inputs(own).speed_rad_s ==
+          Approx(13.0 / 48.0 * mc::nominal_inputs(scene.study()).speed_rad_s).epsilon(1e-6));
+    const auto text =
+        program("describe " + kSmall + " " + stages(path, "") + "--set sensor.low_pass_Hz=100");
+    CHECK(text.mentions("0.9091 times as fast as in its own study"));
+    CHECK(text.mentions("meshes at 9.479 Hz"));
+    // A stage next to a stage: the shaft is the first one's, at its speed.
+    const auto chain =
+        program("describe " + kSmall + " --set 'sensor.stages=[{name=\"a\", study=\"" + path +
+                "\", shaft=\"carrier\", stage_shaft=\"sun\"}, {name=\"b\", study=\"" + path +
+                "\", of=\"a\", shaft=\"carrier\", stage_shaft=\"sun\"}]'");
+    CHECK(chain.mentions("meshes at 2.567 Hz"));
+}
+
+TEST_CASE("A stage that leaves its numerics to a tolerance has them at the speed of the shaft") {
+    const Folder folder;
+    const std::string path = stage_file(folder, "stage.toml", 66.0);
+    std::ofstream(path, std::ios::app) << "\n[numerics]\ntolerance = 1e-2\n";
+    const auto results = run_small(folder, "t.h5", stages(path, ""));
+    CHECK(std::isfinite(results.features[4].values.front()));
+    CHECK(program("simulate " + kSmall + " " + stages(path, "") +
+                  "--set operation.torque_N_m=0 --instance 0 --meshes 40 --out " +
+                  folder.file("s.csv"))
+              .code == 0);
+}
+
+TEST_CASE("Another fault is that of the stage, in the same records") {
+    const Folder folder;
+    const std::string path = stage_file(folder, "stage.toml");
+    const mc::Results other = run_small(folder, "other.h5", stages(path, ", role=\"other_fault\"")),
+                      background = run_small(folder, "background.h5", stages(path, ""));
+    REQUIRE(other.variants.size() == 1);
+    CHECK(background.variants.empty());
+    const auto& healthy = other.features[4];
+    REQUIRE(healthy.name == "sensor_rms");
+    CHECK(test::bits_of_values(healthy.values) ==
+          test::bits_of_values(background.features[4].values));
+    const auto& faulty = other.variants[0].features[4];
+    for (std::size_t row = 0; row < 20; ++row) {
+        CHECK(faulty.values[row] != healthy.values[row]);
+        CHECK(faulty.values[row] == Approx(healthy.values[row]).epsilon(0.5));
+    }
+    // Results hold the stage's study.
+    std::filesystem::remove(path);
+    const auto report = program("report " + folder.file("other.h5"));
+    CHECK(report.code == 0);
+    CHECK(report.mentions("a fault of the neighbouring stage \"slow\""));
+}
+
+TEST_CASE("Rows next to a stage keep their bits over threads, parts and merging") {
+    const Folder folder;
+    const std::string path = stage_file(folder, "stage.toml");
+    test::check_equal_bits_over_parts(stages(path, ", role=\"other_fault\"") +
+                                      "--set 'features.use=[\"fm4\",\"change_sensor_rms\"]' ");
+}
+
+TEST_CASE("Stages that do not fit are refused, all at once, with what would be right") {
+    const Folder folder;
+    const std::string path = stage_file(folder, "stage.toml");
+    const auto refused = [&](const std::string& options) {
+        const auto outcome = program("describe " + kSmall + " " + options);
+        CHECK(outcome.code == 2);
+        INFO(outcome.output);
+        return outcome;
+    };
+    CHECK(refused(stages(folder.file("none.toml"), "")).mentions("none.toml: cannot be read"));
+    CHECK(refused("--set 'sensor.stages=[{name=\"a\", study=\"" + path +
+                  "\", shaft=\"ring\", stage_shaft=\"sun\"}]'")
+              .mentions("the ring of its common shaft stands still"));
+    const auto both = refused("--set 'sensor.stages=[{name=\"a\", study=\"" + path +
+                              "\", shaft=\"sun\", stage_shaft=\"sun\", gain=-1},"
+                              "{name=\"a\", study=\"" +
+                              path + "\", shaft=\"sun\", stage_shaft=\"sun\", of=\"b\"}]'");
+    CHECK(both.mentions("stage 1: gain must be > 0"));
+    CHECK(both.mentions("stage 2: its name \"a\" occurs twice"));
+    CHECK(both.mentions("stage 2: of: no earlier stage has the name \"b\""));
+    CHECK(refused("--set 'sensor.stages=[{name=\"a\", text=\"\", shaft=\"sun\", "
+                  "stage_shaft=\"sun\"}]'")
+              .mentions("stage 1: its study is empty"));
+    CHECK(refused("--set 'sensor.stages=[{name=\"a\", study=\"" + path +
+                  "\", shaft=\"pinion\", stage_shaft=\"sun\"}]'")
+              .mentions("a planetary gearbox has no pinion"));
+    // Its mesh frequency would be 129 Hz.
+    const auto fast = refused("--set 'sensor.stages=[{name=\"a\", study=\"" + path +
+                              "\", shaft=\"sun\", stage_shaft=\"carrier\"}]'");
+    CHECK(fast.mentions("sensor.stages: stage \"a\": sensor.sampling_Hz"));
+    std::string text = test::bytes_of(path);
+    text.replace(text.find("reduction = 0.4"), 15, "reduction = 0");
+    std::ofstream(folder.file("sound.toml")) << text;
+    CHECK(refused(stages(folder.file("sound.toml"), ", role=\"other_fault\""))
+              .mentions("its other fault has the size 0"));
+    std::ofstream(folder.file("python.toml")) << test::bytes_of(path).replace(
+        test::bytes_of(path).find("[features]"), 10, "[features]\npython = [\"own.py\"]");
+    CHECK(refused(stages(folder.file("python.toml"), "")).mentions("remove features.python there"));
+    std::ofstream(folder.file("nested.toml")) << test::bytes_of(path) << "\n[sensor.more]\n";
+    CHECK(refused(stages(folder.file("nested.toml"), "")).mentions("its study has problems"));
+    CHECK(program("lives " + kSmall + " " + stages(path, "")).mentions("bearings or stages"));
+}
+
+}  // namespace test_neighbour_stages

@@ -1,0 +1,293 @@
+// Checks records of given length against whole spans, a record cut here from simulated samples, and
+// the probability of their tooth positions.
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <numeric>
+#include <set>
+
+#include "mc/ensemble/gearbox/realization_features.hpp"
+#include "mc/ensemble/gearbox/record_window.hpp"
+#include "mc/ensemble/gearbox/simulation.hpp"
+#include "mc/ensemble/gearbox/solution_choice.hpp"
+#include "tests/mc/program.hpp"
+#include "tests/mc/study_file.hpp"
+
+namespace test_record_window {
+
+using namespace gearpod;
+using namespace gearpod::mc;
+
+namespace {
+
+Study study_with(std::vector<std::string> overrides) {
+    overrides.insert(overrides.end(), {"random.fault.depth_mm={distribution=\"constant\",value=3}",
+                                       "numerics.steps_per_mesh=9600"});
+    return test::shipped_study("planet-crack-ideal.toml", overrides);
+}
+
+const std::string kPlain = "features.use=[\"sensor_rms\",\"window_ratio\",\"te_rms\"]";
+const std::string kCompared =
+    "features.use=[\"sensor_rms\",\"own_sensor_rms\",\"change_sensor_rms\",\"te_rms\"]";
+
+// A simulated gearbox of a study and its features.
+class Computed {
+  public:
+    explicit Computed(const Study& study, GearboxId id = {Group::graded, 4})
+        : scene_(study),
+          path_(sensor_paths(scene_)),
+          tile_(run_gearboxes(scene_, path_, std::span(&id, 1), 1)),
+          features_(scene_, &healthy_),
+          signals_(lane_signals(scene_, path_, tile_, 0, scene_.signal_meshes())) {
+        REQUIRE(tile_.status[0] == Status::ok);
+        values_ = features_.compute(signals_, tile_.realizations[0]);
+    }
+    double operator[](std::size_t value) const { return values_[value]; }
+    const Scene& scene() const { return scene_; }
+    const LaneSignals& signals() const { return signals_; }
+    int meshes() const { return tile_.meshes; }
+    double noise_m_s2() const { return tile_.realizations[0].inputs.noise_m_s2; }
+    RecordWindow window() const {
+        const Realization& one = tile_.realizations[0];
+        return record_window(scene_, one.id, record_turns(scene_, one.inputs));
+    }
+
+  private:
+    Scene scene_;
+    SensorPaths path_;
+    GearboxTile tile_;
+    HealthyReference healthy_;
+    RealizationFeatures features_;
+    LaneSignals signals_;
+    std::vector<double> values_;
+};
+
+double rms(std::span<const double> values) {
+    return std::sqrt(std::inner_product(values.begin(), values.end(), values.begin(), 0.0) /
+                     static_cast<double>(values.size()));
+}
+
+}  // namespace
+
+TEST_CASE("A record of all turns has the features of the whole span, wherever it begins") {
+    const std::string quiet = "sensor.noise_levels=[0]";
+    const Computed whole(study_with({kPlain, quiet}));
+    // Liang's gearbox has 31 planet and 81 ring teeth: 31 carrier turns.
+    const Computed record(study_with({kPlain, quiet, "sensor.record_turns=31"}));
+    CHECK(record.window().turns == 81);
+    for (const std::size_t feature : {0, 1, 2}) {
+        CHECK(record[feature] == Approx(whole[feature]).epsilon(1e-9));
+    }
+}
+
+TEST_CASE("The features of a short record are those of its samples") {
+    const Computed record(study_with({kPlain, "sensor.noise_levels=[0]", "sensor.record_turns=4"}));
+    const RecordWindow window = record.window();
+    CHECK(window.turns == 4 * 81 / 31);
+    const auto samples = static_cast<std::size_t>(record.scene().samples_per_mesh());
+    const auto own = std::span(record.signals().sensor)
+                         .subspan(static_cast<std::size_t>(window.first_mesh) * samples,
+                                  static_cast<std::size_t>(window.turns * 31) * samples);
+    CHECK(record[0] == Approx(rms(own)).epsilon(1e-12));
+    // Mean over the record's turns of every sample of a turn, without its mean.
+    const auto te_samples = static_cast<std::size_t>(record.scene().te_samples_per_mesh());
+    std::vector<double> turn(31 * te_samples);
+    for (std::size_t i = 0; i < turn.size() * static_cast<std::size_t>(window.turns); ++i) {
+        turn[i % turn.size()] +=
+            record.signals().te[static_cast<std::size_t>(window.first_mesh) * te_samples + i] /
+            window.turns;
+    }
+    const double mean =
+        std::accumulate(turn.begin(), turn.end(), 0.0) / static_cast<double>(turn.size());
+    for (double& value : turn) {
+        value -= mean;
+    }
+    CHECK(record[2] == Approx(rms(turn)).epsilon(1e-9));
+}
+
+TEST_CASE("Noise of a short record has its own number of samples") {
+    const Computed record(
+        study_with({kCompared, "sensor.noise_levels=[100]", "sensor.record_turns=4"}));
+    const double noise = 100.0 * record.noise_m_s2();
+    const double samples = 10.0 * 31.0 * record.scene().samples_per_mesh();
+    CHECK(record[0] == Approx(noise).epsilon(4.0 / std::sqrt(2.0 * samples)));
+    CHECK(record[2] == Approx(std::sqrt(2.0) * noise).epsilon(4.0 / std::sqrt(2.0 * samples)));
+}
+
+TEST_CASE(
+    "Without noise and at the same torque the change is zero, although records begin anywhere") {
+    const GearboxId healthy{Group::threshold, 4};
+    const Computed own(study_with({kCompared, "sensor.noise_levels=[0]", "sensor.record_turns=4"}),
+                       healthy);
+    CHECK(own[2] == 0.0);
+    // The baseline record begins at another tooth, where the path weights other turns.
+    CHECK(own[1] != 1.0);
+    CHECK(own[1] == Approx(1.0).epsilon(0.1));
+}
+
+TEST_CASE(
+    "Records begin at every mesh period with the same probability, whatever was drawn before") {
+    const Scene scene(study_with({kPlain, "sensor.record_turns=4"}));
+    constexpr int kRecords = 8000, kBins = 8;
+    std::vector<int> count(kBins);
+    std::set<int> distinct;
+    for (std::uint64_t i = 0; i < kRecords; ++i) {
+        const RecordWindow window = record_window(scene, {Group::graded, i}, 10);
+        REQUIRE(window.first_mesh >= 0);
+        REQUIRE(window.first_mesh <= scene.span_meshes());
+        distinct.insert(window.first_mesh);
+        ++count[static_cast<std::size_t>(window.first_mesh) * kBins /
+                static_cast<std::size_t>(scene.span_meshes() + 1)];
+    }
+    double chi_squared = 0.0;
+    for (const int one : count) {
+        chi_squared += std::pow(one - kRecords / kBins, 2) / (1.0 * kRecords / kBins);
+    }
+    CHECK(chi_squared < 24.3);  // 7 degrees of freedom, p = 0.001
+    CHECK(distinct.size() > 2000);
+    // Each record of a gearbox has its own start.
+    const auto first = [&](GearboxId id) { return record_window(scene, id, 10).first_mesh; };
+    CHECK(first({Group::graded, 1}) != first({Group::graded, 1, Record::baseline}));
+    CHECK(first({Group::threshold, 1}) != first({Group::threshold, 1, Record::test, 1}));
+}
+
+// Gearboxes whose teeth have errors: every mesh period has to be integrated.
+Study real_teeth(std::vector<std::string> overrides) {
+    overrides.insert(overrides.begin(),
+                     {kCompared, "sensor.noise_levels=[0.001]", "sensor.record_turns=1.2",
+                      "features.baseline_records=2", "features.baseline_torque_scatter=0.02",
+                      "numerics.precision=\"double\"", "numerics.settle_tolerance=1e-6",
+                      "random.fault.depth_mm={distribution=\"constant\",value=3}"});
+    return test::shipped_study("planet-crack.toml", overrides);
+}
+
+TEST_CASE("Records that are integrated alone are those of the whole signal") {
+    // Gearbox 16 is the first of its group, whose window is its own.
+    const GearboxId id{Group::graded, 16};
+    const Computed alone(real_teeth({}), id);
+    REQUIRE(integrates_records_only(alone.scene()));
+    const Computed whole(real_teeth({"ensemble.threshold_records=2"}), id);
+    REQUIRE(!integrates_records_only(whole.scene()));
+    REQUIRE(alone.window().first_mesh == whole.window().first_mesh);
+    for (const std::size_t feature : {0, 1, 2, 3}) {
+        INFO(feature);
+        CHECK(alone[feature] == Approx(whole[feature]).epsilon(1e-4));
+    }
+    CHECK(alone.meshes() < 0.25 * whole.meshes());
+    // Others have the window of the first one, whatever tile computes them.
+    const Computed other(real_teeth({}), {Group::graded, 19});
+    CHECK(other.window().first_mesh == alone.window().first_mesh);
+    const SensorPaths path = sensor_paths(other.scene());
+    std::vector<GearboxId> ids;
+    for (std::uint64_t index = 16; index < 24; ++index) {
+        ids.push_back({Group::graded, index});
+    }
+    const GearboxTile tile = run_gearboxes(other.scene(), path, ids, 8);
+    const HealthyReference healthy;
+    RealizationFeatures features(other.scene(), &healthy);
+    const std::vector<double> values =
+        features.compute(lane_signals(other.scene(), path, tile, 3, other.scene().signal_meshes()),
+                         tile.realizations[3]);
+    for (const std::size_t feature : {0, 1, 2, 3}) {
+        CHECK(values[feature] == other[feature]);
+    }
+    const Simulation simulation = simulate(other.scene(), {Group::graded, 19}, 93);
+    CHECK(simulation.features == values);
+}
+
+TEST_CASE("Parts of a baseline record include the windows of the test record and of its copies") {
+    const Scene scene(real_teeth({"features.baseline_torque_scatter=0"}));
+    const Realization one = scene.sampler().draw({Group::threshold, 3, Record::baseline});
+    const auto parts = parts_of_records(scene, std::span(&one, 1));
+    const auto within = [&](const GearboxId& id) {
+        const int first = record_window(scene, id, 3).first_mesh;
+        return std::ranges::any_of(parts, [&](const lockstep::SpanPart& part) {
+            return part.first <= first && first + 93 <= part.end;
+        });
+    };
+    for (const std::size_t k : {0, 1}) {
+        GearboxId id = one.id;
+        id.baseline = k;
+        CHECK(within(id));
+    }
+    CHECK(within({Group::threshold, 0}));
+    CHECK(parts.size() <= 3);
+    // Studies whose records need other parts of the signal integrate all of it.
+    for (const char* key :
+         {"ensemble.threshold_records=2", "operation.speed_noise=0.01",
+          "random.operation.carrier_speed_rpm={distribution=\"constant\",value=8}"}) {
+        INFO(key);
+        std::vector<std::string> keys{key};
+        if (keys[0].find("speed_noise") != std::string::npos) {
+            keys.emplace_back("operation.speed_noise_band_Hz=3");
+        }
+        CHECK(!shares_windows(real_teeth(keys)));
+    }
+}
+
+TEST_CASE("The length of records changes no other random input, and no results without it") {
+    const Study whole = study_with({kPlain}), cut = study_with({kPlain, "sensor.record_turns=4"});
+    for (std::uint64_t i = 0; i < 5; ++i) {
+        const GearboxId id{Group::graded, i};
+        CHECK(Sampler(whole).draw(id).random_values == Sampler(cut).draw(id).random_values);
+    }
+    CHECK(resolved_text(whole).find("record_") == std::string::npos);
+    CHECK(resolved_text(cut).find("record_turns = 4") != std::string::npos);
+}
+
+TEST_CASE("A faster gearbox records more turns in the same time") {
+    const Study study = study_with({kPlain, "sensor.record_s=20"});
+    const Scene scene(study);
+    InstanceInputs inputs = nominal_inputs(study);
+    const int nominal = record_turns(scene, inputs);
+    // Mesh frequency: 81 teeth times 8.87 rpm of the carrier.
+    CHECK(nominal == static_cast<int>(20.0 * 81.0 * 8.87 / 60.0 / 31.0));
+    inputs.speed_rad_s *= 2.0;
+    CHECK(record_turns(scene, inputs) == static_cast<int>(20.0 * 81.0 * 2.0 * 8.87 / 60.0 / 31.0));
+    inputs.speed_rad_s *= 0.01;
+    CHECK(record_turns(scene, inputs) == 3);
+}
+
+TEST_CASE("Integrated and periodic gearboxes have the same short records") {
+    const std::vector<std::string> keys{kPlain, "sensor.noise_levels=[0]",
+                                        "sensor.record_turns=1.2"};
+    const Computed periodic(study_with(keys));
+    std::vector<std::string> all = keys;
+    all.push_back("numerics.horizon=\"full\"");
+    const Computed integrated(study_with(all));
+    for (const std::size_t feature : {0, 1, 2}) {
+        CHECK(integrated[feature] == Approx(periodic[feature]).epsilon(1e-5));
+    }
+}
+
+TEST_CASE("simulate shows the samples of the record, from its first mesh period") {
+    const Study study = study_with({kPlain, "sensor.noise_levels=[0]", "sensor.record_turns=4"});
+    const Computed record(study);
+    const Scene scene(study);
+    const long meshes = 10 * 31;
+    const Simulation simulation = simulate(scene, {Group::graded, 4}, meshes);
+    const auto column = [&](const std::string& name) {
+        return std::ranges::find(simulation.columns, name, &SignalColumn::name)->values;
+    };
+    CHECK(column("mesh_phase").front() == record.window().first_mesh);
+    CHECK(column("time").front() == 0.0);
+    CHECK(simulation.features[0] == record[0]);
+    CHECK(rms(column("sensor")) == Approx(record[0]).epsilon(1e-12));
+}
+
+TEST_CASE("Lengths of records that make no sense are refused, and reports state them") {
+    const auto refused = [](const std::string& more) {
+        return test::program("describe " + test::study("planet-crack-ideal.toml") + more);
+    };
+    CHECK(refused(" --set sensor.record_turns=1").mentions("windows repeat every 31"));
+    CHECK(refused(" --set sensor.record_s=60 --set sensor.record_turns=9")
+              .mentions("conflicts with record_s"));
+    CHECK(
+        refused(" --set sensor.record_turns=4 --set 'features.use=[\"sun_window_ratio\"]'").code ==
+        2);
+    const std::string conditions = run_conditions(study_with({"sensor.record_turns=4"}));
+    CHECK(conditions.find("begins at a random tooth position") != std::string::npos);
+    CHECK(conditions.find("10 of the 81 ring teeth that it can meet (12 %)") != std::string::npos);
+    CHECK(run_conditions(study_with({})).find("81 of the 81 ring teeth") != std::string::npos);
+}
+
+}  // namespace test_record_window

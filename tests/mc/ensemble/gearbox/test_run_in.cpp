@@ -1,0 +1,63 @@
+// Checks the run-in before the first recorded mesh against a much longer run-in.
+#include <catch2/catch.hpp>
+
+#include "lockstep/strategies/solution.hpp"
+#include "mc/ensemble/gearbox/tile_random_inputs.hpp"
+#include "tests/mc/ensemble/gearbox/relative_difference.hpp"
+#include "tests/mc/study_file.hpp"
+
+namespace test_run_in {
+
+using namespace gearpod;
+using namespace gearpod::mc;
+
+namespace {
+
+// The first recorded mesh of a gearbox with real teeth after so many others.
+lockstep::MeshRecord first_mesh(const Scene& scene, int run_in) {
+    Realization gearbox = scene.sampler().draw({Group::graded, 3});
+    gearbox.inputs.fault_size = 0.0;
+    const dynamics::GearboxInputs inputs = scene.inputs(gearbox.inputs);
+    const auto errors = draw_tooth_errors(scene, std::span(&gearbox, 1));
+    lockstep::FaultCurves faults{&scene.pairs(), scene.pattern(), {}};
+    faults.curve.assign(static_cast<std::size_t>(scene.fault().curves()), {nullptr});
+    const lockstep::FullSolution solution{
+        .convergence = {.tolerance = 1e-10, .max_meshes = scene.max_meshes()},
+        .span = {.meshes = 1, .run_in_meshes = run_in},
+        .tooth_errors = &errors.value()};
+    const lockstep::TileResult tile =
+        lockstep::run_tile<1>(scene.plan(), std::span(&inputs, 1), faults, solution);
+    REQUIRE(tile.status.front() == lockstep::LaneStatus::ok);
+    return tile.records.at(static_cast<std::size_t>(tile.content.front()));
+}
+
+}  // namespace
+
+TEST_CASE("The initial transient with real teeth has decayed when recording begins") {
+    const Scene scene(test::shipped_study("planet-life.toml",
+                                          {"numerics.precision=\"double\"", "numerics.lanes=1"}));
+    const int run_in = run_in_meshes(scene);
+    CHECK(run_in <= 10);
+    const lockstep::MeshRecord own = first_mesh(scene, run_in), late = first_mesh(scene, 100);
+    CHECK(test::relative_difference(own.acceleration, late.acceleration) <
+          convergence_tolerance(scene.study()));
+    CHECK(test::relative_difference(own.te, late.te) < convergence_tolerance(scene.study()));
+    // The transient is large without a run-in.
+    CHECK(test::relative_difference(first_mesh(scene, 0).acceleration, late.acceleration) > 0.01);
+}
+
+TEST_CASE("The run-in follows from the slower of gearbox and sensor, and from the tolerance") {
+    const auto run_in = [](std::vector<std::string> keys) {
+        keys.emplace_back("gearbox.tooth_quality=6");
+        return run_in_meshes(Scene(test::shipped_study("planet-crack-ideal.toml", keys)));
+    };
+    // Decay of the low-pass' slower section is 0.3827 2 pi 0.5 Hz = 1.2 1/s, and a mesh takes
+    // 1/11.97 s: 91.7 meshes to 1e-4. Twice that is limited to half of the allowed meshes until
+    // convergence.
+    CHECK(run_in({"sensor.low_pass_Hz=0.5", "numerics.settle_tolerance=1e-4"}) == 100);
+    // Twice the meshes to 1e-2: 45.9 / 2 at 1 Hz.
+    CHECK(run_in({"sensor.low_pass_Hz=1", "numerics.settle_tolerance=1e-2"}) == 46);
+    CHECK(run_in({"sensor.low_pass_Hz=1", "numerics.settle_tolerance=1e-4"}) == 92);
+}
+
+}  // namespace test_run_in

@@ -1,0 +1,174 @@
+// Checks the measuring range of sensors: samples with their noise are clipped, in exports and in
+// all features.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "mc/study/study.hpp"
+#include "tests/mc/ensemble/gearbox/small_runs.hpp"
+#include "tests/mc/study_file.hpp"
+
+namespace test_sensor_range {
+
+using namespace gearpod;
+using test::Folder;
+using test::kSmall;
+using test::program;
+
+namespace {
+
+constexpr double kRange = 0.15;  // passed by some of the samples
+const std::string kNoise = " --set sensor.noise_m_s2=0.03 ";
+const std::string kClipped = kNoise + fmt::format("--set sensor.range_m_s2={} ", kRange);
+
+const std::vector<double>& values(const std::vector<mc::FeatureResult>& features,
+                                  const std::string& name) {
+    return std::ranges::find(features, name, &mc::FeatureResult::name)->values;
+}
+
+}  // namespace
+
+TEST_CASE("Exported samples are clipped after the noise was added") {
+    const Folder folder;
+    const std::string sensor =
+        "--set 'sensor.additional=[{name=\"side\", angle_deg=90, range_m_s2=0.1}]'";
+    const auto free = test::signals_of_small(folder, kNoise + sensor);
+    const auto clipped = test::signals_of_small(folder, kClipped + sensor);
+    const auto check = [&](const std::string& column, double range) {
+        INFO(column);
+        const std::vector<double>&before = free.at(column), &after = clipped.at(column);
+        std::size_t beyond = 0;
+        for (std::size_t i = 0; i < before.size(); ++i) {
+            REQUIRE(after[i] == std::clamp(before[i], -range, range));
+            beyond += after[i] != before[i] ? 1 : 0;
+        }
+        return beyond;
+    };
+    for (const char* column : {"sensor", "sensor_noise_1"}) {
+        const std::size_t beyond = check(column, kRange);
+        CHECK(beyond > 30);
+        CHECK(beyond < 1800);
+    }
+    // The second sensor has the same range in both.
+    CHECK(check("sensor_side_noise_1", 0.1) == 0);
+    CHECK(std::ranges::max(clipped.at("sensor_side_noise_1")) == 0.1);
+}
+
+// `features` refuses recordings with many clipped samples, hence the larger range.
+TEST_CASE("Features of a run are those of its clipped samples") {
+    const std::string density = " --set sensor.noise_density_m_s2_per_sqrt_Hz=0.001 ";
+    const std::string range = "--set sensor.range_m_s2=0.18 ";
+    for (const std::string& noise : {kNoise, kNoise + density}) {
+        const std::string options = noise + range;
+        const Folder folder;
+        const mc::Results free = test::run_small(folder, "free.h5", noise),
+                          results = test::run_small(folder, "run.h5", options);
+        const auto measured = test::features_of_export(folder, "sensor_noise_1", options);
+        for (const char* name :
+             {"sensor_rms", "window_ratio", "window_kurtosis", "fm4", "crest_factor"}) {
+            INFO(name);
+            CHECK(values(results.features, name)[25] ==
+                  Approx(test::printed_value(measured, name)).epsilon(1e-5));
+            CHECK(std::abs(values(results.features, name)[25] / values(free.features, name)[25] -
+                           1.0) > 1e-4);
+        }
+    }
+}
+
+TEST_CASE("A range lowers the rms, and one that no sample reaches changes no feature") {
+    const Folder folder;
+    const mc::Results free = test::run_small(folder, "free.h5", kNoise),
+                      wide = test::run_small(folder, "wide.h5",
+                                             kNoise + "--set sensor.range_m_s2=100"),
+                      clipped = test::run_small(folder, "clipped.h5", kClipped);
+    for (std::size_t f = 0; f < free.features.size(); ++f) {
+        INFO(free.features[f].name);
+        for (std::size_t i = 0; i < free.features[f].values.size(); ++i) {
+            CHECK(wide.features[f].values[i] ==
+                  Approx(free.features[f].values[i]).epsilon(1e-8).margin(1e-10));
+        }
+    }
+    const auto &before = values(free.features, "sensor_rms"),
+               &after = values(clipped.features, "sensor_rms");
+    for (std::size_t i = 0; i < before.size(); ++i) {
+        CHECK(after[i] < 0.99 * before[i]);
+        CHECK(after[i] < kRange);
+    }
+}
+
+TEST_CASE("A range of one sensor leaves the features of the others unchanged") {
+    const Folder folder;
+    const std::string other = "{name=\"other\", angle_deg=90}",
+                      own = ", {name=\"own\", angle_deg=90, range_m_s2=0.1}";
+    const auto run = [&](const std::string& name, const std::string& sensors) {
+        return test::run_small(folder, name,
+                               kNoise + "--set 'sensor.additional=[" + sensors + "]'");
+    };
+    const mc::Results plain = run("plain.h5", other), results = run("own.h5", other + own);
+    for (std::size_t f = 0; f < plain.features.size(); ++f) {
+        INFO(plain.features[f].name);
+        CHECK(test::bits_of_values(results.features[f].values) ==
+              test::bits_of_values(plain.features[f].values));
+        CHECK(test::bits_of_values(results.variants[0].features[f].values) ==
+              test::bits_of_values(plain.variants[0].features[f].values));
+    }
+    const auto &free = values(results.variants[0].features, "sensor_rms"),
+               &clipped = values(results.variants[1].features, "sensor_rms");
+    for (std::size_t i = 0; i < free.size(); ++i) {
+        CHECK(clipped[i] < free[i]);
+    }
+}
+
+TEST_CASE("Clipped rows keep their bits over threads, parts, merging and lanes") {
+    const std::string baselines =
+        "--set 'features.use=[\"sensor_rms\", \"own_window_ratio\", \"crest_factor\", \"nb4\"]'"
+        " --set features.baseline_torque_scatter=0.02 --set sensor.record_s=9 "
+        "--set 'sensor.noise_levels=[0, 1, 2]' ";
+    test::check_equal_bits_over_parts(kClipped + baselines);
+    const auto rows = [](int lanes) {
+        return test::bits(
+            test::run(mc::read_study(
+                          kSmall, {fmt::format("sensor.range_m_s2={}", kRange),
+                                   "sensor.noise_m_s2=0.03", "ensemble.threshold_instances=5",
+                                   "ensemble.instances=6", fmt::format("numerics.lanes={}", lanes)})
+                          .study.value()));
+    };
+    CHECK(rows(1) == rows(8));
+}
+
+TEST_CASE("What needs samples that are not clipped refuses a range") {
+    const Folder folder;
+    const auto refused = [](const std::string& command, const char* text) {
+        const auto outcome = program(command);
+        INFO(outcome.output);
+        CHECK(outcome.code == 2);
+        CHECK(outcome.mentions(text));
+    };
+    const std::string change = " --set 'features.use=[\"sensor_rms\", \"change_window_ratio\"]'";
+    refused("describe " + kSmall + kClipped + change,
+            "sensor.range_m_s2: a range clips the samples, but \"change_window_ratio\"");
+    refused("describe " + kSmall + change +
+                " --set 'sensor.additional=[{name=\"a\", angle_deg=1, range_m_s2=1}]'",
+            "sensor.additional: a range clips the samples, but \"change_window_ratio\"");
+    refused("describe " + kSmall + kClipped +
+                "--set ensemble.threshold_tilt=true --set ensemble.threshold_records=8",
+            "needs Gaussian noise");
+    refused("describe " + kSmall + " --set sensor.range_m_s2=0", "sensor.range_m_s2");
+    refused("lives " + test::study("planet-crack-ideal.toml") +
+                " --set life.interval_h=10 --set life.first_depth_mm=1 --set life.last_depth_mm=3"
+                " --set life.paris_factor=1e-9 --set life.paris_exponent=3"
+                " --set sensor.range_m_s2=1 --out " +
+                folder.file("l.h5"),
+            "sensor.range_m_s2: records are superpositions of parts, which are not clipped");
+    refused("calibrate " + kSmall + kClipped + "--features " + kSmall + " --out " +
+                folder.file("c.toml"),
+            "sensor.range_m_s2: calibration does not clip the samples");
+    test::run_small(folder, "r.h5", kClipped);
+    refused("misses " + folder.file("r.h5") + " --feature window_ratio --size 0.4",
+            "its study clips the samples");
+    CHECK(program("describe " + kSmall + kClipped)
+              .mentions("samples are clipped at 0.15 m/s^2 of either sign"));
+}
+
+}  // namespace test_sensor_range

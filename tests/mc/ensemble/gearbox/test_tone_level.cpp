@@ -1,0 +1,86 @@
+// Checks the level of other machine noise: one factor on the amplitudes of all tones.
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "mc/numerics/study_scene.hpp"
+#include "mc/recordings/calibration/parameters.hpp"
+#include "mc/recordings/calibration/simulated_sets.hpp"
+#include "tests/mc/program.hpp"
+
+namespace test_tone_level {
+
+using namespace gearpod;
+using test::Folder;
+using test::program;
+
+namespace {
+
+const std::string kStudy = std::string(GEARPOD_SOURCE_DIR) + "/tests/features/reference/small.toml";
+
+std::string tones(double amplitude) {
+    return fmt::format(
+        "sensor.tones=[{{frequency_Hz=50, amplitude_m_s2={0}}}, "
+        "{{frequency_Hz=111, amplitude_m_s2={1}}}]",
+        amplitude, 0.5 * amplitude);
+}
+
+mc::StudyScene scene_with(const std::vector<std::string>& overrides) {
+    mc::StudyScene made = mc::make_scene(kStudy, mc::read_study(kStudy, overrides));
+    INFO(format(made.problems));
+    REQUIRE(made);
+    return made;
+}
+
+}  // namespace
+
+TEST_CASE("Twice the level doubles the amplitude of every tone") {
+    const Folder folder;
+    const auto simulate = [&](const std::string& options, const std::string& name) {
+        const auto outcome = program("simulate " + kStudy + " --instance 2 " + options + " --out " +
+                                     folder.file(name));
+        INFO(outcome.output);
+        REQUIRE(outcome.code == 0);
+        return test::bytes_of(folder.file(name));
+    };
+    const std::string quiet = simulate("--set '" + tones(2.0) + "'", "quiet.csv");
+    const std::string loud = simulate("--set '" + tones(4.0) + "'", "loud.csv");
+    CHECK(simulate("--set '" + tones(2.0) + "' --set sensor.tone_level=2", "level.csv") == loud);
+    CHECK(quiet != loud);
+}
+
+TEST_CASE("A level requires tones") {
+    const auto outcome = program("describe " + kStudy + " --set sensor.tone_level=2");
+    CHECK(outcome.code == 2);
+    CHECK(outcome.mentions("sensor.tone_level"));
+    CHECK(outcome.mentions("no tones are given: sensor.tones"));
+}
+
+// Each background that shares an integration has its own level.
+TEST_CASE("Calibration uses the given level") {
+    const mc::StudyScene quiet = scene_with(
+        {tones(2.0), "random.sensor.tone_level={distribution='uniform',low=0.1,high=10}"});
+    const mc::StudyScene loud = scene_with({tones(6.0)});
+    const std::vector<const features::Feature*> used{features::find_feature("sensor_rms"),
+                                                     features::find_feature("window_ratio")};
+    const mc::RecordLengths lengths(2, {quiet.scene->span_meshes()});
+    const mc::RecordValues ones(2, {std::vector<double>(used.size(), 1.0)});
+    const mc::SetSummary summary(used, ones);
+    const std::vector<mc::GivenInput> given{{"sensor.tone_level", 3.0}};
+    const auto by_level = simulate_set(*quiet.scene, given, 7, lengths, summary);
+    const auto by_amplitude = simulate_set(*loud.scene, {}, 7, lengths, summary);
+    REQUIRE(!by_level.empty());
+    REQUIRE(by_level.size() == by_amplitude.size());
+    for (std::size_t gearbox = 0; gearbox < by_level.size(); ++gearbox) {
+        for (std::size_t f = 0; f < used.size(); ++f) {
+            CHECK(by_level[gearbox][0][f] == Approx(by_amplitude[gearbox][0][f]).epsilon(1e-12));
+        }
+    }
+    const std::vector<mc::CalibratedInput> usual = default_inputs(quiet.scene->study(), 2.0);
+    const auto level =
+        std::ranges::find(usual, std::string("sensor.tone_level"), &mc::CalibratedInput::key);
+    REQUIRE(level != usual.end());
+    CHECK(level->independent_of_motion());
+}
+
+}  // namespace test_tone_level

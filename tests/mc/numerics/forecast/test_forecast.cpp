@@ -1,0 +1,288 @@
+// Checks the cost forecast of `describe`: arithmetic on given measurements, and a bounded measuring
+// time.
+#include <bit>
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <set>
+
+#include "mc/ensemble/gearbox/solution_choice.hpp"
+#include "mc/numerics/forecast/forecast.hpp"
+#include "mc/study/gears.hpp"
+#include "tests/mc/program.hpp"
+#include "tests/mc/study_file.hpp"
+#include "tests/shipped_studies.hpp"
+
+namespace test_forecast {
+
+using namespace gearpod;
+using namespace gearpod::mc;
+
+namespace {
+
+constexpr std::size_t kLanes = 8;
+
+// Integration of a tile takes a second unless it is reused; the features of every gearbox take
+// another sixteenth.
+RunCost given_costs(int threads) {
+    RunCost calibration;
+    calibration.threads = threads;
+    for (GroupCost& group : calibration.cost) {
+        group.integrated.whole.integration = 1.0;
+        group.integrated.row.features = group.reused.row.features = 1.0 / 16.0;
+    }
+    return calibration;
+}
+
+IntegrationCounts all_integrated(const BatchPlan& plan) {
+    IntegrationCounts counts;
+    counts.integrated = {(plan.threshold_rows() + kLanes - 1) / kLanes,
+                         (plan.graded_rows() + kLanes - 1) / kLanes};
+    return counts;
+}
+
+double forecast_s(const RunCost& calibration, const BatchPlan& plan) {
+    return gearboxes_s(calibration, plan, kLanes, all_integrated(plan));
+}
+
+std::vector<std::uint64_t> bits_of(const BatchRows& rows) {
+    std::vector<std::uint64_t> all;
+    for (const double value : rows.values) {
+        all.push_back(std::bit_cast<std::uint64_t>(value));
+    }
+    return all;
+}
+
+BatchRows first_tile(const Scene& scene) {
+    const BatchTask task(scene);
+    Seconds seconds;
+    return BatchWorker(task).compute({Group::graded, 0, 0, kLanes}, seconds);
+}
+
+const std::vector<std::string> kFast{"operation.carrier_speed_rpm=60", "sensor.sampling_Hz=20000",
+                                     "sensor.encoder_sampling_Hz=20000"};
+
+// Limit with enough time for one tile per thread.
+constexpr double kNoBudget_s = 1e-9;
+
+}  // namespace
+
+TEST_CASE(
+    "A run takes the rounds of batches that its threads need; the last round may be partial") {
+    // Cost of a batch of sixteen gearboxes: two integrations, and a second for the features.
+    const double batch_s = 3.0;
+    const RunCost two = given_costs(2);
+    CHECK(forecast_s(two, {16, 16}) == Approx(batch_s));
+    CHECK(forecast_s(two, {16, 32}) == Approx(2 * batch_s));
+    CHECK(forecast_s(two, {16, 48}) == Approx(2 * batch_s));
+    CHECK(forecast_s(two, {1600, 1600}) == Approx(100 * batch_s));
+    CHECK(forecast_s(given_costs(1), {16, 48}) == Approx(4 * batch_s));
+    CHECK(forecast_s(given_costs(3), {16, 48}) == Approx(2 * batch_s));
+    // A tile costs one integration, however few gearboxes it has.
+    CHECK(forecast_s(given_costs(1), {16, 1}) == Approx(batch_s + 1.0 + 1.0 / 16.0));
+    CHECK(forecast_s(given_costs(1), {16, 9}) == Approx(batch_s + 2.0 + 9.0 / 16.0));
+}
+
+TEST_CASE("Each group has its own cost, and a thread starts once") {
+    RunCost calibration = given_costs(1);
+    calibration.cost[static_cast<std::size_t>(Group::graded)].integrated.whole.integration = 5.0;
+    calibration.start_s = 0.25;
+    CHECK(forecast_s(calibration, {16, 16}) == Approx(0.25 + 3.0 + 11.0));
+    calibration.threads = 2;
+    CHECK(forecast_s(calibration, {16, 16}) == Approx(0.25 + 11.0));
+    calibration.cost[0].integrated.rest = 0.5;
+    // Ten batches for two threads, and one gearbox for one of them.
+    CHECK(forecast_s(calibration, {160, 1}) == Approx(0.25 + 5 * 4.0 + 5.0 + 1.0 / 16.0));
+}
+
+TEST_CASE("Cached responses are not integrated again") {
+    RunCost calibration = given_costs(1);
+    for (GroupCost& group : calibration.cost) {
+        group.reused.whole.integration = 0.01;
+    }
+    IntegrationCounts counts;
+    counts.integrated = {1, 3};
+    CHECK(gearboxes_s(calibration, {160, 160}, kLanes, counts) ==
+          Approx(4 * 1.0 + 36 * 0.01 + 320 / 16.0));
+}
+
+TEST_CASE("Integrations are counted as the cache keeps them") {
+    Study study = test::shipped_study("planet-crack-ideal.toml", kFast);
+    std::erase_if(study.random, [](const RandomInput& input) {
+        return !input.key.starts_with("sensor.") && !input.key.starts_with("fault.");
+    });
+    const Scene scene(study);
+    // Full tiles at each of seven sizes, and a partial one in each group.
+    const BatchPlan plan(20, 180);
+    const BatchTask task(scene);
+    BatchWorker worker(task);
+    Seconds seconds;
+    for (std::size_t b = 0; b < plan.batches(); ++b) {
+        worker.compute(plan.batch(b), seconds);
+    }
+    const IntegrationCounts counts = count_integrations(scene, plan, 1.0);
+    CHECK(counts.kept == task.cache.kept());
+    CHECK(counts.integrated[0] + counts.integrated[1] == counts.kept);
+    // With capacity for half of them, the others are integrated each time.
+    const IntegrationCounts half =
+        count_integrations(scene, plan, 256e6 / (0.5 * static_cast<double>(counts.kept) + 0.1));
+    CHECK(half.kept == counts.kept / 2);
+    CHECK(half.integrated[1] > counts.integrated[1] + 5);
+    CHECK(half.integrated[1] < 23);
+
+    const Scene scattered(test::shipped_study("planet-crack-ideal.toml", kFast));
+    CHECK(count_integrations(scattered, plan, 1.0).integrated == std::array<std::size_t, 2>{3, 23});
+    CHECK(count_integrations(scattered, plan, 1.0).kept == 0);
+}
+
+TEST_CASE("Peak memory is that of the gearboxes, or of the analysis after them") {
+    MemoryUse memory{20e6, 50e6, 30e6, -8e6};
+    IntegrationCounts counts;
+    CHECK(memory_bytes(memory, counts, 4e6, 0.0) == 80e6);
+    counts.kept = 10;
+    CHECK(memory_bytes(memory, counts, 4e6, 0.0) == 80e6 + 32e6);
+    // The analysis reuses half of what the gearboxes have freed.
+    memory.held = 40e6;
+    CHECK(memory_bytes(memory, counts, 4e6, 500e6) > 530e6);
+    CHECK(memory_bytes(memory, counts, 4e6, 500e6) < 540e6);
+    memory.fragments = 7e6;
+    CHECK(memory_bytes(memory, counts, 4e6, 0.0) == 80e6 + 32e6 + 7e6);
+    CHECK(memory_bytes(memory, counts, 4e6, 500e6) > 537e6);
+    CHECK(memory_bytes(memory, counts, 4e6, 500e6) < 547e6);
+}
+
+TEST_CASE("Every shipped study is measured with at most one tile per thread if time is short") {
+    int studies = 0, trials = 0;
+    for (const std::string& name : test::shipped_studies()) {
+        Study study = test::shipped_study(name);
+        if (!has_gears(study)) {
+            continue;
+        }
+        INFO(name);
+        if (!study.sensor.stages.empty()) {
+            // Signals of several stages take minutes; test_neighbour_stages.cpp and
+            // test_coupled_train.cpp have short ones.
+            study = test::shipped_study(name, {"sensor.stages=[]"});
+        }
+        const Scene scene(study);
+        const BatchPlan plan(study.ensemble.threshold_instances, study.ensemble.instances);
+        const RunCost calibration = measure_run_cost(scene, plan, 1, kNoBudget_s);
+        // The analysis of thousands of gearboxes takes seconds for any study: one study suffices.
+        const bool tried = plan.rows() < kTrialRows / 3 || name == "reference-10k.toml";
+        const AnalysisTrial trial =
+            tried ? measure_analysis(scene, calibration, plan, 1, kNoBudget_s) : AnalysisTrial{};
+        const RunForecast forecast = forecast_run(scene, plan, calibration, trial, 0.0);
+        ++studies;
+        trials += tried ? 1 : 0;
+        CHECK(calibration.to_record == scene.signal_meshes());
+        if (!calibration.integration_only) {
+            CHECK(!calibration.gearboxes.empty());
+            CHECK(calibration.gearboxes.size() <= static_cast<std::size_t>(study.numerics.lanes));
+            if (tried) {
+                CHECK(trial.levels == 1);
+                CHECK(trial.rows == std::min(plan.rows(), kTrialRows));
+            }
+        }
+        const bool shortened =
+            study.numerics.horizon != Horizon::periodic && !study.effects.quasi_static();
+        CHECK(calibration.recorded ==
+              (shortened ? std::min(kFewestMeshes, calibration.to_record) : calibration.to_record));
+        CHECK(std::isfinite(forecast.total_s()));
+        CHECK(forecast.gearboxes_s > 0.0);
+        CHECK(forecast.memory_bytes > 1e6);
+    }
+    CHECK(studies > 30);
+    CHECK(trials > 20);
+}
+
+TEST_CASE(
+    "An integration that is truncated for the measurement counts in full, without side effects") {
+    std::vector<std::string> overrides = kFast;
+    overrides.push_back("numerics.horizon=full");
+    const Scene scene(test::shipped_study("planet-crack-ideal.toml", overrides));
+    const auto before = bits_of(first_tile(scene));
+    const BatchPlan plan(16, 32);
+    const RunCost cut = measure_run_cost(scene, plan, 1, kNoBudget_s);
+    CHECK(cut.recorded == kFewestMeshes);
+    CHECK(cut.to_record == 2511);
+    // Run-in to the periodic orbit, and eight mesh periods.
+    CHECK(cut.meshes >= kFewestMeshes + 2);
+    CHECK(cut.meshes < kFewestMeshes + scene.max_meshes());
+    const Seconds& whole = cut.cost[0].integrated.whole;
+    CHECK(whole.integration > 20.0 * whole.signals);
+    // Sensor signals recorded during integration need no stored records, in a run or here.
+    CHECK(cut.memory.records == 0.0);
+    CHECK(motion_bytes(scene) < 0.01 * record_bytes(scene));
+    CHECK(bits_of(first_tile(scene)) == before);
+}
+
+TEST_CASE("Synthetic results have the run's gearboxes and values similar to computed ones") {
+    const Study study = test::shipped_study("planet-crack-ideal.toml", kFast);
+    const Scene scene(study);
+    const BatchPlan plan(study.ensemble.threshold_instances, study.ensemble.instances);
+    const RunCost calibration = measure_run_cost(scene, plan, 2, 0.5);
+    const std::size_t rows = 1100, shown = 1;
+    const Results made = synthetic_results(scene, calibration, plan, rows, {1, 2});
+    REQUIRE(made.group.size() == rows);
+    CHECK(std::count(made.group.begin(), made.group.end(), 0) == 400);
+    CHECK(made.noise_levels == std::vector<double>{0.5, 1.0});
+
+    const RowShape shape = row_shape(study);
+    const std::size_t feature = test::feature_index(made, "window_ratio");
+    std::set<double> distinct;
+    std::vector<double> means;
+    for (const double size_m : {0.0, 4.28e-3}) {
+        double sum = 0.0, n = 0.0, computed = 0.0, m = 0.0;
+        for (std::size_t row = 0; row < rows; ++row) {
+            const double value = made.features[feature].values[2 * row + shown];
+            distinct.insert(value);
+            if (made.group[row] == 1 &&
+                std::abs(made.parameters.back().values[row] - size_m) < 1e-9) {
+                sum += value;
+                ++n;
+            }
+        }
+        for (std::size_t i = 0; i < calibration.gearboxes.size(); ++i) {
+            const double* values = calibration.rows.values.data() + i * shape.values();
+            if (calibration.gearboxes[i].group == Group::graded &&
+                std::abs(values[shape.fault_size()] - size_m) < 1e-9) {
+                computed += values[shape.value_of(feature, 2)];
+                ++m;
+            }
+        }
+        REQUIRE(m > 0.0);
+        CHECK(n == 100);
+        CHECK(sum / n == Approx(computed / m).epsilon(0.25));
+        means.push_back(sum / n);
+    }
+    CHECK(means[1] > 1.2 * means[0]);  // the largest crack has an effect
+    CHECK(distinct.size() == rows);
+}
+
+TEST_CASE("A study's description ends with a forecast and writes nothing") {
+    const test::Folder folder;
+    for (const char* name : {"published/tian-fig-4-6.toml", "published/park-fig-11.toml",
+                             "published/liang-fig-5-8.toml"}) {
+        const test::Outcome described = test::shell(
+            "cd " + folder.path() + " && " GEARPOD_PROGRAM " describe " + test::study(name));
+        CHECK(described.code == 0);
+        for (const char* entry : {"based on", "set-up", "gearboxes", "detection and results",
+                                  "estimated time", "estimated memory"}) {
+            CHECK(described.mentions(std::string("\n  ") + entry));
+        }
+    }
+    CHECK(folder.empty());
+    const std::string sure = test::study("planet-crack-ideal.toml") +
+                             " --set operation.carrier_speed_rpm=60 --set sensor.sampling_Hz=20000"
+                             " --set sensor.encoder_sampling_Hz=20000"
+                             " --set 'ensemble.until={half_width=0.1,feature=\"te_fc\",size=3}'";
+    CHECK(test::program("describe " + sure).mentions("less if ensemble.until stops the run"));
+    const std::string stiff =
+        test::study("published/tian-fig-4-6.toml") + " --set numerics.integrator=rk4";
+    const test::Outcome described = test::program("describe " + stiff);
+    const test::Outcome run = test::program("run " + stiff + " --out " + folder.file("r.h5"));
+    CHECK(described.code == 2);
+    CHECK(run.code == 2);
+    CHECK(described.output.find(run.output) != std::string::npos);
+}
+
+}  // namespace test_forecast

@@ -1,0 +1,261 @@
+// Checks fluctuating torque and speed, and gravity, from the study file to the signals.
+#include <bit>
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <numbers>
+
+#include "mc/ensemble/gearbox/gearbox_tile.hpp"
+#include "mc/ensemble/gearbox/simulation.hpp"
+#include "mc/study/fluctuations.hpp"
+#include "tests/mc/scene_examples.hpp"
+#include "tests/mc/study_example.hpp"
+
+namespace test_fluctuations {
+
+using namespace gearpod;
+using namespace gearpod::mc;
+using namespace gearpod::tests;
+using std::numbers::pi;
+
+namespace {
+
+Study study_of(const std::string& text, const std::vector<std::string>& overrides) {
+    const StudyReading reading = read_study_text(text, "example", overrides);
+    INFO((reading.problems.empty() ? "" : format(reading.problems.front())));
+    REQUIRE(reading.study);
+    return *reading.study;
+}
+
+GearboxTile run(const Scene& scene, std::vector<GearboxId> ids, int lanes) {
+    return run_gearboxes(scene, sensor_paths(scene), ids, lanes,
+                         {.records = lockstep::RecordOptions{}});
+}
+
+std::vector<std::uint64_t> bits(const machine::AlignedVector& values, int lanes, int lane) {
+    std::vector<std::uint64_t> all;
+    for (std::size_t i = static_cast<std::size_t>(lane); i < values.size();
+         i += static_cast<std::size_t>(lanes)) {
+        all.push_back(std::bit_cast<std::uint64_t>(values[i]));
+    }
+    return all;
+}
+
+std::vector<std::string> with(std::vector<std::string> list, const std::vector<std::string>& more) {
+    list.insert(list.end(), more.begin(), more.end());
+    return list;
+}
+
+struct BadStudy {
+    const std::string& study;
+    std::vector<std::string> overrides;
+    const char* key;
+    const char* words;
+};
+
+const BadStudy kBad[] = {
+    {kExampleStudy,
+     {"operation.torque_fluctuation=0.1"},
+     "operation.torque_fluctuation",
+     "add torque_fluctuation_order or torque_fluctuation_Hz"},
+    {kExampleStudy,
+     {"operation.torque_fluctuation=0.1", "operation.torque_fluctuation_order=1",
+      "operation.torque_fluctuation_Hz=3"},
+     "operation.torque_fluctuation_Hz",
+     "conflicts with operation.torque_fluctuation_order"},
+    {kExampleStudy,
+     {"operation.torque_fluctuation_Hz=3"},
+     "operation.torque_fluctuation_Hz",
+     "only with operation.torque_fluctuation"},
+    {kExampleStudy, {"operation.torque_noise=0.1"}, "operation.torque_noise_band_Hz", "missing"},
+    {kExampleStudy,
+     {"operation.torque_fluctuation=-0.1", "operation.torque_fluctuation_order=1"},
+     "operation.torque_fluctuation",
+     "must be"},
+    {kExampleStudy,
+     {"operation.speed_fluctuation=0.1"},
+     "operation.speed_fluctuation_order",
+     "missing"},
+    {kExampleStudy,
+     {"operation.speed_fluctuation=0.5", "operation.speed_fluctuation_order=1"},
+     "operation.speed_fluctuation",
+     "must be"},
+    {kExampleStudy, {"operation.speed_noise=0.01"}, "operation.speed_noise_band_Hz", "missing"},
+    {kExampleStudy,
+     {"operation.torque_noise=0.1", "operation.torque_noise_band_Hz=3",
+      "numerics.horizon=periodic"},
+     "numerics.horizon",
+     "is \"periodic\", but the torque fluctuates"},
+    {kExampleStudy,
+     {"gearbox.pitch_error_um=1", "operation.torque_noise=0.1", "operation.torque_noise_band_Hz=3",
+      "numerics.horizon=superposed"},
+     "numerics.horizon",
+     "is \"superposed\", but torque, speed or weight varies"},
+    {kExampleStudy,
+     {"numerics.horizon=superposed"},
+     "numerics.horizon",
+     "is \"superposed\", but the teeth have no individual errors"},
+    {kExampleStudy,
+     {"effects.gravity=true", "numerics.horizon=periodic"},
+     "numerics.horizon",
+     "gravity rotates relative to the carrier"},
+    {kExampleStudy,
+     {"effects.gravity=true", "effects.motion=torsional"},
+     "effects.gravity",
+     "would have no effect"},
+    {kExampleStudy,
+     {"effects.gravity_direction_deg=0"},
+     "effects.gravity_direction_deg",
+     "only with effects.gravity = true"},
+    {kQuasiStaticStudy,
+     {"operation.speed_noise=0.01"},
+     "operation.speed_noise",
+     "a quasi-static gearbox is not integrated in time"},
+};
+
+struct BadScene {
+    std::vector<std::string> overrides;
+    const char* key;
+    const char* words;
+};
+
+const BadScene kBadScenes[] = {
+    {{"effects.gravity=true", "numerics.integrator=newmark"},
+     "numerics.integrator",
+     "gravity is supported by rk4, sdirk3 and central-difference, not by newmark"},
+    {{"effects.gravity=true", "numerics.precision=single"},
+     "numerics.precision",
+     "gravity needs double precision"},
+    {{"operation.speed_fluctuation=0.1", "operation.speed_fluctuation_order=1",
+      "numerics.integrator=sdirk3"},
+     "numerics.integrator",
+     "a fluctuating speed is supported by rk4"},
+    {{"operation.torque_fluctuation=0.1", "operation.torque_fluctuation_Hz=100000"},
+     "numerics.steps_per_mesh",
+     "too few for the fastest fluctuation"},
+};
+
+}  // namespace
+
+TEST_CASE("Invalid fluctuations and a weight without effect are refused with key and remedy") {
+    for (const BadStudy& bad : kBad) {
+        const StudyReading reading = read_study_text(bad.study, "example", bad.overrides);
+        CAPTURE(bad.key, bad.words);
+        REQUIRE(reading.problems.size() >= 1);
+        bool found = false;
+        for (const Problem& problem : reading.problems) {
+            found = found ||
+                    (problem.key == bad.key &&
+                     (problem.what + "; " + problem.remedy).find(bad.words) != std::string::npos);
+        }
+        CHECK(found);
+    }
+    CHECK_THROWS_WITH(Scene(study_of(kQuasiStaticStudy, {"operation.torque_noise=0.1",
+                                                         "operation.torque_noise_band_Hz=1e7"})),
+                      Catch::Contains("too few for the fastest fluctuation"));
+    for (const BadScene& bad : kBadScenes) {
+        const Study study = study_of(kExampleStudy, with(kFast, bad.overrides));
+        CAPTURE(bad.key, bad.words);
+        try {
+            const Scene scene(study);
+            FAIL_CHECK("not refused");
+        } catch (const SceneError& error) {
+            CHECK(error.key() == bad.key);
+            CHECK_THAT(error.what(), Catch::Contains(bad.words));
+        }
+    }
+}
+
+TEST_CASE("Every mesh is integrated where none repeats, and only there") {
+    const auto horizon = [](const std::vector<std::string>& overrides) {
+        return study_of(kExampleStudy, overrides).numerics.horizon;
+    };
+    CHECK(horizon({"effects.gravity=true"}) == Horizon::full);
+    CHECK(horizon({"operation.torque_noise=0.1", "operation.torque_noise_band_Hz=3"}) ==
+          Horizon::full);
+    // An amplitude of 0 is no fluctuation.
+    CHECK(horizon({"operation.torque_fluctuation=0", "operation.torque_fluctuation_Hz=3"}) ==
+          Horizon::periodic);
+    // The weight is as constant as the torque where the carrier is fixed.
+    std::string standing = kExampleStudy;
+    const std::string speed = "carrier_speed_rpm = 8.87";
+    standing.replace(standing.find(speed), speed.size(), "fixed = \"carrier\"\nsun_speed_rpm = 50");
+    CHECK(study_of(standing, {"effects.gravity=true"}).numerics.horizon == Horizon::periodic);
+}
+
+TEST_CASE("Without inertia the transmission error follows the torque from mesh to mesh") {
+    const Study steady = study_of(kQuasiStaticStudy, {"numerics.horizon=full"});
+    const Study with_fluctuation =
+        study_of(kQuasiStaticStudy,
+                 {"operation.torque_fluctuation=0.3", "operation.torque_fluctuation_order=2",
+                  "operation.torque_fluctuation_phase_deg=40"});
+    const Scene of_steady(steady), of_fluctuating_torque(with_fluctuation);
+    const GearboxTile a = run(of_steady, {{Group::graded, 0}}, 1);
+    const GearboxTile b = run(of_fluctuating_torque, {{Group::graded, 0}}, 1);
+    REQUIRE(b.integration.content.size() ==
+            static_cast<std::size_t>(of_fluctuating_torque.signal_meshes()));
+    const int samples = of_fluctuating_torque.samples_per_mesh();
+    double worst = 0.0;
+    for (std::size_t mesh : {0U, 1U, 30U, 500U}) {
+        const auto& te_a =
+            a.integration.records[static_cast<std::size_t>(a.integration.content[mesh])].te;
+        const auto& te_b =
+            b.integration.records[static_cast<std::size_t>(b.integration.content[mesh])].te;
+        for (int s = 0; s < samples; ++s) {
+            // Two periods per turn of the carrier, which takes 68 meshes.
+            const double turns =
+                2.0 * (static_cast<double>(mesh) + static_cast<double>(s) / samples) / 68.0;
+            const double factor = 1.0 + 0.3 * std::sin(2.0 * pi * turns + 40.0 * pi / 180.0);
+            const auto at = static_cast<std::size_t>(s);
+            worst = std::max(worst, std::abs(te_b[at] / te_a[at] - factor));
+        }
+    }
+    CHECK(worst < 1e-9);
+}
+
+TEST_CASE("Simulated samples lie at the times of their phases") {
+    // One sun turn takes 15.39 meshes. The speed varies once per mesh period, which then takes T
+    // times the mean of 1 / (1 + A sin), 1 / sqrt(1 - A^2).
+    const Study study = study_of(
+        kExampleStudy,
+        with(kFast, {"operation.speed_fluctuation=0.2", "operation.speed_fluctuation_order=15.39",
+                     "features.use=[\"te_rms\"]", "fault.kind=none"}));
+    const Scene scene(study);
+    const Simulation out = simulate(scene, {Group::graded, 0}, 12);
+    const auto samples = static_cast<std::size_t>(scene.samples_per_mesh());
+    REQUIRE(out.columns[0].name == "time");
+    const double period = 1.0 / scene.nominal_mesh_frequency_Hz();
+    for (const std::size_t mesh : {1U, 5U, 11U}) {
+        CHECK(out.columns[0].values[mesh * samples] ==
+              Approx(static_cast<double>(mesh) * period / std::sqrt(1.0 - 0.04)).epsilon(1e-9));
+    }
+    // The speed is highest a quarter of the mesh period after its beginning.
+    const auto& time = out.columns[0].values;
+    CHECK(time[samples / 4 + 1] - time[samples / 4] ==
+          Approx(period / static_cast<double>(samples) / 1.2).epsilon(0.02));
+}
+
+TEST_CASE("Fluctuations and weight give the same bits in 1, 4 and 8 lanes, with any neighbours") {
+    const Study study =
+        study_of(kExampleStudy,
+                 with(kFast, {"operation.torque_noise=0.1", "operation.torque_noise_band_Hz=20",
+                              "operation.speed_noise=0.01", "operation.speed_noise_band_Hz=10",
+                              "operation.torque_fluctuation=0.2",
+                              "operation.torque_fluctuation_Hz=30", "effects.gravity=true",
+                              "features.use=[\"te_rms\"]", "effects.separation=one-sided"}));
+    const Scene scene(study);
+    std::vector<GearboxId> ids;
+    for (std::uint64_t i = 0; i < 8; ++i) {
+        ids.push_back({Group::graded, i});
+    }
+    const GearboxTile eight = run(scene, ids, 8);
+    const GearboxTile four = run(scene, {ids[5], ids[2], ids[7]}, 4);
+    const GearboxTile one = run(scene, {ids[2]}, 1);
+    CHECK(eight.status[2] == Status::ok);
+    CHECK(bits(eight.folded[0], 8, 2) == bits(one.folded[0], 1, 0));
+    CHECK(bits(eight.te_turn, 8, 2) == bits(one.te_turn, 1, 0));
+    CHECK(bits(four.te_turn, 4, 1) == bits(one.te_turn, 1, 0));
+    CHECK(bits(eight.te_turn, 8, 5) == bits(four.te_turn, 4, 0));
+    CHECK(bits(eight.te_turn, 8, 5) != bits(eight.te_turn, 8, 2));
+}
+
+}  // namespace test_fluctuations

@@ -1,0 +1,110 @@
+// Checks the nominal mesh loads of studies, and the warnings of torques that cannot be meant.
+#include <fmt/format.h>
+
+#include <cstdio>
+
+#include "mc/plan/mesh_loads.hpp"
+#include "tests/mc/program.hpp"
+#include "tests/mc/study_file.hpp"
+
+namespace test_mesh_loads {
+
+using namespace gearpod;
+using test::shipped_study;
+
+namespace {
+
+std::vector<std::string> studies_with_gears() {
+    std::vector<std::string> names = test::shipped_studies();
+    std::erase_if(names,
+                  [](const std::string& name) { return !mc::has_gears(shipped_study(name)); });
+    return names;
+}
+
+// Warnings of a study whose torque, and given load torque, are multiplied by a factor.
+mc::Problems warnings_with(mc::Study study, double factor) {
+    std::erase_if(study.random,
+                  [](const mc::RandomInput& input) { return input.key.starts_with("operation."); });
+    study.operation.torque_N_m *= factor;
+    if (study.operation.load_torque_N_m) {
+        *study.operation.load_torque_N_m *= factor;
+    }
+    return mc::load_warnings(study, "study.toml");
+}
+
+}  // namespace
+
+// Sources: forces by hand, torque over base radius and planets. 1405 N m on a sun with 27 teeth of
+// module 3.175 mm: 42.8625 mm cos(20 deg) = 40.2776 mm, four planets.
+TEST_CASE("the mesh force of a study is its torque over base radius and planets") {
+    const auto loads = mc::mesh_loads(shipped_study("helicopter-life.toml"));
+    REQUIRE(loads.size() == 2);
+    CHECK(loads[0].force_N == Approx(1405.0 / 0.0402776 / 4.0).epsilon(1e-5));
+    CHECK(loads[1].force_N == loads[0].force_N);
+    REQUIRE(loads[0].stress);
+    REQUIRE(loads[1].stress);
+    // The flanks of planet and ring curve in the same sense.
+    CHECK(loads[1].stress->contact_Pa < loads[0].stress->contact_Pa);
+    CHECK(loads[0].deflection_m > 1e-6);
+    CHECK(loads[0].deflection_m < 1e-4);
+}
+
+TEST_CASE("no shipped study has a torque that cannot be meant") {
+    for (const std::string& name : studies_with_gears()) {
+        INFO(name);
+        const mc::Problems warnings = mc::load_warnings(shipped_study(name), name);
+        INFO(mc::format(warnings));
+        CHECK(warnings.empty());
+    }
+}
+
+TEST_CASE("a torque 1,000 times too large or too small is noticed in every shipped study") {
+    for (const std::string& name : studies_with_gears()) {
+        INFO(name);
+        const mc::Study study = shipped_study(name);
+        const mc::Problems much = warnings_with(study, 1e3), little = warnings_with(study, 1e-3);
+        REQUIRE(much.size() == 1);
+        CHECK(much[0].key == "operation.torque_N_m");
+        CHECK(much[0].what.find("more than any gear steel withstands") != std::string::npos);
+        CHECK(much[0].remedy.find("not N mm") != std::string::npos);
+        REQUIRE(little.size() == 1);
+        CHECK(little[0].what.find("nearly unloaded") != std::string::npos);
+        CHECK(little[0].remedy.find("not kN m") != std::string::npos);
+        const mc::Problems none = warnings_with(study, 0.0);
+        REQUIRE(none.size() == 1);
+        CHECK(none[0].what.find("()") == std::string::npos);
+    }
+}
+
+TEST_CASE("describe prints tooth stresses, and describe and run warn of the torque") {
+    const test::Folder folder;
+    const std::string few = " " + test::study("planet-crack-ideal.toml") +
+                            " --set ensemble.instances=2 --set ensemble.threshold_instances=1";
+    const auto usual = test::program("describe" + few);
+    INFO(usual.output);
+    REQUIRE(usual.code == 0);
+    CHECK(usual.mentions("sun-planet load"));
+    CHECK(usual.mentions("nominal ones of ISO 6336, method B, at the nominal torque, shared"));
+    CHECK(!usual.mentions("check the torque"));
+    const std::string large = " --set operation.torque_N_m=450000",
+                      small = " --set operation.torque_N_m=0.45";
+    CHECK(test::program("describe" + few + large).mentions("check the unit (N m, not N mm)"));
+    CHECK(test::program("describe" + few + small).mentions("check the unit (N m, not kN m)"));
+    const auto run = test::program("run" + few + small + " --quiet --out " + folder.file("r.h5"));
+    INFO(run.output);
+    CHECK(run.mentions("operation.torque_N_m: 0.45 N m on the sun leaves the teeth"));
+}
+
+// Prints the table of the shipped studies' loads.
+TEST_CASE("loads of the shipped studies", "[.loads]") {
+    for (const std::string& name : studies_with_gears()) {
+        for (const mc::MeshLoad& load : mc::mesh_loads(shipped_study(name))) {
+            std::puts(fmt::format("| {} | {} | {} | errors {:.3g} um |", name,
+                                  mc::mesh_name(load.members), mc::load_text(load),
+                                  1e6 * load.error_m)
+                          .c_str());
+        }
+    }
+}
+
+}  // namespace test_mesh_loads

@@ -1,0 +1,144 @@
+// Checks tip and root relief in a study: the springs of the integration, and refused values.
+#include <algorithm>
+#include <catch2/catch.hpp>
+#include <fstream>
+
+#include "lockstep/plan/tooth_pairs.hpp"
+#include "mc/ensemble/gearbox/simulation.hpp"
+#include "mc/plan/scene.hpp"
+#include "mc/study/gears.hpp"
+#include "tests/mc/study_example.hpp"
+#include "tests/mc/study_file.hpp"
+
+namespace test_relief {
+
+using namespace gearpod;
+using mc::Scene;
+
+namespace {
+
+const std::vector<std::string> kRelief{
+    "gearbox.sun_tip_relief_um=4",     "gearbox.sun_tip_relief_length_mm=3",
+    "gearbox.planet_tip_relief_um=5",  "gearbox.planet_tip_relief_length_mm=4",
+    "gearbox.planet_root_relief_um=2", "gearbox.planet_root_relief_length_mm=2",
+    "gearbox.relief_shape='parabolic'"};
+
+mc::StudyReading reading_of(const std::vector<std::string>& more) {
+    std::vector<std::string> all = kRelief;
+    all.insert(all.end(), more.begin(), more.end());
+    return mc::read_study_text(tests::kExampleStudy, "study.toml", all);
+}
+
+mc::Study study_of(const std::vector<std::string>& more) {
+    const auto reading = reading_of(more);
+    INFO(mc::format(reading.problems));
+    REQUIRE(reading.study);
+    return *reading.study;
+}
+
+}  // namespace
+
+// Quasi-static equilibrium at the loaded approach: the springs of the integration together carry
+// the nominal force of their pair.
+TEST_CASE("The springs of relieved teeth carry the force at the loaded approach") {
+    for (const std::vector<std::string>& input_overrides :
+         {std::vector<std::string>{}, {"operation.fixed='sun'", "operation.input='ring'"}}) {
+        std::vector<std::string> extended = input_overrides;
+        extended.push_back("effects.contact_onset='extended'");
+        for (const auto& more : {input_overrides, extended}) {
+            const Scene scene(study_of(more));
+            const lockstep::IntegrationPlan& plan = scene.plan();
+            CHECK(plan.mesh_law == dynamics::MeshLaw::unilateral);
+            CHECK(scene.pairs().reversed == !input_overrides.empty());
+            double largest = 0;
+            for (std::size_t step = 0; step < plan.grid.steps.size(); step += 7) {
+                const lockstep::Step& at = plan.grid.steps[step];
+                const double phase = at.phase + plan.grid.stage_nodes[0] * at.length;
+                for (int pair = 0; pair < plan.nodes.pairs; ++pair) {
+                    const double d = mc::loaded_approach(scene, pair, phase);
+                    double force = 0;
+                    for (int contact = 0; contact < plan.nodes.contacts(); ++contact) {
+                        const double gap = lockstep::tooth_gap(
+                            plan, {}, pair, static_cast<int>(step), 0, contact, 0);
+                        const std::size_t i =
+                            lockstep::tooth_pair_at(plan, static_cast<int>(step), 0, contact, pair);
+                        force += plan.nodes.tooth_stiffness[i] * std::max(0.0, d - gap);
+                        largest = std::max(largest, gap);
+                    }
+                    const int mesh = pair / scene.drivetrain().pairs_per_mesh();
+                    const double nominal =
+                        scene.meshes()[static_cast<std::size_t>(mesh)].loaded->force_N();
+                    CHECK(force == Approx(nominal).epsilon(1e-6));
+                }
+            }
+            CHECK(largest > 1e-6);
+        }
+    }
+}
+
+TEST_CASE("Relief without an amount, a length within the contact or a shape is refused") {
+    const auto names = [](const mc::StudyReading& reading, const std::string& key,
+                          const std::string& words) {
+        return std::any_of(reading.problems.begin(), reading.problems.end(), [&](const auto& p) {
+            return p.key == key && p.what.find(words) != std::string::npos;
+        });
+    };
+    CHECK(names(reading_of({"gearbox.sun_tip_relief_length_mm=40"}),
+                "gearbox.sun_tip_relief_length_mm", "more than the length of contact, 15."));
+    CHECK(names(reading_of({"gearbox.ring_root_relief_um=3"}), "gearbox.ring_root_relief_length_mm",
+                "gearbox.ring_root_relief_um is given"));
+    CHECK(names(reading_of({"gearbox.ring_root_relief_length_mm=3"}),
+                "gearbox.ring_root_relief_length_mm", "only with gearbox.ring_root_relief_um"));
+    CHECK(names(
+        mc::read_study_text(tests::kExampleStudy, "study.toml", {"gearbox.relief_shape='linear'"}),
+        "gearbox.relief_shape", "only with tip or root relief"));
+    CHECK(reading_of({"gearbox.sun_tip_relief_um=0"}).study.has_value());
+}
+
+// Statement of the study's heading: nearly level at the design load, not below it; short relief
+// keeps light loads even.
+TEST_CASE("Long relief levels the transmission error of the FZG gears at its design load") {
+    const auto varies = [](const std::string& amount, const std::string& length,
+                           const std::string& torque) {
+        const Scene scene(test::shipped_study(
+            "tip-relief.toml",
+            {"gearbox.pinion_tip_relief_um=" + amount, "gearbox.gear_tip_relief_um=" + amount,
+             "gearbox.pinion_tip_relief_length_mm=" + length,
+             "gearbox.gear_tip_relief_length_mm=" + length, "operation.torque_N_m=" + torque,
+             "operation.load_torque_N_m=" + std::to_string(1.5 * std::stod(torque))}));
+        return scene.meshes()[0].loaded->range().peak_to_peak();
+    };
+    CHECK(varies("45", "5.814", "302") < 0.15 * varies("0", "5.814", "302"));
+    CHECK(varies("45", "5.814", "75") > 2 * varies("0", "5.814", "75"));
+    CHECK(varies("45", "2.907", "75") < 0.5 * varies("45", "5.814", "75"));
+}
+
+TEST_CASE("Long relief lowers the transmission error of teeth of grade 6 as well") {
+    // The study without its sensor: quasi-static motion has no accelerations.
+    std::ifstream file(test::study_path("tip-relief.toml"));
+    std::string text, line;
+    while (std::getline(file, line)) {
+        const bool sensor = line.starts_with("position") || line.starts_with("sampling_Hz") ||
+                            line.starts_with("low_pass_Hz");
+        text += sensor ? "" : line + "\n";
+    }
+    // Mean peak to peak of a mesh period, rad.
+    const auto varies = [&](const std::string& amount) {
+        const Scene scene(test::study_of_text(
+            text, {"gearbox.pinion_tip_relief_um=" + amount, "gearbox.gear_tip_relief_um=" + amount,
+                   "gearbox.tooth_quality=6", "effects.motion='quasi-static'"}));
+        constexpr int kMeshes = 96;
+        const auto all = mc::simulate(scene, mc::id_of_row(scene.study(), 0), kMeshes);
+        const auto te = std::ranges::find(all.columns, "te", &mc::SignalColumn::name)->values;
+        const auto samples = static_cast<std::ptrdiff_t>(te.size() / kMeshes);
+        double sum = 0.0;
+        for (auto mesh = te.begin(); mesh != te.end(); mesh += samples) {
+            const auto [low, high] = std::minmax_element(mesh, mesh + samples);
+            sum += (*high - *low) / kMeshes;
+        }
+        return sum;
+    };
+    CHECK(varies("45") < 0.4 * varies("0"));
+}
+
+}  // namespace test_relief

@@ -1,0 +1,88 @@
+// Checks `describe --ranks`: arithmetic on given measurements, and forecast file sizes against
+// files.
+#include <catch2/catch.hpp>
+#include <filesystem>
+
+#include "mc/plan/sampling.hpp"
+#include "mc/report/description/describe_forecast.hpp"
+#include "mc/results/checkpoint.hpp"
+#include "tests/mc/program.hpp"
+#include "tests/mc/study_file.hpp"
+
+namespace test_rank_forecast {
+
+using namespace gearpod;
+using namespace gearpod::mc;
+
+namespace {
+
+// Equal cost of all gearboxes: a batch of sixteen takes `batch_s`.
+RunCost given_cost(int threads, double batch_s) {
+    RunCost calibration;
+    calibration.threads = threads;
+    for (GroupCost& group : calibration.cost) {
+        group.integrated.row.features = group.reused.row.features = batch_s / 16.0;
+    }
+    return calibration;
+}
+
+const Scene& scene() {
+    static const Scene shared(test::shipped_study("planet-crack-ideal.toml"));
+    return shared;
+}
+
+RankForecast forecast_of(const BatchPlan& plan, double batch_s, int threads, int ranks) {
+    RunForecast alone;
+    alone.setup_s = 2.0;
+    alone.detection_s = 3.0;
+    return forecast_ranks(scene(), plan, given_cost(threads, batch_s), {}, alone, ranks);
+}
+
+}  // namespace
+
+TEST_CASE("Ranks share the batches, and at most as many threads compute as there are batches") {
+    const BatchPlan plan(160, 160 * 9);  // a hundred batches
+    CHECK(forecast_of(plan, 1.0, 2, 1).gearboxes_s == Approx(50.0));
+    CHECK(forecast_of(plan, 1.0, 2, 5).gearboxes_s == Approx(10.0));
+    CHECK(forecast_of(plan, 1.0, 2, 5).total_s == Approx(15.0));
+    CHECK(forecast_of(plan, 1.0, 2, 5).busy_threads == 10.0);
+    const RankForecast many = forecast_of(plan, 1.0, 2, 1000);
+    CHECK(many.gearboxes_s == Approx(1.0));
+    CHECK(many.busy_threads == 100.0);
+}
+
+TEST_CASE("Rank 0 limits the speed where batches arrive faster than it processes them") {
+    const BatchPlan plan(16, 16 * 99'999);
+    const double batches = 100'000.0;
+    const double each_s =
+        leader_time_s(checkpoint_bytes(plan, row_shape(scene().study())) / batches);
+    const double batch_s = 0.1;
+    const RankForecast some = forecast_of(plan, batch_s, 4, 50);
+    CHECK(some.leader_share == Approx(4 * 50 * each_s / batch_s).epsilon(0.01));
+    CHECK(some.bounding_ranks == Approx(batch_s / each_s / 4).epsilon(0.01));
+    const RankForecast more =
+        forecast_of(plan, batch_s, 4, static_cast<int>(2 * some.bounding_ranks));
+    CHECK(more.leader_share == 1.0);
+    CHECK(more.gearboxes_s == Approx(batches * each_s));
+    CHECK(more.batches_per_s == Approx(1.0 / each_s));
+}
+
+TEST_CASE("A checkpoint and results have the forecast sizes") {
+    const test::Folder folder;
+    const BatchPlan plan(40, 1000, {}, 3);
+    const RowShape shape{9, 7, 5};
+    const std::string path = folder.file("sizes.h5.part");
+    {
+        const auto checkpoint = Checkpoint::create(path, {"v", "1", "study", shape, ""}, plan);
+        for (std::size_t b = 0; b < plan.batches(); ++b) {
+            const std::size_t rows = plan.batch(b).rows();
+            checkpoint->write(
+                b, {std::vector<int>(rows, 0), std::vector<double>(rows * shape.values(), 1.5)});
+        }
+    }
+    // The header, rounded up to a block, is added.
+    const auto written = static_cast<double>(std::filesystem::file_size(path));
+    CHECK(written - checkpoint_bytes(plan, shape) == Approx(4096.0));
+}
+
+}  // namespace test_rank_forecast

@@ -1,0 +1,45 @@
+// Checks the study that `describe` prints: short lines with the same meaning.
+#include <catch2/catch.hpp>
+#include <sstream>
+
+#include "mc/report/description/terminal_text.hpp"
+#include "mc/study/study.hpp"
+#include "tests/mc/study_example.hpp"
+
+namespace test_wrapped_study {
+
+using namespace gearpod::mc;
+using namespace gearpod::tests;
+
+TEST_CASE("A wrapped study has short lines and the same meaning") {
+    const StudyReading reading = read_study_text(
+        kExampleStudy, "study.toml",
+        {"random.operation.torque_N_m = {distribution='truncated-normal', mean=400, sd=20, "
+         "low=369.123456789, high=489.123456789}",
+         "features.use=['te_rms', 'te_kurtosis', 'te_fc', 'te_fm0', 'sensor_rms', 'window_ratio', "
+         "'window_z']"});
+    INFO(format(reading.problems));
+    REQUIRE(reading.study);
+    const std::string text = resolved_text(*reading.study), wrapped = wrapped_study(text);
+    INFO(wrapped);
+    CHECK(wrapped.find("operation.torque_N_m.sd = 20\n") != std::string::npos);
+    std::istringstream lines(wrapped);
+    for (std::string line; std::getline(lines, line);) {
+        CHECK((line.size() <= 80 || line.starts_with("title = ")));
+    }
+    const StudyReading again = read_study_text(wrapped, "study.toml", {});
+    INFO(format(again.problems));
+    REQUIRE(again.study);
+    CHECK(*again.study == *reading.study);
+}
+
+TEST_CASE("Short lines and long strings of a study stay as they are") {
+    const std::string text = "title = \"" + std::string(90, '{') + "\"\n\n[a]\nb = [1, 2]\n";
+    CHECK(wrapped_study(text) == text);
+    CHECK(wrapped_study("k = [\"" + std::string(40, ',') + "\", \"\\\\\", \"" +
+                        std::string(40, ']') + "\"]\n") == "k = [\n    \"" + std::string(40, ',') +
+                                                               "\", \"\\\\\",\n    \"" +
+                                                               std::string(40, ']') + "\",\n]\n");
+}
+
+}  // namespace test_wrapped_study

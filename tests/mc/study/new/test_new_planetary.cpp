@@ -1,0 +1,227 @@
+// Checks gearpod new planetary: a study from a datasheet.
+#include <algorithm>
+
+#include "mc/study/gears.hpp"
+#include "mc/study/new/planetary.hpp"
+#include "mc/study/study.hpp"
+#include "tests/mc/program.hpp"
+
+namespace test_new_planetary {
+
+using namespace gearpod;
+using test::Folder;
+using test::program;
+
+namespace {
+
+mc::PlanetaryDatasheet wind_turbine() {
+    mc::PlanetaryDatasheet data;
+    data.sun = 21;
+    data.planet = 39;
+    data.ring = 99;
+    data.module_mm = 12;
+    data.input = "carrier";
+    data.torque_N_m = 800e3;
+    data.speed_rpm = 18;
+    return data;
+}
+
+std::string all_of(const mc::Problems& problems) {
+    return format(problems);
+}
+
+}  // namespace
+
+TEST_CASE("A study from a datasheet has its gears, their load and bodies of steel") {
+    const mc::NewStudy made = new_planetary(wind_turbine(), "new planetary");
+    INFO(format(made.problems));
+    REQUIRE(made.problems.empty());
+    const auto reading = mc::read_study_text(made.text, "s.toml");
+    REQUIRE(reading.study);
+    const mc::Study& study = *reading.study;
+    CHECK(mc::teeth_of(study, mc::Member::ring) == 99);
+    CHECK(study.operation.torque_N_m == 800e3);
+    CHECK(*study.operation.carrier_speed_rad_s == Approx(18.0 * M_PI / 30.0));
+    // A planet of 39 teeth of 12 mm: steel between 468 mm and its bore, 151 mm wide (4 pi 12).
+    const mc::MemberValues& planet = study.gearbox.bodies[mc::Member::planet];
+    CHECK(*study.gearbox.face_width_m == Approx(0.151));
+    const double outer = 0.234, inner = 0.5 * *planet.held_diameter_m;
+    CHECK(*planet.mass_kg ==
+          Approx(7850.0 * M_PI * (outer * outer - inner * inner) * 0.151).epsilon(1e-3));
+    CHECK(inner == Approx(0.219 - 1.2 * 0.027).epsilon(1e-3));
+    // Every rule of thumb has its source or is marked as chosen.
+    for (const char* word : {"Shigley", "AGMA 2001", "Kraemer", "Kasuba", "ISO 286", "chosen"}) {
+        INFO(word);
+        CHECK(made.text.find(word) != std::string::npos);
+    }
+}
+
+TEST_CASE("Power replaces torque or speed") {
+    mc::PlanetaryDatasheet data = wind_turbine();
+    data.torque_N_m.reset();
+    data.power_kW = 1508;
+    const auto made = new_planetary(data, "new planetary");
+    REQUIRE(made.problems.empty());
+    const auto study = mc::read_study_text(made.text, "s.toml").study;
+    REQUIRE(study);
+    CHECK(study->operation.torque_N_m == Approx(1508e3 / (18.0 * M_PI / 30.0)).epsilon(1e-3));
+
+    data.torque_N_m = 1.0;
+    CHECK(all_of(new_planetary(data, "c").problems).find("3 of the three are given") !=
+          std::string::npos);
+    data.torque_N_m.reset();
+    data.power_kW = -2;
+    CHECK(all_of(new_planetary(data, "c").problems).find("--power") != std::string::npos);
+}
+
+// Mesh frequencies: 567 Hz for the stage of a Bell 206B, 656 Hz for SpectraQuest's rig of 28/36/100
+// teeth.
+TEST_CASE("Gears with mesh frequencies above 512 Hz have studies") {
+    for (const double speed_rpm : {343.8, 3000.0, 60000.0}) {
+        mc::PlanetaryDatasheet data;
+        data.sun = 27;
+        data.planet = 35;
+        data.ring = 99;
+        data.planets = 4;
+        data.module_mm = 3.175;
+        data.sun_shift = 0.3;
+        data.centre_distance_mm = 100.0125;
+        data.input = "carrier";
+        data.power_kW = 250;
+        data.speed_rpm = speed_rpm;
+        const mc::NewStudy made = new_planetary(data, "new planetary");
+        INFO(speed_rpm << ": " << format(made.problems));
+        REQUIRE(made.problems.empty());
+        const auto study = mc::read_study_text(made.text, "s.toml").study;
+        REQUIRE(study);
+        CHECK(study->sensor.low_pass_Hz == 10000.0);
+        CHECK(study->sensor.encoder_sampling_Hz == study->sensor.sampling_Hz);
+        CHECK(study->sensor.sampling_Hz >= std::max(25600.0, 12 * 99 * speed_rpm / 60));
+    }
+}
+
+// Tips of unshifted ring teeth reach below the planet's base circle.
+TEST_CASE("Tip circles recommended by a message are available as options") {
+    mc::PlanetaryDatasheet data;
+    data.sun = 40;
+    data.planet = 16;
+    data.module_mm = 2;
+    data.power_kW = 1;
+    data.speed_rpm = 500;
+    const std::string refused = all_of(new_planetary(data, "new planetary").problems);
+    INFO(refused);
+    CHECK(refused.find("tip circles given") != std::string::npos);
+    CHECK(refused.find("--ring-tip") != std::string::npos);
+    data.ring_tip_mm = 141;
+    const mc::NewStudy made = new_planetary(data, "new planetary");
+    INFO(format(made.problems));
+    REQUIRE(made.problems.empty());
+    const auto study = mc::read_study_text(made.text, "s.toml").study;
+    REQUIRE(study);
+    CHECK(1e3 * *study->gearbox.bodies[mc::Member::ring].tip_diameter_m == Approx(141));
+    // Options of shifts and addenda are passed in the same way.
+    data.addendum = 0.9;
+    data.sun_shift = 0.1;
+    data.ring_shift = -0.1;
+    const std::string text = new_planetary(data, "new planetary").text;
+    for (const char* key : {"addendum_coefficient = 0.9", "sun_shift = 0.1", "ring_shift = -0.1"}) {
+        CHECK(text.find(key) != std::string::npos);
+    }
+}
+
+// Contradicting shifts are one problem, reported with the matching value.
+TEST_CASE("Shifts that leave backlash are refused with the matching value") {
+    mc::PlanetaryDatasheet data = wind_turbine();
+    data.sun_shift = data.planet_shift = 0.1;
+    data.ring_shift = -0.4;
+    const std::string refused = all_of(new_planetary(data, "new planetary").problems);
+    INFO(refused);
+    CHECK(refused.find("new planetary: --ring-shift: leaves") == 0);
+    CHECK(std::count(refused.begin(), refused.end(), '\n') == 1);
+}
+
+TEST_CASE("Impossible geometry is refused with the relevant numbers, all at once") {
+    const auto refused = [](const auto& change) {
+        mc::PlanetaryDatasheet data = wind_turbine();
+        change(data);
+        const auto made = new_planetary(data, "new planetary");
+        CHECK(made.text.empty());
+        return all_of(made.problems);
+    };
+    const auto ring = refused([](auto& data) { data.ring = 98; });
+    CHECK(ring.find("--ring") != std::string::npos);
+    CHECK(ring.find("99") != std::string::npos);  // the number that is possible
+    const auto crowded = refused([](auto& data) { data.planets = 7; });
+    INFO(crowded);
+    CHECK(crowded.find("new planetary: --") != std::string::npos);
+    CHECK(crowded.find("(at most 4 planets)") != std::string::npos);
+    CHECK(std::count(crowded.begin(), crowded.end(), '\n') == 1);
+    const auto undercut = refused([](auto& data) {
+        data.sun = 9;
+        data.ring = 87;
+    });
+    CHECK(undercut.find("--sun") != std::string::npos);
+    const auto two = refused([](auto& data) {
+        data.ring = 98;
+        data.speed_rpm.reset();
+    });
+    CHECK(std::count(two.begin(), two.end(), '\n') == 2);
+    const auto module = refused([](auto& data) { data.module_mm = -3; });
+    CHECK(module == "new planetary: --module: must be > 0, but is -3\n");
+    const auto huge = refused([](auto& data) { data.planet = 2000000000; });
+    CHECK(huge.find("--planet: must be between") != std::string::npos);
+    const auto heavy = refused([](auto& data) { data.torque_N_m = 1e300; });
+    CHECK(heavy.find("--torque") != std::string::npos);
+    const auto nothing = refused([](auto& data) {
+        data.torque_N_m.reset();
+        data.power_kW = 1e-320;
+    });
+    CHECK(nothing.find("--torque") != std::string::npos);
+}
+
+TEST_CASE("The study written by new is described and run unchanged") {
+    const Folder folder;
+    const std::string file = folder.file("p.toml");
+    const std::string command =
+        "new planetary --sun 19 --planet 23 --ring 65 --module 3.2 --torque 429 --speed 400 "
+        "--out " +
+        file;
+    const auto written = program(command);
+    INFO(written.output);
+    REQUIRE(written.code == 0);
+    CHECK(written.mentions("gearpod run " + file));
+    CHECK(test::bytes_of(file).find("/studies/study.schema.json\n# A planetary gearbox") !=
+          std::string::npos);
+    CHECK(test::bytes_of(file).find("--module 3.2 --torque 429") != std::string::npos);
+    const auto again = program(command);
+    CHECK(again.code == 2);
+    CHECK(again.mentions("--force"));
+    CHECK(program(command + " --force").code == 0);
+
+    const auto described = program("describe " + file);
+    INFO(described.output);
+    CHECK(described.code == 0);
+    CHECK(described.mentions("% of the largest possible size"));
+    CHECK(!described.mentions("  damping  "));
+
+    const auto run = program("run " + file +
+                             " --quiet --instances 7 --set "
+                             "ensemble.threshold_instances=4 --out " +
+                             folder.file("p.h5"));
+    INFO(run.output);
+    CHECK(run.code == 0);
+}
+
+TEST_CASE("new refuses inputs that are no gear set and writes nothing") {
+    const Folder folder;
+    const auto refusal = program(
+        "new planetary --sun 21 --planet 39 --ring 98 --module 12 --torque 5 "
+        "--speed 3 --out " +
+        folder.file("p.toml"));
+    CHECK(refusal.code == 2);
+    CHECK(refusal.mentions("--ring"));
+    CHECK(folder.empty());
+    CHECK(program("new bevel --sun 21 --planet 39 --module 12").code == 2);
+}
+
+}  // namespace test_new_planetary

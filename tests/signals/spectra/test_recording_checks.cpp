@@ -1,0 +1,176 @@
+#include <algorithm>
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <iterator>
+#include <numbers>
+#include <random>
+#include <vector>
+
+#include "signals/spectra/recording_checks.hpp"
+
+namespace test_mesh_speed {
+
+using namespace gearpod;
+using namespace gearpod::signals;
+
+namespace {
+
+constexpr int kPerMesh = 24;
+
+// Lines of a planetary gearbox at multiples of the carrier frequency (`turn_meshes` meshes per
+// turn), in noise, at `ratio` times the speed assumed by its samples.
+std::vector<double> gearbox(int turn_meshes, int planets, double ratio, double noise, int meshes,
+                            unsigned seed) {
+    std::mt19937 engine(seed);
+    std::uniform_real_distribution<double> phase(0.0, 2.0 * std::numbers::pi), size(0.2, 1.0);
+    std::normal_distribution<double> normal;
+    std::vector<double> samples(static_cast<std::size_t>(meshes) * kPerMesh);
+    for (double& sample : samples) {
+        sample = noise * normal(engine);
+    }
+    for (int k = 1; k <= 6; ++k) {
+        for (int j = -5; j <= 5; ++j) {
+            // Evenly phased planets leave the lines whose order is a multiple of their number.
+            if ((k * turn_meshes + j) % planets != 0) {
+                continue;
+            }
+            const double order = (k * turn_meshes + j) * ratio / turn_meshes;
+            const double start = phase(engine), amplitude = size(engine) / (1.0 + std::abs(j));
+            for (std::size_t i = 0; i < samples.size(); ++i) {
+                samples[i] += amplitude * std::cos(2.0 * std::numbers::pi * order *
+                                                       static_cast<double>(i) / kPerMesh +
+                                                   start);
+            }
+        }
+    }
+    return samples;
+}
+
+TEST_CASE("A speed error of 2 % is found from the mesh lines, a right speed is confirmed") {
+    for (const int turn_meshes : {35, 81, 99}) {
+        for (const double ratio : {0.96, 0.98, 0.995, 1.0, 1.02, 1.05}) {
+            for (const unsigned seed : {1U, 2U}) {
+                const auto found =
+                    mesh_speed(gearbox(turn_meshes, 4, ratio, 0.5, 10 * turn_meshes, seed),
+                               kPerMesh, turn_meshes);
+                INFO(turn_meshes << " " << ratio << " " << seed);
+                REQUIRE(found);
+                CHECK(found->ratio == Approx(ratio).margin(0.0015));
+                CHECK((found->stated < 0.5 * found->fit) == (ratio != 1.0));
+            }
+        }
+    }
+}
+
+TEST_CASE("Where three harmonics leave the mesh line ambiguous, both ratios are reported") {
+    // Isolated lines at +1, -1 and 0 carrier orders from the mesh's harmonics.
+    std::vector<double> samples(static_cast<std::size_t>(400) * kPerMesh);
+    for (std::size_t i = 0; i < samples.size(); ++i) {
+        for (const int line : {35 + 1, 2 * 35 - 1, 3 * 35}) {
+            samples[i] += std::cos(2.0 * std::numbers::pi * 1.02 * line / 35.0 *
+                                   static_cast<double>(i) / kPerMesh);
+        }
+    }
+    const auto found = mesh_speed(samples, kPerMesh, 35);
+    REQUIRE(found);
+    CHECK(found->stated < 0.5 * found->fit);
+    const double ratios[] = {found->ratio, found->other};
+    CHECK(std::any_of(std::begin(ratios), std::end(ratios),
+                      [](double ratio) { return std::abs(ratio - 1.02) < 2e-3; }));
+}
+
+TEST_CASE("Noise, a single tone and short records give no speed") {
+    std::mt19937 engine(7);
+    std::normal_distribution<double> normal;
+    std::vector<double> noise(static_cast<std::size_t>(400) * kPerMesh), tone = noise;
+    for (std::size_t i = 0; i < noise.size(); ++i) {
+        noise[i] = normal(engine);
+        tone[i] = std::sin(0.271 * static_cast<double>(i)) + 0.01 * noise[i];
+    }
+    CHECK_FALSE(mesh_speed(noise, kPerMesh, 40));
+    CHECK_FALSE(mesh_speed(tone, kPerMesh, 40));
+    CHECK_FALSE(mesh_speed(gearbox(40, 3, 1.02, 0.1, 100, 1), kPerMesh, 40));
+}
+
+}  // namespace
+
+}  // namespace test_mesh_speed
+
+// Checks the detection of missing samples in signals whose losses are known.
+
+namespace test_lost_samples {
+
+using namespace gearpod;
+using namespace gearpod::signals;
+
+namespace {
+
+constexpr int kPerMesh = 12, kTurnMeshes = 20, kTurns = 10;
+constexpr double kTwoPi = 2.0 * std::numbers::pi;
+
+// Two mesh harmonics with amplitude modulation once per turn, a small speed error, and noise.
+std::vector<double> signal(double ratio, double noise) {
+    std::mt19937 engine(5);
+    std::normal_distribution<double> draw;
+    std::vector<double> samples;
+    for (int i = 0; i < kTurns * kTurnMeshes * kPerMesh; ++i) {
+        const double mesh = ratio * i / kPerMesh, turn = mesh / kTurnMeshes;
+        samples.push_back((1.2 + std::cos(kTwoPi * turn)) * std::cos(kTwoPi * mesh) +
+                          0.5 * std::cos(2.0 * kTwoPi * mesh + 1.0) + noise * draw(engine));
+    }
+    return samples;
+}
+
+TEST_CASE("Samples lost in a turn are located there, to a twentieth of a mesh period") {
+    for (const long lost : {1L, 2L, 4L, 7L, 15L}) {
+        auto samples = signal(1.0002, 0.2);
+        samples.erase(samples.begin() + 1300, samples.begin() + 1300 + lost);
+        const auto found = lost_samples(samples, kPerMesh, kTurnMeshes);
+        INFO(lost);
+        REQUIRE(found);
+        CHECK(found->found);
+        // Unique up to whole mesh periods.
+        CHECK(found->meshes ==
+              Approx(std::remainder(static_cast<double>(lost) / kPerMesh, 1.0)).margin(0.05));
+        CHECK(found->first_mesh <= 1300 / kPerMesh);
+        CHECK(found->last_mesh >= 1300 / kPerMesh);
+    }
+}
+
+TEST_CASE("Repeated samples count as surplus") {
+    auto samples = signal(1.0, 0.1);
+    samples.insert(samples.begin() + 900, {samples[900], samples[900], samples[900]});
+    const auto found = lost_samples(samples, kPerMesh, kTurnMeshes);
+    REQUIRE(found);
+    CHECK(found->found);
+    CHECK(found->meshes == Approx(-3.0 / kPerMesh).margin(0.05));
+}
+
+TEST_CASE("Complete recordings lack nothing, also with a small speed error and in noise") {
+    for (const double ratio : {1.0, 1.0005, 0.999}) {
+        for (const double noise : {0.0, 0.3, 1.0}) {
+            const auto found = lost_samples(signal(ratio, noise), kPerMesh, kTurnMeshes);
+            INFO(ratio << " " << noise);
+            CHECK((!found || !found->found));
+        }
+    }
+}
+
+TEST_CASE("Few turns, noise alone and silence give no result") {
+    const auto samples = signal(1.0, 0.1);
+    CHECK(
+        !lost_samples(std::span(samples).first(5 * kTurnMeshes * kPerMesh), kPerMesh, kTurnMeshes));
+    std::mt19937 engine(1);
+    std::normal_distribution<double> draw;
+    std::vector<double> noise(samples.size());
+    for (double& value : noise) {
+        value = draw(engine);
+    }
+    CHECK(!lost_samples(noise, kPerMesh, kTurnMeshes));
+    CHECK(!lost_samples(std::vector<double>(samples.size(), 0.0), kPerMesh, kTurnMeshes));
+    CHECK(!lost_samples({}, kPerMesh, kTurnMeshes));
+}
+
+}  // namespace
+
+}  // namespace test_lost_samples
