@@ -172,7 +172,7 @@ constexpr FaultKey kSpatialCrackOthers[] = {
     {"end_angle_deg", number<&Growth::end_angle_rad>, kDeg, Range{0.0, 90.0, true, false}, Need::optional, kFaultShape, "angle at the other end face; angle_deg by default"},
     {"height_wave", number<&Growth::height_wave>, kNone, kNotNegative, Need::optional, kFaultShape, "amplitude of the waves of the height, a in Yang (2022), Eq. 65; 0 for none"},
     {"height_waves", number<&Growth::height_waves>, kNone, kNotNegative, Need::optional, kFaultShape, "number of half waves along the face width, b in Yang (2022), Eq. 65"},
-    {"slices", integer<&Growth::slices>, kNone, from_to(1, 10000), Need::optional, kFaultShape, "number of slices along the face width"},
+    {"slices", integer<&Growth::slices>, kNone, closed_range(1, 10000), Need::optional, kFaultShape, "number of slices along the face width"},
 };
 // clang-format on
 

@@ -16,8 +16,8 @@ struct Lost : FaultShape {
 };
 
 // clang-format off
-constexpr FaultSize kBrokenSize{"broken", number<&Lost<stiffness::BrokenTooth>::fraction>, kNone, from_to(0, 1), "fraction of the tooth that has broken off; with 1 it transmits no load"};
-constexpr FaultSize kReductionSize{"reduction", number<&Lost<stiffness::Reduction>::fraction>, kNone, from_to(0, 1), "fraction of the mesh stiffness that is lost while the faulty tooth is in contact"};
+constexpr FaultSize kBrokenSize{"broken", number<&Lost<stiffness::BrokenTooth>::fraction>, kNone, closed_range(0, 1), "fraction of the tooth that has broken off; with 1 it transmits no load"};
+constexpr FaultSize kReductionSize{"reduction", number<&Lost<stiffness::Reduction>::fraction>, kNone, closed_range(0, 1), "fraction of the mesh stiffness that is lost while the faulty tooth is in contact"};
 // clang-format on
 
 // Every tooth can lose any fraction. The key of the fraction has the kind's name.

@@ -30,7 +30,7 @@ constexpr FaultKey kPittingOthers[] = {
     {"pit_length_mm", number<&Pits::length_m>, kMm, kPositive, Need::required, kFaultShape, "length of the pitted band along the involute profile"},
     {"pit_radius_mm", number<&Pits::radius_m>, kMm, kPositive, Need::required, kFaultShape, "distance of the band's centre from the gear's axis"},
     {"pit_depth_mm", number<&Pits::depth_m>, kMm, kNotNegative, Need::required, kFaultShape, "depth of the pits under the flank"},
-    {"teeth", integer<&Pits::teeth>, kNone, from_to(1, 100), Need::optional, kFaultShape, "number of neighbouring pitted teeth"},
+    {"teeth", integer<&Pits::teeth>, kNone, closed_range(1, 100), Need::optional, kFaultShape, "number of neighbouring pitted teeth"},
     {"pit_face_position_mm", number<&Pits::face_position_m>, kMm, kNotNegative, Need::optional, kFaultShape, "centre of the pits along the face width of helical teeth, from the end that engages first; by default half the face width"},
 };
 // clang-format on

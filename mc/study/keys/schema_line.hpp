@@ -43,7 +43,7 @@ inline constexpr Range kNotNegative{0.0, kInfinity, false, false};
 inline constexpr Range kGrade{0.0, 12.0, false, false};
 // Above the sampling rate of real converters; the limit also bounds the number of samples.
 inline constexpr Range kFrequency{0.0, 1e7, true, false};
-constexpr Range from_to(double low, double high) {
+constexpr Range closed_range(double low, double high) {
     return {low, high, false, false};
 }
 constexpr Range inside(double low, double high) {

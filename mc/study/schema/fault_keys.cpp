@@ -87,7 +87,7 @@ const Key kFaultKeys[] = {
     {"fault", "kind", listed<&Fault::kind, all_faults>(kind_names()), kNone, kAny, always, kShared, "kind of fault"},
     {"fault", "member", choice<&Fault::member>(kToothed), kNone, kAny, faulty_member, kShared, "gear with the faulty tooth"},
     {"fault", "side", choice<&Fault::side>(kSides), kNone, kAny, planet_side, kShared, "mesh in which a planet's fault acts"},
-    {"fault", "planet", integer<&Fault::planet>, kNone, from_to(1, 8), planet_number, kShared, "number of the faulty planet"},
+    {"fault", "planet", integer<&Fault::planet>, kNone, closed_range(1, 8), planet_number, kShared, "number of the faulty planet"},
 };
 // clang-format on
 

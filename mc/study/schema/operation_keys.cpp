@@ -43,8 +43,8 @@ std::span<const ChoiceName> path_names() {
 using U = Fluctuations;
 // Limited so that the speed stays well above zero: time integration in mesh phase divides by it.
 // Noise can reach six times its rms.
-constexpr Range kSpeedAmplitude = from_to(0, 0.3);
-constexpr Range kSpeedNoise = from_to(0, 0.05);
+constexpr Range kSpeedAmplitude = closed_range(0, 0.3);
+constexpr Range kSpeedNoise = closed_range(0, 0.05);
 
 // clang-format off
 const Key kOperationKeys[] = {
@@ -58,15 +58,15 @@ const Key kOperationKeys[] = {
     {"operation", "load_torque_N_m", number<&Operation::load_torque_N_m>, kNm, kNotNegative, fixed_shaft<may>, kRandom, "torque of the load; by default in balance with the motor's"},
     {"operation", "pinion_speed_rpm", number<&Operation::pinion_speed_rad_s>, kRpm, kPositive, fixed_shaft<always>, kRandom, "speed of the pinion"},
 
-    {"operation", "torque_fluctuation", number<&U::torque>, kNone, from_to(0, 10), may, kRandom, "relative amplitude of a sinusoidal fluctuation of all torques; contacts and static equilibrium are those of the mean torque"},
+    {"operation", "torque_fluctuation", number<&U::torque>, kNone, closed_range(0, 10), may, kRandom, "relative amplitude of a sinusoidal fluctuation of all torques; contacts and static equilibrium are those of the mean torque"},
     {"operation", "torque_fluctuation_order", number<&U::torque_order>, kNone, kPositive, torque_sine, kRandom, "periods of the torque fluctuation in a turn of the input member (the pinion); alternative to torque_fluctuation_Hz"},
     {"operation", "torque_fluctuation_Hz", number<&U::torque_Hz>, kHz, kFrequency, torque_sine, kRandom, "frequency of the torque fluctuation; alternative to torque_fluctuation_order"},
-    {"operation", "torque_fluctuation_phase_deg", number<&U::torque_phase_rad>, kDeg, from_to(-360, 360), torque_sine, kRandom, "phase of the torque fluctuation at the first recorded mesh period"},
-    {"operation", "torque_noise", number<&U::torque_noise>, kNone, from_to(0, 10), may, kRandom, "relative rms of a random fluctuation of all torques: Gaussian, different in every gearbox"},
+    {"operation", "torque_fluctuation_phase_deg", number<&U::torque_phase_rad>, kDeg, closed_range(-360, 360), torque_sine, kRandom, "phase of the torque fluctuation at the first recorded mesh period"},
+    {"operation", "torque_noise", number<&U::torque_noise>, kNone, closed_range(0, 10), may, kRandom, "relative rms of a random fluctuation of all torques: Gaussian, different in every gearbox"},
     {"operation", "torque_noise_band_Hz", number<&U::torque_noise_Hz>, kHz, kFrequency, torque_noise, kRandom, "frequency at which the spectrum of torque_noise has fallen to half (to a twentieth at twice this frequency): white noise shaped by cubic B-splines"},
     {"operation", "speed_fluctuation", number<&U::speed>, kNone, kSpeedAmplitude, integration, kRandom, "relative amplitude of a sinusoidal fluctuation of the speed; the input torque accelerates all masses"},
     {"operation", "speed_fluctuation_order", number<&U::speed_order>, kNone, kPositive, speed_sine, kRandom, "periods of the speed fluctuation in a turn of the input member (the pinion)"},
-    {"operation", "speed_fluctuation_phase_deg", number<&U::speed_phase_rad>, kDeg, from_to(-360, 360), speed_phase, kRandom, "phase of the speed fluctuation at the first recorded mesh period"},
+    {"operation", "speed_fluctuation_phase_deg", number<&U::speed_phase_rad>, kDeg, closed_range(-360, 360), speed_phase, kRandom, "phase of the speed fluctuation at the first recorded mesh period"},
     {"operation", "speed_noise", number<&U::speed_noise>, kNone, kSpeedNoise, integration, kRandom, "relative rms of a random fluctuation of the speed"},
     {"operation", "speed_noise_band_Hz", number<&U::speed_noise_Hz>, kHz, kFrequency, speed_noise, kRandom, "frequency at which the spectrum of speed_noise has fallen to half, at the mean speed"},
 
@@ -79,7 +79,7 @@ const Key kOperationKeys[] = {
     {"effects", "inertial_terms", boolean<&Effects::inertial_terms>, kNone, kAny, planetary<may>, kShared, "Coriolis and centrifugal terms of the turning carrier"},
     {"effects", "mesh_damping", choice<&Effects::mesh_damping>(kDampings), kNone, kAny, may, kShared, "law of mesh damping"},
     {"effects", "gravity", boolean<&Effects::gravity>, kNone, kAny, may, kShared, "weight of all bodies; it turns in the frame of a turning carrier"},
-    {"effects", "gravity_direction_deg", number<&Effects::gravity_direction_rad>, kDeg, from_to(-360, 360), gravity, kShared, "direction of gravity, from the x axis: -90 along -y, away from the sensor of a planetary gearbox; y is the line of action of a fixed-shaft one"},
+    {"effects", "gravity_direction_deg", number<&Effects::gravity_direction_rad>, kDeg, closed_range(-360, 360), gravity, kShared, "direction of gravity, from the x axis: -90 along -y, away from the sensor of a planetary gearbox; y is the line of action of a fixed-shaft one"},
     {"effects", "path", listed<&Effects::path, signals::path_windows>(path_names()), kNone, kAny, may, kShared, "window function of the transmission path"},
 };
 // clang-format on
