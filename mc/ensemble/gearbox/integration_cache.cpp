@@ -30,7 +30,7 @@ std::string key_of(std::span<const Realization> lanes) {
     return key;
 }
 
-std::size_t bytes_of(const lockstep::TileResult& result) {
+std::size_t size_in_bytes(const lockstep::TileResult& result) {
     std::size_t values = 0;
     for (const lockstep::MeshRecord& record : result.records) {
         values += record.acceleration.size() + record.te.size() + record.motion.size();
@@ -123,7 +123,7 @@ std::shared_ptr<const lockstep::TileResult> IntegrationCache::find(
 
 void IntegrationCache::keep(std::span<const Realization> lanes,
                             const lockstep::TileResult& result) const {
-    const std::size_t bytes = bytes_of(result);
+    const std::size_t bytes = size_in_bytes(result);
     if (!active_ || bytes > kMostBytes) {
         return;
     }
