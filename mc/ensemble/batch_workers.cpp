@@ -51,7 +51,7 @@ BatchWorker::BatchWorker(const BatchTask& task)
 }
 BatchRows BatchWorker::compute(const Batch& batch, Seconds& seconds) {
     const NoiseSampling noise_sampling = batch.group == Group::threshold
-                                             ? threshold_noise_sampling(task_.scene.study())
+                                             ? task_.scene.draw().rows.threshold_noise
                                              : task_.graded_noise;
     std::vector<GearboxId> ids;
     for (std::size_t i = 0; i < batch.gearboxes; ++i) {

@@ -62,7 +62,7 @@ Simulation simulate_row(const Scene& scene, long row, long meshes) {
     if (!problems.empty()) {
         throw BadInput(problems);
     }
-    return simulate(scene, id_of_row(study, row), simulated);
+    return simulate(scene, scene.draw().rows.id_of(row), simulated);
 }
 
 }  // namespace gearpod::mc

@@ -58,7 +58,7 @@ LifeHistory CrackLife::history(const Realization& gearbox, bool cracked) const {
     const Study& study = scene_.study();
     const Life& life = study.life;
     LifeHistory history;
-    Philox engine = gearbox_stream(study, id, StreamPurpose::life_records);
+    Philox engine = gearbox_stream(scene_.draw().seed, id, StreamPurpose::life_records);
     boost::random::normal_distribution<double> unit;
     for (int i = 0; i < life.records; ++i) {
         LifeRecord record;
@@ -69,7 +69,7 @@ LifeHistory CrackLife::history(const Realization& gearbox, bool cracked) const {
         history.records.push_back(record);
     }
     if (distributions_.speed.varies()) {
-        Philox speeds = gearbox_stream(study, id, StreamPurpose::life_speeds);
+        Philox speeds = gearbox_stream(scene_.draw().seed, id, StreamPurpose::life_speeds);
         boost::random::normal_distribution<double> of_speed;
         for (LifeRecord& record : history.records) {
             record.speed = distributions_.speed.factor(of_speed(speeds));

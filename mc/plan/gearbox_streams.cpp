@@ -10,18 +10,14 @@
 namespace gearpod::mc {
 namespace {
 
-Philox plain_stream(const Study& study, Group group, std::uint64_t index, StreamPurpose purpose) {
-    return {static_cast<std::uint64_t>(study.ensemble.seed), group, index, purpose};
-}
-
 std::span<const analysis::InputExchange> exchanges_of(const GearboxId& id) {
     return id.exchanged.value_or(std::span<const analysis::InputExchange>{});
 }
 
 // True if the exchange replaces all random numbers of this purpose by those of the other gearbox.
-bool is_replaced(const Study& study, Group group, const analysis::InputExchange& exchange,
+bool is_replaced(std::uint64_t seed, Group group, const analysis::InputExchange& exchange,
                  StreamPurpose purpose) {
-    Philox engine = plain_stream(study, group, exchange.index, with_suffix(purpose, ".exchange"));
+    Philox engine(seed, group, exchange.index, with_suffix(purpose, ".exchange"));
     return boost::random::uniform_01<double>()(engine) < exchange.share;
 }
 
@@ -32,10 +28,11 @@ StreamPurpose record_purpose(const GearboxId& id, StreamPurpose purpose) {
 }
 
 StreamPurpose noise_purpose(const GearboxId& id, StreamPurpose purpose) {
-    const bool own = id.sensor > 0 && (purpose == StreamPurpose::sensor_noise ||
-                                       purpose == StreamPurpose::sensor_noise_direction ||
-                                       purpose == StreamPurpose::background_noise);
-    if (own) {
+    const bool at_additional_sensor =
+        id.sensor > 0 && (purpose == StreamPurpose::sensor_noise ||
+                          purpose == StreamPurpose::sensor_noise_direction ||
+                          purpose == StreamPurpose::background_noise);
+    if (at_additional_sensor) {
         purpose = with_suffix(purpose, ".sensor." + std::to_string(id.sensor));
     }
     return record_purpose(id, id.repeat == 0
@@ -45,56 +42,69 @@ StreamPurpose noise_purpose(const GearboxId& id, StreamPurpose purpose) {
 
 }  // namespace
 
-long row_of_id(const Study& study, const GearboxId& id) {
-    const long records = study.ensemble.threshold_records;
+RowOrder::RowOrder(const Ensemble& ensemble)
+    : threshold_gearboxes(static_cast<long>(ensemble.threshold_instances)),
+      records(ensemble.threshold_records),
+      threshold_noise(ensemble.uses_importance_sampling() ? NoiseSampling::towards_alarms
+                                                          : NoiseSampling::plain) {}
+
+long RowOrder::row_of(const GearboxId& id) const {
     return id.group == Group::threshold
                ? static_cast<long>(id.index) * records + static_cast<long>(id.repeat)
-               : static_cast<long>(id.index) + study.ensemble.threshold_instances * records;
+               : static_cast<long>(id.index) + threshold_gearboxes * records;
 }
 
-std::uint64_t source_index(const Study& study, const GearboxId& id, StreamPurpose purpose) {
+GearboxId RowOrder::id_of(long row) const {
+    const long threshold_rows = threshold_gearboxes * records;
+    return row < threshold_rows
+               ? GearboxId{Group::threshold, static_cast<std::uint64_t>(row / records),
+                           Record::test, static_cast<std::uint64_t>(row % records), threshold_noise}
+               : GearboxId{Group::graded, static_cast<std::uint64_t>(row - threshold_rows)};
+}
+
+std::uint64_t source_index(std::uint64_t seed, const GearboxId& id, StreamPurpose purpose) {
     // The last exchange that replaces them determines the gearbox.
     const std::span<const analysis::InputExchange> exchanges = exchanges_of(id);
-    const auto last = std::find_if(exchanges.rbegin(), exchanges.rend(), [&](const auto& one) {
-        return is_replaced(study, id.group, one, purpose);
+    const auto last = std::find_if(exchanges.rbegin(), exchanges.rend(), [&](const auto& exchange) {
+        return is_replaced(seed, id.group, exchange, purpose);
     });
     return last == exchanges.rend() ? id.index : last->index;
 }
 
-Philox gearbox_stream(const Study& study, const GearboxId& id, StreamPurpose purpose) {
-    return plain_stream(study, id.group, source_index(study, id, purpose), purpose);
+Philox gearbox_stream(std::uint64_t seed, const GearboxId& id, StreamPurpose purpose) {
+    return {seed, id.group, source_index(seed, id, purpose), purpose};
 }
 
-Philox record_stream(const Study& study, const GearboxId& id, StreamPurpose purpose) {
-    return gearbox_stream(study, id, record_purpose(id, purpose));
+Philox record_stream(std::uint64_t seed, const GearboxId& id, StreamPurpose purpose) {
+    return gearbox_stream(seed, id, record_purpose(id, purpose));
 }
 
-Philox noise_stream(const Study& study, const GearboxId& id, StreamPurpose purpose) {
-    return gearbox_stream(study, id, noise_purpose(id, purpose));
+Philox noise_stream(std::uint64_t seed, const GearboxId& id, StreamPurpose purpose) {
+    return gearbox_stream(seed, id, noise_purpose(id, purpose));
 }
 
-Normals::Normals(const Study& study, const GearboxId& id, StreamPurpose purpose)
-    : engine_(plain_stream(study, id.group, id.index, purpose)) {
+Normals::Normals(std::uint64_t seed, const GearboxId& id, StreamPurpose purpose)
+    : engine_(seed, id.group, id.index, purpose) {
     for (const analysis::InputExchange& exchange : exchanges_of(id)) {
-        const double own = 1.0 - exchange.share;
-        exchanges_.push_back({own, std::sqrt(1.0 - own * own),
-                              plain_stream(study, id.group, exchange.index, purpose)});
+        const double factor = 1.0 - exchange.share;
+        exchanges_.push_back({factor, std::sqrt(1.0 - factor * factor),
+                              Philox(seed, id.group, exchange.index, purpose)});
     }
 }
 
-Normals Normals::of_record(const Study& study, const GearboxId& id, StreamPurpose purpose) {
-    return {study, id, record_purpose(id, purpose)};
+Normals Normals::of_record(std::uint64_t seed, const GearboxId& id, StreamPurpose purpose) {
+    return {seed, id, record_purpose(id, purpose)};
 }
 
-Normals Normals::of_noise(const Study& study, const GearboxId& id, StreamPurpose purpose) {
-    return {study, id, noise_purpose(id, purpose)};
+Normals Normals::of_noise(std::uint64_t seed, const GearboxId& id, StreamPurpose purpose) {
+    return {seed, id, noise_purpose(id, purpose)};
 }
 
-// Mixes variates so that the sum stays standard normal: own^2 + other^2 = 1.
+// Mixes variates so that the sum stays standard normal: the squares of both factors add up to 1.
 double Normals::operator()() {
     double number = unit_(engine_);
     for (Exchange& exchange : exchanges_) {
-        number = exchange.own * number + exchange.other * unit_(exchange.engine);
+        number = exchange.factor * number + exchange.other_factor * unit_(exchange.engine);
     }
     return number;
 }
@@ -105,7 +115,7 @@ void Normals::normals(std::span<double> values) {
     for (Exchange& exchange : exchanges_) {
         signals::draw_normals(exchange.engine, others_);
         for (std::size_t i = 0; i < values.size(); ++i) {
-            values[i] = exchange.own * values[i] + exchange.other * others_[i];
+            values[i] = exchange.factor * values[i] + exchange.other_factor * others_[i];
         }
     }
 }

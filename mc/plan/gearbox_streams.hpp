@@ -35,37 +35,47 @@ struct GearboxId {
     std::uint64_t sensor = 0;    // 0: the first one, else 1 + the number of an additional one
 };
 
-// Row of a record of `run` in the results.
-long row_of_id(const Study& study, const GearboxId& id);
+// Order of the rows in the results: all records of the threshold gearboxes, one gearbox after the
+// other, then the graded gearboxes.
+struct RowOrder {
+    long threshold_gearboxes = 0;
+    long records = 1;  // of each threshold gearbox
+    // Noise distribution of the threshold gearboxes' records.
+    NoiseSampling threshold_noise = NoiseSampling::plain;
+
+    explicit RowOrder(const Ensemble& ensemble);
+    long row_of(const GearboxId& id) const;
+    GearboxId id_of(long row) const;
+};
 
 // Index of the gearbox whose random numbers for a purpose are used, where all of them are exchanged
-// together: its own, or that of the last exchange in `exchanged` that replaced them.
-std::uint64_t source_index(const Study& study, const GearboxId& id, StreamPurpose purpose);
+// together: that of the last exchange in `exchanged` that replaced them, else `id.index`.
+std::uint64_t source_index(std::uint64_t seed, const GearboxId& id, StreamPurpose purpose);
 
 // Random numbers for a purpose that belong to the gearbox, the same in all its records.
-Philox gearbox_stream(const Study& study, const GearboxId& id, StreamPurpose purpose);
+Philox gearbox_stream(std::uint64_t seed, const GearboxId& id, StreamPurpose purpose);
 // Random numbers that belong to one record.
-Philox record_stream(const Study& study, const GearboxId& id, StreamPurpose purpose);
+Philox record_stream(std::uint64_t seed, const GearboxId& id, StreamPurpose purpose);
 // Random numbers of a record's noise: different in every repetition; the first repetition uses
 // record_stream().
-Philox noise_stream(const Study& study, const GearboxId& id, StreamPurpose purpose);
+Philox noise_stream(std::uint64_t seed, const GearboxId& id, StreamPurpose purpose);
 
 // Standard normal variates for a purpose, each exchanged separately. Use an object either for
 // single variates or for blocks, not for both.
 class Normals {
   public:
     // Variates of the gearbox, as gearbox_stream().
-    Normals(const Study& study, const GearboxId& id, StreamPurpose purpose);
+    Normals(std::uint64_t seed, const GearboxId& id, StreamPurpose purpose);
     // Variates of a record and of its noise, as record_stream() and noise_stream().
-    static Normals of_record(const Study& study, const GearboxId& id, StreamPurpose purpose);
-    static Normals of_noise(const Study& study, const GearboxId& id, StreamPurpose purpose);
+    static Normals of_record(std::uint64_t seed, const GearboxId& id, StreamPurpose purpose);
+    static Normals of_noise(std::uint64_t seed, const GearboxId& id, StreamPurpose purpose);
 
     double operator()();
     void normals(std::span<double> values);  // signals::draw_normals()
 
   private:
     struct Exchange {
-        double own, other;  // factors
+        double factor, other_factor;  // of the variate so far, and of the other gearbox's
         Philox engine;
     };
     Philox engine_;

@@ -157,13 +157,9 @@ Realization at_sensor(const Study& study, const Realization& realization, std::u
     return own;
 }
 
-NoiseSampling threshold_noise_sampling(const Study& study) {
-    return study.ensemble.uses_importance_sampling() ? NoiseSampling::towards_alarms
-                                                     : NoiseSampling::plain;
-}
-
 Sampler::Sampler(const Study& study)
     : study_(study),
+      draw_plan_(make_draw_plan(study)),
       copula_(study),
       plan_(study, level_combinations(study.random, true),
             level_combinations(study.random, false)) {
@@ -182,7 +178,7 @@ std::vector<double> Sampler::uniform_variates(const GearboxId& id) const {
         if (plan_.has(input)) {
             return standard_normal_quantile(plan_.variate(input, id.group, id.index));
         }
-        return Normals(study_, id, inputs_[input].normal)();
+        return Normals(draw_plan_.seed, id, inputs_[input].normal)();
     });
 }
 
@@ -192,10 +188,11 @@ double Sampler::draw_alone(const DrawnInput& drawn, const GearboxId& id) const {
     const GearboxId own = owner(id, distribution.per());
     if (id.exchanged && distribution.has_quantile()) {
         return distribution.quantile(
-            standard_normal_cdf(Normals::of_record(study_, own, drawn.whole)()));
+            standard_normal_cdf(Normals::of_record(draw_plan_.seed, own, drawn.whole)()));
     }
-    Philox engine = record_stream(study_, own, drawn.whole);
-    return distribution.draw(engine, source_index(study_, id, drawn.whole) / drawn.level_stride);
+    Philox engine = record_stream(draw_plan_.seed, own, drawn.whole);
+    return distribution.draw(engine,
+                             source_index(draw_plan_.seed, id, drawn.whole) / drawn.level_stride);
 }
 
 Realization Sampler::draw(const GearboxId& id, std::span<const GivenInput> given) const {
@@ -229,7 +226,7 @@ Realization Sampler::draw(const GearboxId& id, std::span<const GivenInput> given
     inputs = instance_inputs(values);
     if (has_random_planets(study_)) {
         const auto normals = [&](DrawnPer per) {
-            return Normals::of_record(study_, owner(id, per), StreamPurpose::planets);
+            return Normals::of_record(draw_plan_.seed, owner(id, per), StreamPurpose::planets);
         };
         add_random_planets(
             values, normals(DrawnPer::gearbox),
@@ -238,7 +235,7 @@ Realization Sampler::draw(const GearboxId& id, std::span<const GivenInput> given
     }
     if (id.record == Record::baseline) {
         inputs.fault_size = 0.0;
-        Normals unit = Normals::of_record(study_, id, StreamPurpose::baseline_torque);
+        Normals unit = Normals::of_record(draw_plan_.seed, id, StreamPurpose::baseline_torque);
         const double share = std::exp(study_.features.baseline_torque_scatter * unit());
         inputs.torque_N_m *= share;
         inputs.fixed_shaft.load_torque_N_m *= share;

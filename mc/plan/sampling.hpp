@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "mc/plan/draw_plan.hpp"
 #include "mc/plan/gearbox_streams.hpp"
 #include "mc/plan/instance_inputs.hpp"
 #include "mc/study/copula.hpp"
@@ -60,9 +61,6 @@ struct Realization {
 // The same gearbox at an additional sensor (GearboxId::sensor): it has noise of its own.
 Realization at_sensor(const Study& study, const Realization& realization, std::uint64_t sensor);
 
-// Noise distribution of the records that set the thresholds.
-NoiseSampling threshold_noise_sampling(const Study& study);
-
 // Random input with a given value, which replaces the random one.
 struct GivenInput {
     std::string key;   // "gearbox.tooth_quality"
@@ -87,6 +85,8 @@ class Sampler {
     // all other random numbers are unchanged.
     Realization draw(const GearboxId& id, std::span<const GivenInput> given = {}) const;
 
+    const DrawPlan& draw_plan() const { return draw_plan_; }
+
   private:
     // Random input of the study, with what its draws need.
     struct DrawnInput {
@@ -100,6 +100,7 @@ class Sampler {
     double draw_alone(const DrawnInput& drawn, const GearboxId& id) const;
 
     const Study study_;
+    const DrawPlan draw_plan_;
     const Copula copula_;
     std::vector<DrawnInput> inputs_;
     const SamplingPlan plan_;

@@ -43,6 +43,7 @@ class Scene {
     const Study& study() const { return study_; }
     // Draws the gearboxes of the study.
     const Sampler& sampler() const { return *sampler_; }
+    const DrawPlan& draw() const { return sampler_->draw_plan(); }
     const Drivetrain& drivetrain() const { return *drivetrain_; }
     const std::vector<SceneMesh>& meshes() const { return stiffness_->meshes(); }
     const lockstep::PairSet& pairs() const { return stiffness_->pairs(); }

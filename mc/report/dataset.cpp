@@ -33,9 +33,9 @@ std::size_t split_of(Philox engine) {
 
 RowIdentities::RowIdentities(const Results& frame, const std::optional<Study>& study) {
     if (study) {
-        study_ = *study;
-        seed_ = static_cast<std::uint64_t>(study_.ensemble.seed);
-        plan_.emplace(study_.ensemble, read_part(frame.provenance_value("part")).value_or(Part{}));
+        seed_ = static_cast<std::uint64_t>(study->ensemble.seed);
+        order_.emplace(study->ensemble);
+        plan_.emplace(study->ensemble, read_part(frame.provenance_value("part")).value_or(Part{}));
     }
     std::istringstream names(frame.provenance_value("recorded_gearboxes"));
     for (std::string name; std::getline(names, name);) {
@@ -53,7 +53,7 @@ RowIdentity RowIdentities::of_simulated(std::size_t row) const {
     const GearboxId id{batch.group, batch.first_index + within / batch.records, Record::test,
                        record};
     return {fmt::format("{}-{}", id.group == Group::threshold ? "threshold" : "graded", id.index),
-            static_cast<std::size_t>(row_of_id(study_, id)), record,
+            static_cast<std::size_t>(order_->row_of(id)), record,
             split_of({seed_, id.group, id.index, StreamPurpose::dataset_split})};
 }
 

@@ -37,7 +37,7 @@ class RowIdentities {
     RowIdentity of_recorded(std::size_t row) const;
 
     std::uint64_t seed_ = 0;
-    Study study_;
+    std::optional<RowOrder> order_;      // empty: recordings
     std::optional<BatchPlan> plan_;      // empty: recordings
     std::vector<std::string> recorded_;  // name of the gearbox of each row; may be empty
 };

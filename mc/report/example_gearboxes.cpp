@@ -303,7 +303,7 @@ class Examples {
         const std::size_t within = row - batch.first_row;
         return {batch.group, batch.first_index + within / batch.records, Record::test,
                 within % batch.records,
-                batch.group == Group::threshold ? threshold_noise_sampling(scene_.study())
+                batch.group == Group::threshold ? scene_.draw().rows.threshold_noise
                                                 : NoiseSampling::plain};
     }
 

@@ -168,7 +168,7 @@ CoupledSpan coupled_span(const Scene& scene, int run_in_meshes, const GearboxId&
         }
         const Scene& own = scene.stages()[i];
         Philox engine =
-            record_stream(scene.study(), shared,
+            record_stream(scene.draw().seed, shared,
                           with_suffix(StreamPurpose::stage_start, stage_of(scene, i).name));
         StageSpan& stage = span.stages.emplace_back();
         stage.stage = i;

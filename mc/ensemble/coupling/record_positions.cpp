@@ -106,7 +106,7 @@ RecordWindow record_window(const Scene& scene, const GearboxId& id, int turns) {
         shared.exchanged = {};
         shared.noise_sampling = NoiseSampling::plain;
     }
-    Philox engine = noise_stream(scene.study(), shared, StreamPurpose::record_start);
+    Philox engine = noise_stream(scene.draw().seed, shared, StreamPurpose::record_start);
     boost::random::uniform_int_distribution<int> first(
         0, scene.signal_meshes() - turns * scene.span().planet_teeth);
     return {turns, first(engine)};

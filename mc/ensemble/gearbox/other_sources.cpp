@@ -28,7 +28,7 @@ void add_bearings(const Scene& scene, const Realization& realization, SourceRole
         if (bearings[i].role == role) {
             machine::throw_if_cancelled();
             Philox engine =
-                record_stream(scene.study(), realization.id,
+                record_stream(scene.draw().seed, realization.id,
                               with_suffix(StreamPurpose::bearing_impulses, std::to_string(i)));
             signals::add_bearing_vibration(bearing_impulses(scene, realization.inputs, bearings[i]),
                                            scene.study().sensor.low_pass_Hz,
@@ -63,7 +63,7 @@ void add_stage_vibration(const Scene& scene, std::size_t stage, const Realizatio
                          const Realization& gearbox, const std::vector<double>& vibration,
                          double factor, std::vector<double>& samples) {
     Philox engine = record_stream(
-        scene.study(), realization.id,
+        scene.draw().seed, realization.id,
         with_suffix(StreamPurpose::stage_start, scene.study().sensor.stages[stage].name));
     const double start =
         boost::random::uniform_01<double>()(engine) * static_cast<double>(vibration.size());

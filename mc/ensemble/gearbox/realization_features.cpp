@@ -370,7 +370,7 @@ void RealizationFeatures::add_python_values(const Realization& realization,
     const GearboxId& id = realization.id;
     const std::string work = fmt::format("{} gearbox {}, row {} of the results",
                                          id.group == Group::threshold ? "healthy" : "test",
-                                         id.index, row_of_id(scene_.study(), id));
+                                         id.index, scene_.draw().rows.row_of(id));
     const std::vector<double> own = python_.compute(work);
     print_python_problems(python_.problems(), work);
     std::size_t next = 0;

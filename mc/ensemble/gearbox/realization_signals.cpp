@@ -55,14 +55,14 @@ std::vector<double> sample_noise(const Scene& scene, const Realization& realizat
                                  int turns) {
     if (generates_samples(scene, realization.inputs)) {
         const auto normals = [&](StreamPurpose purpose) {
-            return Normals::of_noise(scene.study(), realization.id, purpose);
+            return Normals::of_noise(scene.draw().seed, realization.id, purpose);
         };
         Normals filtered = normals(StreamPurpose::sensor_noise),
                 white = normals(StreamPurpose::sensor_noise_direction),
                 background = normals(StreamPurpose::background_noise);
         std::vector<double> unit(clean.size());
-        draw_unit_noise(scene, realization.inputs, NoiseEngines<Normals>{filtered, white, background},
-                        std::span(unit));
+        draw_unit_noise(scene, realization.inputs,
+                        NoiseEngines<Normals>{filtered, white, background}, std::span(unit));
         if (realization.inputs.own_sampling_Hz > 0.0) {
             signals::PeriodicResponse response(static_cast<int>(unit.size()));
             const double sampling_Hz = 1.0 / sample_s(scene, realization.inputs);
@@ -78,7 +78,7 @@ std::vector<double> sample_noise(const Scene& scene, const Realization& realizat
     // Each gearbox has one stream for sensor noise, one for encoder noise, and this one. It gives
     // the directions that expand folded sensor noise to individual samples.
     Normals engine =
-        Normals::of_noise(scene.study(), realization.id, StreamPurpose::sensor_noise_direction);
+        Normals::of_noise(scene.draw().seed, realization.id, StreamPurpose::sensor_noise_direction);
     const std::size_t bins = draw.along.size();
     const std::size_t span = bins * static_cast<std::size_t>(turns);
     std::vector<double> unit = signals::unit_noise(clean.first(span), bins, draw, engine);
@@ -141,7 +141,7 @@ void RealizationSignals::draw_sensor_noise(const LaneSignals& gearbox,
     const std::size_t bins = gearbox.folded.size();
     const bool by_samples = generates_samples(scene_, realization.inputs);
     if (!by_samples) {
-        Normals engine = Normals::of_noise(scene_.study(), id, StreamPurpose::sensor_noise);
+        Normals engine = Normals::of_noise(scene_.draw().seed, id, StreamPurpose::sensor_noise);
         sensor_noise_.draw(engine, bins, noise_.sensor);
         if (id.noise_sampling != NoiseSampling::plain) {
             sample_sensor_noise(gearbox, realization);
@@ -179,7 +179,7 @@ void RealizationSignals::sample_sensor_noise(const LaneSignals& gearbox,
                            : signals::NoiseImportanceSampler::TargetTail::quiet);
         sampled_gearbox_ = id;
     }
-    Philox engine = noise_stream(scene_.study(), id, StreamPurpose::sensor_noise_kind);
+    Philox engine = noise_stream(scene_.draw().seed, id, StreamPurpose::sensor_noise_kind);
     const double pick = boost::random::uniform_01<double>()(engine);
     sampler_->sample(id.repeat % signals::NoiseImportanceSampler::kKinds, pick, noise_.sensor);
     importance_sampled_ = true;
@@ -204,7 +204,7 @@ void RealizationSignals::draw_noise(const LaneSignals& gearbox, const Realizatio
     noise_.encoder.assign(gearbox.te_turn.size(), 0.0);
     if (highest_level_ * inputs.encoder_noise_rad > 0.0) {
         Normals encoder =
-            Normals::of_noise(scene_.study(), realization.id, StreamPurpose::encoder_noise);
+            Normals::of_noise(scene_.draw().seed, realization.id, StreamPurpose::encoder_noise);
         signals::draw_encoder_noise(encoder, span_.ring_teeth, noise_.encoder);
     }
 }

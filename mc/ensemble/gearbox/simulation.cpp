@@ -154,16 +154,6 @@ std::vector<double> sample_times(const Scene& scene, const Realization& realizat
 
 }  // namespace
 
-GearboxId id_of_row(const Study& study, long row) {
-    const long records = study.ensemble.threshold_records;
-    const long thresholds = study.ensemble.threshold_instances * records;
-    return row < thresholds
-               ? GearboxId{Group::threshold, static_cast<std::uint64_t>(row / records),
-                           Record::test, static_cast<std::uint64_t>(row % records),
-                           threshold_noise_sampling(study)}
-               : GearboxId{Group::graded, static_cast<std::uint64_t>(row - thresholds)};
-}
-
 Simulation simulate(const Scene& scene, const GearboxId& id, long meshes) {
     const SensorPaths path = sensor_paths(scene);
     const MeshRange range{

@@ -17,9 +17,6 @@ struct Simulation {
     std::vector<double> features;  // [feature * levels + level], as in a results file
 };
 
-// Gearbox in a given row of the results.
-GearboxId id_of_row(const Study& study, long row);
-
 // Simulates the first `meshes` mesh periods of the gearbox's record, which begins at mesh phase 0
 // unless the study gives the length of records. Throws std::runtime_error if the gearbox fails.
 Simulation simulate(const Scene& scene, const GearboxId& id, long meshes);

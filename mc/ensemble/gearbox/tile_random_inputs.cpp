@@ -103,8 +103,10 @@ std::optional<lockstep::Excitation> draw_excitation(const Scene& scene,
         add_sine({f.speed, f.speed_order * input_turns, 0.0, f.speed_phase_rad}, speed);
         torque_noise.push_back({f.torque_noise, f.torque_noise_Hz});
         speed_noise.push_back({f.speed_noise, f.speed_noise_Hz});
-        torque_engines.push_back(record_stream(study, one.id, StreamPurpose::torque_noise));
-        speed_engines.push_back(record_stream(study, one.id, StreamPurpose::speed_noise));
+        torque_engines.push_back(
+            record_stream(scene.draw().seed, one.id, StreamPurpose::torque_noise));
+        speed_engines.push_back(
+            record_stream(scene.draw().seed, one.id, StreamPurpose::speed_noise));
         excitation.rotation_m_s.push_back(drivetrain.rotation_m_s(one.inputs));
     }
     // When the speed drops, the sensor's time continues: the torque needs additional knots.
@@ -144,7 +146,7 @@ signals::Tones draw_tones(const Scene& scene, std::span<const Realization> reali
         tones.mesh_period_s.push_back(
             dynamics::mesh_period_s(scene.inputs(realizations[lane].inputs)));
         Philox engine =
-            record_stream(scene.study(), realizations[lane].id, StreamPurpose::tone_phases);
+            record_stream(scene.draw().seed, realizations[lane].id, StreamPurpose::tone_phases);
         boost::random::uniform_real_distribution<double> turn(0.0, 2.0 * std::numbers::pi);
         for (std::size_t i = 0; i < requested.size(); ++i) {
             tones.phase_rad[i * lanes + lane] = turn(engine);
@@ -344,14 +346,14 @@ std::optional<lockstep::ToothErrors> draw_tooth_errors(const Scene& scene,
     }
     for (std::size_t lane = 0; lane < lanes; ++lane) {
         const auto normals = [&](StreamPurpose purpose) {
-            return Normals(scene.study(), realizations[lane].id, purpose);
+            return Normals(scene.draw().seed, realizations[lane].id, purpose);
         };
         LaneTeeth teeth(scene, lane, lanes, normals(StreamPurpose::pitch_errors),
                         normals(StreamPurpose::index_waves), normals(StreamPurpose::profile_slopes),
                         errors);
         GearboxId assembly = realizations[lane].id;
         assembly.baseline = 0;  // one assembly for all baseline records
-        Philox engine = record_stream(scene.study(), assembly, StreamPurpose::assembled_teeth);
+        Philox engine = record_stream(scene.draw().seed, assembly, StreamPurpose::assembled_teeth);
         const bool shifted = assembly.record == Record::baseline && redraws(scene.study(), "teeth");
         for (const ToothedBody& body : bodies) {
             const int last = teeth_of(scene.study(), body.member).value() - 1;

@@ -31,9 +31,9 @@ std::vector<RowSignals> chosen_signals(const RunOptions& options, const Scene& s
     std::vector<RowSignals> all;
     for (const long row : std::set<long>(options.signals.begin(), options.signals.end())) {
         try {
-            all.push_back({static_cast<std::size_t>(row),
-                           simulate(scene, id_of_row(scene.study(), row), scene.span().planet_teeth)
-                               .columns});
+            all.push_back(
+                {static_cast<std::size_t>(row),
+                 simulate(scene, scene.draw().rows.id_of(row), scene.span().planet_teeth).columns});
         } catch (const std::runtime_error& error) {
             fmt::print(stderr, "--signals {}: {}\n", row, error.what());
         }

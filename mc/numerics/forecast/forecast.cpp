@@ -191,6 +191,7 @@ Results synthetic_results(const Scene& scene, const RunCost& calibration, const 
                           std::size_t rows, const std::vector<std::size_t>& levels) {
     Study study = scene.study();
     study.ensemble.threshold_records = 1;  // a row for each gearbox
+    const RowOrder order(study.ensemble);
     const RowShape shape = row_shape(study);
     Results results = results_frame(study);
     results.noise_levels.clear();
@@ -217,7 +218,7 @@ Results synthetic_results(const Scene& scene, const RunCost& calibration, const 
         }
     }
     for (std::size_t i = 0; i < rows; ++i) {
-        const GearboxId id = id_of_row(study, static_cast<long>(i * gearboxes_of(plan) / rows));
+        const GearboxId id = order.id_of(static_cast<long>(i * gearboxes_of(plan) / rows));
         const Realization realization = scene.sampler().draw(id);
         const double size = realization.inputs.fault_size;
         std::vector<double> parameters;

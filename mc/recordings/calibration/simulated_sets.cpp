@@ -88,7 +88,7 @@ class Simulator {
             values.emplace_back();
             const std::vector<int>& lengths = lengths_[item.gearbox];
             for (std::size_t record = 0; record < lengths.size(); ++record) {
-                Philox engine = gearbox_stream(scene_.study(), id,
+                Philox engine = gearbox_stream(scene_.draw().seed, id,
                                                with_suffix(StreamPurpose::calibration_record,
                                                            fmt::format("{}.{}", k, record)));
                 values.back().push_back(measured_values(
@@ -136,13 +136,14 @@ class Simulator {
 
 // Quantiles of the inputs in the priors, for each background of one integrated set. Inputs of the
 // time integration have the same value in all of them.
-std::vector<std::vector<double>> places(const Study& study, std::span<const CalibratedInput> inputs,
-                                        const PriorRegion& region, std::size_t number,
-                                        std::size_t backgrounds) {
+std::vector<std::vector<double>> prior_quantiles(std::uint64_t seed,
+                                                 std::span<const CalibratedInput> inputs,
+                                                 const PriorRegion& region, std::size_t number,
+                                                 std::size_t backgrounds) {
     std::vector<std::vector<double>> all(backgrounds, std::vector<double>(inputs.size()));
     for (std::size_t p = 0; p < inputs.size(); ++p) {
         Philox engine =
-            gearbox_stream(study, {Group::threshold, number},
+            gearbox_stream(seed, {Group::threshold, number},
                            with_suffix(StreamPurpose::calibration_prior, inputs[p].key));
         for (std::size_t k = 0; k < backgrounds; ++k) {
             all[k][p] = k > 0 && !inputs[p].independent_of_motion()
@@ -165,7 +166,8 @@ std::vector<SimulatedSet> simulate_sets(const Scene& scene, std::span<const Cali
     std::vector<Item> items;
     for (std::size_t d = 0; d < plan.integrated; ++d) {
         const std::size_t number = plan.first + d;
-        const auto units = places(scene.study(), inputs, region, number, plan.backgrounds);
+        const auto units =
+            prior_quantiles(scene.draw().seed, inputs, region, number, plan.backgrounds);
         std::vector<std::vector<GivenInput>> given;
         for (const auto& unit : units) {
             sets.push_back({unit, number, {}});

@@ -17,13 +17,13 @@ using analysis::InputExchange;
 namespace {
 
 constexpr int kNumbers = 2000;
+constexpr std::uint64_t kSeed = 7;
 
-std::vector<double> numbers(const Study& study, std::uint64_t index,
-                            const std::vector<InputExchange>& exchanged = {},
+std::vector<double> numbers(std::uint64_t index, const std::vector<InputExchange>& exchanged = {},
                             Group group = Group::graded) {
     GearboxId id{group, index};
     id.exchanged = exchanged;
-    Normals normals(study, id, StreamPurpose::planets);
+    Normals normals(kSeed, id, StreamPurpose::planets);
     std::vector<double> all;
     for (int i = 0; i < kNumbers; ++i) {
         all.push_back(normals());
@@ -31,9 +31,9 @@ std::vector<double> numbers(const Study& study, std::uint64_t index,
     return all;
 }
 
-std::vector<double> many_numbers(const Study& study, const GearboxId& id) {
+std::vector<double> many_numbers(const GearboxId& id) {
     std::vector<double> all(kNumbers);
-    Normals::of_noise(study, id, StreamPurpose::sensor_noise).normals(all);
+    Normals::of_noise(kSeed, id, StreamPurpose::sensor_noise).normals(all);
     return all;
 }
 
@@ -61,25 +61,22 @@ double kept_share(const std::vector<double>& mixed, const std::vector<double>& o
 }  // namespace
 
 TEST_CASE("Exchanged numbers are normal mixtures of both with the weights of the given share") {
-    const Study study = test::study_of_text(tests::kExampleStudy);
-    const std::vector<double> own = numbers(study, 4);
+    const std::vector<double> own = numbers(4);
     for (const double share : {0.0, 0.01, 0.3, 1.0}) {
-        const std::vector<double> mixed = numbers(study, 4, {{100, share}});
-        CHECK(kept_share(mixed, own, numbers(study, 100)) == Approx(1.0 - share).margin(1e-12));
+        const std::vector<double> mixed = numbers(4, {{100, share}});
+        CHECK(kept_share(mixed, own, numbers(100)) == Approx(1.0 - share).margin(1e-12));
     }
-    CHECK(numbers(study, 4, {{100, 0.0}}) == own);
+    CHECK(numbers(4, {{100, 0.0}}) == own);
 }
 
 TEST_CASE("A later exchange mixes the result of the earlier ones") {
-    const Study study = test::study_of_text(tests::kExampleStudy);
-    const std::vector<double> both = numbers(study, 4, {{100, 0.2}, {101, 0.4}});
-    const std::vector<double> first = numbers(study, 4, {{100, 0.2}});
-    CHECK(kept_share(both, first, numbers(study, 101)) == Approx(0.6));
-    CHECK(numbers(study, 4, {{100, 0.2}}, Group::threshold) != first);
+    const std::vector<double> both = numbers(4, {{100, 0.2}, {101, 0.4}});
+    const std::vector<double> first = numbers(4, {{100, 0.2}});
+    CHECK(kept_share(both, first, numbers(101)) == Approx(0.6));
+    CHECK(numbers(4, {{100, 0.2}}, Group::threshold) != first);
 }
 
 TEST_CASE("Noise is exchanged number by number, separately for each record and repeat") {
-    const Study study = test::study_of_text(tests::kExampleStudy);
     GearboxId id{Group::graded, 4}, other{Group::graded, 100};
     const std::vector<InputExchange> exchanged{{100, 0.1}};
     for (const Record record : {Record::test, Record::baseline}) {
@@ -87,14 +84,13 @@ TEST_CASE("Noise is exchanged number by number, separately for each record and r
             id.record = other.record = record;
             id.repeat = other.repeat = repeat;
             id.exchanged.reset();
-            const std::vector<double> own = many_numbers(study, id);
+            const std::vector<double> own = many_numbers(id);
             std::vector<double> plain(kNumbers);
-            Philox engine = noise_stream(study, id, StreamPurpose::sensor_noise);
+            Philox engine = noise_stream(kSeed, id, StreamPurpose::sensor_noise);
             signals::draw_normals(engine, std::span(plain));
             CHECK(own == plain);
             id.exchanged = exchanged;
-            CHECK(kept_share(many_numbers(study, id), own, many_numbers(study, other)) ==
-                  Approx(0.9));
+            CHECK(kept_share(many_numbers(id), own, many_numbers(other)) == Approx(0.9));
         }
     }
 }
@@ -120,7 +116,7 @@ TEST_CASE("Random inputs of exchanging gearboxes keep their law and change by no
             CHECK(random_values[column] == inputs.path_exponent);
             CHECK(inputs.path_exponent ==
                   standard_normal_cdf(
-                      Normals(study, id,
+                      Normals(kSeed, id,
                               with_suffix(StreamPurpose::random_input, "sensor.path_exponent"))()));
             return inputs;
         };
@@ -137,17 +133,16 @@ TEST_CASE("Random inputs of exchanging gearboxes keep their law and change by no
 }
 
 TEST_CASE("Inputs without an underlying normal number are exchanged as a whole") {
-    const Study study = test::study_of_text(tests::kExampleStudy);
     int taken = 0;
     for (std::uint64_t index = 0; index < 200; ++index) {
         const std::vector<InputExchange> other{{1000 + index, 0.2}};
         GearboxId id{Group::graded, index};
         id.exchanged = other;
-        const std::uint64_t from = source_index(study, id, StreamPurpose::tone_phases);
+        const std::uint64_t from = source_index(kSeed, id, StreamPurpose::tone_phases);
         CHECK((from == index || from == 1000 + index));
         taken += from == 1000 + index ? 1 : 0;
-        CHECK(record_stream(study, id, StreamPurpose::tone_phases)() ==
-              gearbox_stream(study, {Group::graded, from}, StreamPurpose::tone_phases)());
+        CHECK(record_stream(kSeed, id, StreamPurpose::tone_phases)() ==
+              gearbox_stream(kSeed, {Group::graded, from}, StreamPurpose::tone_phases)());
     }
     CHECK(taken > 20);
     CHECK(taken < 60);

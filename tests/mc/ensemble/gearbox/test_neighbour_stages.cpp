@@ -74,7 +74,7 @@ TEST_CASE("The sensor picks up the stage's own signal, at the stage's time, time
     CHECK(step == Approx((1.0 / (35.0 * scene.samples_per_mesh())) *
                          (35.0 * 13 / 48 * scene.stages()[0].samples_per_mesh()))
                       .epsilon(1e-9));
-    mc::Philox engine = mc::record_stream(scene.study(), id,
+    mc::Philox engine = mc::record_stream(scene.draw().seed, id,
                                           mc::with_suffix(mc::StreamPurpose::stage_start, "slow"));
     const double start =
         boost::random::uniform_01<double>()(engine) * static_cast<double>(own.size());
