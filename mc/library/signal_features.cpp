@@ -23,7 +23,7 @@ void check_any_feature(const std::vector<MeasuredFeature>& all, const std::strin
         const bool there = (one.feature->from_sensor ? signal.has_sensor : signal.has_te) &&
                            !(one.feature->from_sensor && scene.study().effects.quasi_static());
         const bool central = one.feature->needs.overlaps(features::kCentralGears);
-        const int needed = central ? 0 : least_meshes(*one.feature, scene.study(), scene.span());
+        const int needed = central ? 0 : scene.features().least_meshes(*one.feature);
         const int has = one.feature->from_sensor ? signal.sensor_meshes : signal.te_meshes;
         if (there && has < needed) {
             shortest = shortest == 0 ? needed : std::min(shortest, needed);

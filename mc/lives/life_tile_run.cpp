@@ -27,7 +27,7 @@ class LifeTiles::Lane {
         : tiles_(tiles),
           id_(gearbox.id),
           inputs_(gearbox.inputs),
-          features_(used_features(tiles.scene_.study())),
+          features_(tiles.scene_.features().used),
           needs_(superposed_needs(features_)),
           span_(record_span(tiles.scene_, inputs_.speed_rad_s)),
           record_(tiles.scene_, needs_.record, span_.turns * span_.recordings),

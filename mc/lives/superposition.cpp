@@ -45,7 +45,7 @@ std::string feature_problem(const Scene& scene, const RecordSpan& record,
             record.recordings);
     }
     const int meshes = record.turns * scene.span().planet_teeth,
-              least = least_meshes(feature, study, scene.span());
+              least = scene.features().least_meshes(feature);
     return least > meshes ? fmt::format("needs {} mesh periods, but a record has {}", least, meshes)
                           : "";
 }

@@ -155,7 +155,8 @@ Scene::Scene(Study study, SharedSampler sampler, std::shared_ptr<const Drivetrai
                      : std::make_shared<const std::vector<Scene>>(make_stages(study_))),
       span_(drivetrain_->span()),
       nominal_mesh_frequency_Hz_(mc::nominal_mesh_frequency_Hz(study_, *drivetrain_)),
-      signal_meshes_(mc::signal_meshes(study_, span_, std::abs(nominal_mesh_frequency_Hz_))),
+      features_(make_feature_plan(study_, span_)),
+      signal_meshes_(mc::signal_meshes(study_, features_, std::abs(nominal_mesh_frequency_Hz_))),
       most_recorded_(most_recorded),
       max_meshes_(study_.effects.quasi_static()
                       ? 1

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "mc/plan/drivetrain.hpp"
+#include "mc/plan/feature_plan.hpp"
 #include "mc/plan/sampling.hpp"
 #include "mc/plan/scene_error.hpp"
 #include "mc/plan/scene_plan.hpp"
@@ -64,6 +65,7 @@ class Scene {
     // Scenes of the neighbouring stages, in the order of the study.
     const std::vector<Scene>& stages() const { return *stages_; }
 
+    const FeaturePlan& features() const { return features_; }
     const signals::SpanLayout& span() const { return span_; }
     // Number of mesh periods after which every tooth of the monitored gear has met every tooth of
     // its mate that it can meet.
@@ -115,6 +117,7 @@ class Scene {
     SharedStages stages_;
     signals::SpanLayout span_;
     double nominal_mesh_frequency_Hz_;
+    FeaturePlan features_;
     int signal_meshes_;
     int most_recorded_;
     int max_meshes_;

@@ -262,7 +262,7 @@ Sampling choose_sampling(const Study& study, double mesh_frequency_Hz) {
     while (result.samples % result.te_samples != 0) {
         ++result.te_samples;
     }
-    const features::SignalSet needs = needs_of(used_features(study));
+    const features::SignalSet needs = compared_needs(used_features(study)).all();
     if (needs.has<features::TeParts>() && result.te_samples < kFewestSamples) {
         throw SceneError("sensor.encoder_sampling_Hz",
                          fmt::format("{} sample(s) per mesh period are too few for te_fm4, te_m6a "

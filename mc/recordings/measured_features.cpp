@@ -40,7 +40,7 @@ std::string why_unavailable(const Feature& feature, const Scene& scene,
         return feature.from_sensor ? "no sensor signal" : "no transmission error";
     }
     const int has = feature.from_sensor ? signal.sensor_meshes : signal.te_meshes;
-    const int needed = least_meshes(feature, scene.study(), scene.span());
+    const int needed = scene.features().least_meshes(feature);
     if (has < needed) {
         return fmt::format("{} mesh periods, but {} are needed", has, needed);
     }
@@ -101,7 +101,7 @@ class MeasuredInput {
         amplitude_.resize(static_cast<std::size_t>(spectrum.orders()));
         spectrum.amplitudes(0.0, amplitude_);
         input.get<features::TeTurn>() = {te_, amplitude_, scene_.span().planet_teeth,
-                                         scene_.study().features.te_harmonics};
+                                         scene_.features().te_harmonics};
         analysis_.te(te_, input);
     }
 
@@ -118,7 +118,7 @@ class MeasuredInput {
                 sum *= static_cast<double>(scene_.span().ring_teeth) / turns;
             }
         }
-        signals::Windowing windowing(scene_.span(), phases, scene_.study().features.tukey_taper);
+        signals::Windowing windowing(scene_.span(), phases, scene_.features().tukey_taper);
         tooth_rms_.resize(static_cast<std::size_t>(scene_.span().planet_teeth));
         windowing.load(folded);
         tooth_offset_ = windowing.search(0.0, tooth_rms_);

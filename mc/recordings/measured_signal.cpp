@@ -286,9 +286,8 @@ class SignalReader : RecordingColumns {
 
     // Largest number of mesh periods that any feature uses.
     int most_meshes() const {
-        const bool planetary = scene_.study().gearbox.kind == GearboxKind::planetary;
-        return meshes_needed(scene_.study(), scene_.span(),
-                             planetary ? features::kCentralGears : features::SignalSet());
+        return scene_.features().meshes_needed(scene_.features().sun ? features::kCentralGears
+                                                                     : features::SignalSet());
     }
 
     // Smallest jump of a measured motion that is reported, in mesh periods.

@@ -418,7 +418,7 @@ class Examples {
                      const std::vector<double>& noisy_rms, double period_s) const {
         std::vector<double> clean_rms(noisy_rms.size());
         signals::Windowing windowing(signals.layout, scene_.samples_per_mesh(),
-                                     scene_.study().features.tukey_taper);
+                                     scene_.features().tukey_taper);
         windowing.load(has_range(scene_.study()) ? signals.record.folded
                                                  : features.record().folded);
         windowing.search(0.0, clean_rms);

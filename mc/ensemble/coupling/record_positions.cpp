@@ -60,7 +60,7 @@ std::size_t shared_records(const Study& study, std::span<const GearboxId> ids, s
 
 std::vector<lockstep::SpanPart> parts_of_records(const Scene& scene,
                                                  std::span<const Realization> records) {
-    const bool compares = !compared_needs(used_features(scene.study())).change.empty();
+    const bool compares = !scene.features().needs.change.empty();
     // A motion that all baseline records have is cut at the window of each.
     const int copies =
         computed_baselines(scene.study()) == 1 ? scene.study().features.baseline_records : 1;

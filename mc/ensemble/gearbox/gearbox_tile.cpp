@@ -439,7 +439,7 @@ GearboxTile run_side_by_side(const Scene& scene, const SensorPaths& path,
 
 GearboxTile run_gearboxes(const Scene& scene, const SensorPaths& path,
                           std::span<const GearboxId> ids, int fewest, const TileOptions& options) {
-    if (!compares_records(scene.study())) {
+    if (scene.features().baselines == 0) {
         return run_records(scene, path, ids, fewest, options);
     }
     const int lanes = lockstep::lanes_for(scene.plan().precision, fewest);
@@ -493,7 +493,7 @@ GearboxTile complete_tile(const Scene& scene, const SensorPaths& path,
     GearboxTile tile = drawn_tile(scene, ids, static_cast<int>(integration.status.size()));
     tile.integration = std::move(integration);
     add_signals(scene, path, tile);
-    if (compares_records(scene.study())) {
+    if (scene.features().baselines > 0) {
         add_baselines(
             run_baselines(scene, path, ids, static_cast<int>(tile.realizations.size()), nullptr),
             tile);

@@ -30,18 +30,16 @@ namespace {
 
 // Properties of a record that are the same at every noise level.
 nlohmann::json properties(const Scene& scene, const InstanceInputs& inputs) {
-    const Study& study = scene.study();
     nlohmann::json teeth = nlohmann::json::object();
     for (const Member member : kAllMembers) {
-        if (const auto count = teeth_of(study, member)) {
+        if (const auto count = scene.features().teeth[member]) {
             teeth[std::string(member_name(member))] = *count;
         }
     }
-    const bool planetary = study.gearbox.kind == GearboxKind::planetary;
     const double mesh_Hz = 1.0 / dynamics::mesh_period_s(scene.inputs(inputs));
     return {{"gear_teeth", scene.span().planet_teeth},
             {"teeth", teeth},
-            {"planets", planetary ? study.gearbox.planets : 0},
+            {"planets", scene.features().planets},
             {"samples_per_mesh", scene.samples_per_mesh()},
             {"te_samples_per_mesh", scene.te_samples_per_mesh()},
             {"carrier_meshes", scene.path_meshes()},
@@ -58,10 +56,11 @@ PythonFeatures::PythonFeatures(const Scene& scene,
                                std::span<const features::Feature* const> features)
     : scene_(scene) {
     for (const features::Feature* feature : features) {
-        for (const PythonFeature& one : scene.study().features.python) {
-            if (one.feature == feature) {
-                used_.push_back(one);
-                PythonWorker::of_thread().require(one.file, one.hashes);  // starts Python early
+        for (const PythonFeature& function : scene.features().python) {
+            if (function.feature == feature) {
+                used_.push_back(function);
+                // starts Python early
+                PythonWorker::of_thread().require(function.file, function.hashes);
             }
         }
     }
@@ -220,7 +219,7 @@ HealthyReference reference_of(const Scene& scene, const SensorPaths& path, std::
 
 HealthyReference healthy_reference(const Scene& scene, const SensorPaths& path,
                                    std::uint64_t sensor) {
-    if (!needs_of(used_features(scene.study())).has<features::HealthyRecords>()) {
+    if (!scene.features().needs.all().has<features::HealthyRecords>()) {
         return {};
     }
     return reference_of(scene, path, sensor);
@@ -241,17 +240,15 @@ const LaneSignals& baseline_of(const LaneSignals& gearbox, std::size_t k) {
 
 RealizationFeatures::RealizationFeatures(const Scene& scene, const HealthyReference* healthy,
                                          bool python)
-    : RealizationSignals(scene, compared_needs(used_features(scene.study())).record),
+    : RealizationSignals(scene, scene.features().needs.record),
       scene_(scene),
-      features_(used_features(scene.study())),
+      features_(scene.features().used),
       python_(scene, python ? features_ : std::vector<const features::Feature*>()),
       healthy_(healthy),
       levels_(scene.study().sensor.noise_levels.size()) {
-    const ComparedNeeds needs = compared_needs(features_);
-    if (!needs.baseline.empty()) {
-        for (int k = 0; k < scene.study().features.baseline_records; ++k) {
-            baselines_.push_back({RealizationSignals(scene, needs.baseline), {}, {}});
-        }
+    const ComparedNeeds& needs = scene.features().needs;
+    for (int k = 0; k < scene.features().baselines; ++k) {
+        baselines_.push_back({RealizationSignals(scene, needs.baseline), {}, {}});
     }
     if (!needs.change.empty()) {
         change_ = std::make_unique<RealizationSignals>(scene, needs.change);

@@ -107,7 +107,7 @@ RealizationSignals::RealizationSignals(const Scene& scene, features::SignalSet n
       default_turns_(turns),
       span_{scene.span().planet_teeth, turns, scene.span().carrier_meshes},
       sensor_noise_(turns),
-      windowing_(span_, scene.samples_per_mesh(), scene.study().features.tukey_taper),
+      windowing_(span_, scene.samples_per_mesh(), scene.features().tukey_taper),
       spectrum_(scene.span().planet_teeth * scene.te_samples_per_mesh()),
       analysis_(scene, needs),
       needs_samples_(needs_samples(needs)),
@@ -126,8 +126,8 @@ void RealizationSignals::set_turns(int turns) {
     if (needed != span_.ring_teeth) {
         span_.ring_teeth = needed;
         sensor_noise_ = signals::SensorNoise(needed);
-        windowing_ = signals::Windowing(span_, scene_.samples_per_mesh(),
-                                        scene_.study().features.tukey_taper);
+        windowing_ =
+            signals::Windowing(span_, scene_.samples_per_mesh(), scene_.features().tukey_taper);
     }
 }
 
@@ -172,7 +172,7 @@ void RealizationSignals::sample_sensor_noise(const LaneSignals& gearbox,
         for (const double level : scene_.study().sensor.noise_levels) {
             sigmas.push_back(level * realization.inputs.noise_m_s2);
         }
-        sampler_.emplace(span_, scene_.samples_per_mesh(), scene_.study().features.tukey_taper);
+        sampler_.emplace(span_, scene_.samples_per_mesh(), scene_.features().tukey_taper);
         sampler_->load(gearbox.folded, sigmas,
                        id.noise_sampling == NoiseSampling::towards_alarms
                            ? signals::NoiseImportanceSampler::TargetTail::loud
@@ -261,7 +261,7 @@ void RealizationSignals::te_features(double noise, features::FeatureInput& input
     }
     spectrum_.amplitudes(noise, amplitude_);
     input.get<features::TeTurn>() = {te_, amplitude_, span_.planet_teeth,
-                                     scene_.study().features.te_harmonics};
+                                     scene_.features().te_harmonics};
     analysis_.te(te_, input);
 }
 

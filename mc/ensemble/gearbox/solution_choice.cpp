@@ -197,7 +197,7 @@ int needed_sensor_meshes(const Scene& scene, features::SignalSet needs) {
 }
 
 int needed_sensor_meshes(const Scene& scene) {
-    return needed_sensor_meshes(scene, needs_of(used_features(scene.study())));
+    return needed_sensor_meshes(scene, scene.features().needs.all());
 }
 
 double motion_bytes(const Scene& scene) {

@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "mc/plan/feature_needs.hpp"
-#include "mc/study/gears.hpp"
 #include "signals/spectra/synchronous_average.hpp"
 #include "signals/windowing/vibration_separation.hpp"
 
@@ -44,8 +42,7 @@ SpanAnalysis::SpanAnalysis(const Scene& scene, features::SignalSet needs)
     : scene_(scene), needs_(needs) {
     const int teeth = scene.span().planet_teeth;
     if (needs_samples(needs)) {
-        window_ =
-            signals::tukey_window(scene.samples_per_mesh(), scene.study().features.tukey_taper);
+        window_ = signals::tukey_window(scene.samples_per_mesh(), scene.features().tukey_taper);
     }
     if (needs.has<features::SensorTurn>()) {
         sensor_turn_ =
@@ -93,8 +90,8 @@ void SpanAnalysis::sensor(std::span<const double> samples, int planet_turns, int
     if (needs_.has<features::SeparatedPlanets>()) {
         separated_planets(span, input);
     }
-    central_teeth<Gear::sun>(samples, Member::sun, sun_, input);
-    central_teeth<Gear::ring>(samples, Member::ring, ring_, input);
+    central_teeth<Gear::sun>(samples, scene_.features().sun, sun_, input);
+    central_teeth<Gear::ring>(samples, scene_.features().ring, ring_, input);
 }
 
 void SpanAnalysis::whitened_teeth(std::span<const double> span, const signals::GearTurns& planet,
@@ -103,7 +100,7 @@ void SpanAnalysis::whitened_teeth(std::span<const double> span, const signals::G
         prewhitening_ = std::make_unique<signals::Prewhitening>(static_cast<int>(span.size()));
     }
     const int phases = scene_.samples_per_mesh();
-    signals::Windowing windowing(planet.layout(), phases, scene_.study().features.tukey_taper);
+    signals::Windowing windowing(planet.layout(), phases, scene_.features().tukey_taper);
     windowing.load(signals::fold_of_squares(prewhitening_->whitened(span),
                                             static_cast<std::size_t>(planet.teeth) * phases));
     whitened_rms_.resize(static_cast<std::size_t>(planet.teeth));
@@ -113,8 +110,7 @@ void SpanAnalysis::whitened_teeth(std::span<const double> span, const signals::G
 
 void SpanAnalysis::separated_planets(std::span<const double> span, features::FeatureInput& input) {
     const int phases = scene_.samples_per_mesh();
-    planets_ =
-        signals::planet_averages(span, scene_.span(), scene_.study().gearbox.planets, phases);
+    planets_ = signals::planet_averages(span, scene_.span(), scene_.features().planets, phases);
     signals::MeshSeparation parts(scene_.span().planet_teeth * phases, scene_.span().planet_teeth);
     planet_differences_.clear();
     for (const std::vector<double>& planet : planets_) {
@@ -127,7 +123,8 @@ void SpanAnalysis::separated_planets(std::span<const double> span, features::Fea
 // The teeth of a fixed gear have constant positions along the path; their statistics are freed of
 // its trend.
 template <Gear kGear>
-void SpanAnalysis::central_teeth(std::span<const double> samples, Member member,
+void SpanAnalysis::central_teeth(std::span<const double> samples,
+                                 const std::optional<signals::GearTurns>& gear_turns,
                                  signals::ToothStatistics& statistics,
                                  features::FeatureInput& input) {
     using Rms = features::ToothRms<kGear>;
@@ -135,8 +132,8 @@ void SpanAnalysis::central_teeth(std::span<const double> samples, Member member,
     if (!needs_.has<Rms, Moments>()) {
         return;
     }
-    const int teeth = *teeth_of(scene_.study(), member);
-    const signals::GearTurns gear = central_turns(scene_.span(), teeth);
+    const signals::GearTurns& gear = *gear_turns;
+    const int teeth = gear.teeth;
     const auto phases = static_cast<std::size_t>(scene_.samples_per_mesh());
     if (samples.size() < static_cast<std::size_t>(gear.meshes()) * phases) {
         const std::vector<double> none(static_cast<std::size_t>(teeth), std::nan(""));
@@ -147,7 +144,7 @@ void SpanAnalysis::central_teeth(std::span<const double> samples, Member member,
     }
     const auto span = samples.first(static_cast<std::size_t>(gear.meshes()) * phases);
     signals::Windowing windowing(gear.layout(), scene_.samples_per_mesh(),
-                                 scene_.study().features.tukey_taper);
+                                 scene_.features().tukey_taper);
     std::vector<double> rms(static_cast<std::size_t>(teeth));
     windowing.load(signals::fold_of_squares(span, static_cast<std::size_t>(teeth) * phases));
     const int offset = windowing.search(0.0, rms);
@@ -156,7 +153,7 @@ void SpanAnalysis::central_teeth(std::span<const double> samples, Member member,
     }
     statistics.rms = std::move(rms);
     if (scene_.path_meshes() == teeth) {
-        remove_path_trend(scene_.study().gearbox.planets, statistics);
+        remove_path_trend(scene_.features().planets, statistics);
     }
     input.get<Rms>() = {statistics.rms};
     input.get<Moments>() = {statistics.kurtosis, statistics.crest, statistics.m8a};

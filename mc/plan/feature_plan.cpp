@@ -1,0 +1,115 @@
+#include "mc/plan/feature_plan.hpp"
+
+#include <algorithm>
+#include <stdexcept>
+
+namespace gearpod::mc {
+namespace {
+
+using features::Gear;
+using features::SignalSet;
+
+// Signals of folded records.
+constexpr SignalSet kFolded =
+    SignalSet::of<features::TeTurn, features::SensorPower, features::ToothRms<Gear::planet>,
+                  features::TeParts, features::HealthyRecords>();
+
+std::optional<signals::GearTurns> central_turns(const signals::SpanLayout& span,
+                                                std::optional<int> teeth) {
+    if (!teeth) {
+        return std::nullopt;
+    }
+    const auto turns = signals::turns_of_span(*teeth, span.carrier_meshes, span.meshes());
+    return turns.turns > 0 ? turns : signals::fewest_turns(*teeth, span.carrier_meshes);
+}
+
+}  // namespace
+
+ComparedNeeds compared_needs(std::span<const features::Feature* const> features) {
+    ComparedNeeds needs;
+    for (const features::Feature* feature : features) {
+        switch (feature->baseline_use) {
+            case features::BaselineUse::nothing:
+                needs.record |= feature->needs;
+                break;
+            case features::BaselineUse::change:
+                needs.record |= SignalSet::of<features::SensorSamples>();
+                needs.baseline |= SignalSet::of<features::SensorSamples>();
+                needs.change |= feature->needs;
+                break;
+            case features::BaselineUse::record_and_change:
+                needs.record |= feature->needs;
+                needs.record |= SignalSet::of<features::SensorSamples>();
+                needs.baseline |= SignalSet::of<features::SensorSamples>();
+                needs.change |= feature->needs;
+                break;
+            case features::BaselineUse::baseline:
+                needs.record |= feature->needs;
+                needs.baseline |= feature->needs;
+                break;
+        }
+    }
+    return needs;
+}
+
+bool needs_samples(SignalSet needs) {
+    return !needs.within(kFolded);
+}
+
+int FeaturePlan::meshes_needed(SignalSet with_needs) const {
+    int meshes = span.meshes();
+    if (with_needs.has<features::ToothRms<Gear::sun>, features::ToothMoments<Gear::sun>>()) {
+        meshes = std::max(meshes, sun->meshes());
+    }
+    if (with_needs.has<features::ToothRms<Gear::ring>, features::ToothMoments<Gear::ring>>()) {
+        meshes = std::max(meshes, ring->meshes());
+    }
+    return meshes;
+}
+
+int FeaturePlan::least_meshes(const features::Feature& feature) const {
+    // Cyclic statistics of the samples tell the lines of the planet turn from their neighbours.
+    if (feature.needs.has<features::SensorSamples>() && feature.needs.has<features::SensorTurn>()) {
+        return kLeastRecordTurns * span.planet_teeth;
+    }
+    return feature.needs.overlaps(features::kCentralGears) ||
+                   feature.needs.has<features::FilteredSensor>()
+               ? meshes_needed(feature.needs)
+               : span.planet_teeth;
+}
+
+FeaturePlan make_feature_plan(const Study& study, const signals::SpanLayout& span) {
+    FeaturePlan plan;
+    plan.used = used_features(study);
+    plan.python = study.features.python;
+    plan.needs = compared_needs(plan.used);
+    plan.baselines = plan.needs.baseline.empty() ? 0 : study.features.baseline_records;
+    plan.tukey_taper = study.features.tukey_taper;
+    plan.te_harmonics = study.features.te_harmonics;
+    plan.span = span;
+    for (const Member member : kAllMembers) {
+        plan.teeth[member] = study.gearbox.bodies[member].teeth;
+    }
+    if (study.gearbox.kind == GearboxKind::planetary) {
+        plan.planets = study.gearbox.planets;
+        plan.sun = central_turns(span, plan.teeth[Member::sun]);
+        plan.ring = central_turns(span, plan.teeth[Member::ring]);
+    }
+    plan.signal_meshes = plan.meshes_needed(plan.needs.all());
+    plan.sensor = !study.effects.quasi_static();
+    return plan;
+}
+
+std::vector<const features::Feature*> used_features(const Study& study) {
+    std::vector<const features::Feature*> used;
+    for (const std::string& name : study.features.use) {
+        const features::Feature* feature = find_feature(study, name);
+        if (feature == nullptr) {
+            throw std::invalid_argument("unknown feature " + name);
+        }
+        used.push_back(feature);
+    }
+    return used;
+}
+
+}  // namespace gearpod::mc
