@@ -37,11 +37,11 @@ def copy_pages(docs, pages):
     """Copies docs/ and removes pages that no longer exist there."""
     kept = set()
     for source in sorted(docs.rglob("*")):
-        place = source.relative_to(docs)
-        if source.is_dir() or "__pycache__" in place.parts:
+        path = source.relative_to(docs)
+        if source.is_dir() or "__pycache__" in path.parts:
             continue
-        kept.add(place)
-        target = pages / place
+        kept.add(path)
+        target = pages / path
         if not target.exists() or not filecmp.cmp(source, target, shallow=False):
             target.parent.mkdir(parents=True, exist_ok=True)
             shutil.copyfile(source, target)
@@ -62,9 +62,9 @@ def main(program, sources, output):
     reference = json.loads(subprocess.run([program, "--reference"], check=True,
                                           capture_output=True, text=True).stdout)
     for name, text in reference_pages.fragments(reference).items():
-        place = pathlib.Path("reference/_generated") / name
-        put(text, pages / place)
-        kept.add(place)
+        path = pathlib.Path("reference/_generated") / name
+        put(text, pages / path)
+        kept.add(path)
     for source, name in (("CHANGELOG.md", "developer/changelog.md"),
                          ("studies/own_features.py", "guide/own_features.py")):
         put((sources / source).read_text(encoding="utf-8"), pages / name)

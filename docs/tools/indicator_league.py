@@ -104,8 +104,8 @@ class Season:
     def __init__(self, runs, seed, arguments, faults, name="", options=()):
         self.values, self.exponents, self.healthy = {}, {}, {}
         for number, fault in enumerate(faults):
-            own = number == 0 or fault[0] in OWN_HEALTHY
-            healthy = arguments.healthy if own else min(16, arguments.healthy)
+            measured = number == 0 or fault[0] in OWN_HEALTHY
+            healthy = arguments.healthy if measured else min(16, arguments.healthy)
             path = runs.run(f"{fault[0]}-{seed}{name}", study_of(fault),
                                ["--seed", str(seed), "--instances", str(arguments.faulty),
                                 "--set", f"ensemble.threshold_instances={healthy}", *options])
@@ -115,7 +115,7 @@ class Season:
                 self.healthy_exponents = results.input("path_exponent")[results.rows("threshold")]
                 self.conditions = results.report()["assumptions"]
             values = oriented(results, "threshold")
-            self.healthy[fault[0]] = values if own else self.healthy[faults[0][0]]
+            self.healthy[fault[0]] = values if measured else self.healthy[faults[0][0]]
             if not np.array_equal(values, self.healthy[fault[0]][:healthy]):
                 sys.exit(f"{path}: its healthy gearboxes differ from those of {faults[0][0]}")
             self.values[fault[0]] = oriented(results, "graded")
@@ -132,13 +132,13 @@ def costs(runs, names):
     options = ["--instances", "16", "--set", "ensemble.threshold_instances=1",
                "--set", f"sensor.noise_levels={[1 + 0.01 * n for n in range(levels)]}"]
     used = r"use = \[.*?\]\nbaseline_torque_scatter = .*?\n"
-    own = {}
+    seconds_of = {}
     for name in ["sensor_rms"] + [name for name in names if not name.startswith(("own_", "change_", "baseline_"))]:
         text = re.sub(used, f'use = ["{name}"]\n', study_of(FAULTS[0]), flags=re.S)
         if f"cost-{name}" not in runs.seconds:
             runs.run(f"cost-{name}", text, options)
-        own[name] = runs.seconds[f"cost-{name}"]
-    return {name: 1000 * max(0.0, seconds - own["sensor_rms"]) / (levels * gearboxes) for name, seconds in own.items()}
+        seconds_of[name] = runs.seconds[f"cost-{name}"]
+    return {name: 1000 * max(0.0, seconds - seconds_of["sensor_rms"]) / (levels * gearboxes) for name, seconds in seconds_of.items()}
 
 
 def write_page(path, text):

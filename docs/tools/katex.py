@@ -12,9 +12,9 @@ from sphinx.util import logging
 SYSTEM = pathlib.Path("/usr/share/javascript/katex")
 FILES = ("katex.min.css", "katex.min.js")
 RENDER = """document.addEventListener("DOMContentLoaded", function () {
-  document.querySelectorAll(".math").forEach(function (place) {
-    var display = place.tagName === "DIV";
-    katex.render(place.dataset.tex, place, {displayMode: display, throwOnError: false});
+  document.querySelectorAll(".math").forEach(function (element) {
+    var display = element.tagName === "DIV";
+    katex.render(element.dataset.tex, element, {displayMode: display, throwOnError: false});
   });
 });
 """

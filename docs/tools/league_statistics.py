@@ -13,10 +13,10 @@ class Areas:
     def __init__(self, area, covariance, pairs):
         self.area, self.covariance, self.pairs = area, covariance, pairs  # pairs: disjoint ones of healthy and faulty
 
-    def differences(self, one):
+    def differences(self, index):
         """Differences of an indicator from all, and their standard errors."""
-        variance = np.diag(self.covariance) + self.covariance[one, one] - 2 * self.covariance[one]
-        return self.area[one] - self.area, np.sqrt(np.maximum(variance, 0.0))
+        variance = np.diag(self.covariance) + self.covariance[index, index] - 2 * self.covariance[index]
+        return self.area[index] - self.area, np.sqrt(np.maximum(variance, 0.0))
 
     def only(self, chosen):
         """The chosen indicators alone."""
@@ -37,11 +37,11 @@ class Areas:
         for all pairs of indicators."""
         count = len(self.area)
         p = np.ones((count, count))
-        for one in range(count):
-            difference, deviation = self.differences(one)
+        for index in range(count):
+            difference, deviation = self.differences(index)
             same = deviation == 0
             z = np.abs(difference) / np.where(same, 1.0, deviation)
-            p[one] = np.where(same, np.where(difference == 0, 1.0, 0.0), 2 * scipy.stats.norm.sf(z))
+            p[index] = np.where(same, np.where(difference == 0, 1.0, 0.0), 2 * scipy.stats.norm.sf(z))
         upper = np.triu_indices(count, 1)
         corrected = holm(p[upper])
         p[upper] = corrected

@@ -103,10 +103,10 @@ class League:
         exponents, healthy = season.exponents[first], season.healthy_exponents
         rows = []
 
-        def add(condition, one, other):
-            tau = scipy.stats.kendalltau(one.area, other.area).statistic
+        def add(condition, some, others):
+            tau = scipy.stats.kendalltau(some.area, others.area).statistic
             leaders = [", ".join(f"`{self.names[i]}`" for i in np.argsort(-areas.area, kind="stable")[:3])
-                       for areas in (one, other)]
+                       for areas in (some, others)]
             rows.append([condition, f"{tau:.2f}", *leaders])
 
         add("other gearboxes (second seed)", season.aucs(first, top), again.aucs(first, top))
@@ -161,17 +161,17 @@ class League:
         matplotlib.use("Agg")
         matplotlib.rcParams["svg.hashsalt"] = "league"
         import matplotlib.pyplot as plt
-        place = {name: i for i, name in enumerate(self.names)}
+        column = {name: i for i, name in enumerate(self.names)}
         alike = np.array([self.areas[fault[0], self.loudest].indistinguishable_from_best() for fault in self.faults])
         bases = sorted({self.base(name) for name in self.names},
-                       key=lambda base: -max(self.shares[:, i].mean() for n, i in place.items() if self.base(n) == base))
+                       key=lambda base: -max(self.shares[:, i].mean() for n, i in column.items() if self.base(n) == base))
         columns = [(f, kind) for f in range(len(self.faults)) for kind in KINDS]
         grid = np.full((len(bases), len(columns)), np.nan)
         figure, axes = plt.subplots(figsize=(16.5, 23.4))
         for r, base in enumerate(bases):
             for c, (f, kind) in enumerate(columns):
                 names = {"record": [base], "own_": ["own_" + base], "change_": ["change_" + base, "baseline_" + base]}[kind]
-                for i in (place[name] for name in names if name in place):
+                for i in (column[name] for name in names if name in column):
                     grid[r, c] = 100 * self.shares[f, i]
                     low, high = 100 * self.bounds[f, :, i]
                     axes.text(c, r, f"{grid[r, c]:.0f}\n{low:.0f}-{high:.0f}", ha="center", va="center", fontsize=7,

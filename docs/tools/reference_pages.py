@@ -104,8 +104,8 @@ def keys(reference):
 
 def distributions(reference):
     return table(["distribution", "parameters"],
-                 [[code(f'"{one["name"]}"'), cell(one["parameters"])]
-                  for one in reference["distributions"]])
+                 [[code(f'"{law["name"]}"'), cell(law["parameters"])]
+                  for law in reference["distributions"]])
 
 
 def features(reference):

@@ -138,7 +138,7 @@ def study_schema(reference):
     return {"$schema": "http://json-schema.org/draft-07/schema#", "title": "gearpod study",
             "type": "object", "properties": properties, "additionalProperties": False,
             "definitions": {"distribution": {
-                "anyOf": [distribution_schema(one) for one in reference["distributions"]]}}}
+                "anyOf": [distribution_schema(law) for law in reference["distributions"]]}}}
 
 
 def text_of(program):

@@ -1,11 +1,12 @@
-"""Checks the order of the sources from their includes: python3 house.py TREE [FLOORS]
+"""Checks the order and size of the sources: python3 house.py TREE [FLOORS [CEILINGS]]
 
 Prints one line per problem of the sources below TREE and exits with 1 if there are any. Problems
-are includes against the order of floors.txt or in a circle, missing headers,
-names of missing files in comments, constants of one name in two sources of a
-library, and scripts that cannot be run.
+are includes against the order of floors.txt, includes and imports in a circle, missing headers and modules,
+names of missing files in comments, constants of one name in two sources of a library, scripts that
+cannot be run, and numbers above those of ceilings.txt, which are printed too.
 """
 
+import ast
 import collections
 import fnmatch
 import os
@@ -13,6 +14,8 @@ import pathlib
 import posixpath
 import re
 import sys
+
+from study_reach import reach_of
 
 PARTS = ("src", "analysis", "mc")  # folders of the library, the lowest first
 CODE = (".cpp", ".hpp")
@@ -28,11 +31,18 @@ ALONE = re.compile(r"_kernel\.cpp$")
 CONSTANT = re.compile(r"(?:inline |static )?constexpr [^(=]*?\b(k[A-Z]\w*)\s*(?:\[|=|\{)")
 STRING = re.compile(r'"(\\.|[^"\\])*"')
 
+# Folder of a package that scripts of other folders import, and packages from outside.
+PACKAGE_ROOT = "analysis/python"
+PACKAGES = {"docutils", "h5py", "jinja2", "lxml", "matplotlib", "numpy", "pandas", "pybind11", "scipy", "setuptools",
+            "soundfile", "sphinx", "sphinx_copybutton", "xarray"}
+
+# An include, or an import of Python; `header` is its text.
 Arrow = collections.namedtuple("Arrow", "file line header target")
 
 
 def text_of(arrow):
-    return f"{arrow.file}:{arrow.line} includes {arrow.header}"
+    verb = "imports" if arrow.file.endswith(".py") else "includes"
+    return f"{arrow.file}:{arrow.line} {verb} {arrow.header}"
 
 
 class Tree:
@@ -42,8 +52,12 @@ class Tree:
         self.known = set(self.files)
         self.arrows = [arrow for file in self.files if file.endswith(CODE)
                        for arrow in self.includes(file)]
-        self.own = [arrow for arrow in self.arrows
-                    if arrow.target and arrow.file.startswith(tuple(f"{p}/" for p in PARTS))]
+        self.resolved_arrows = [
+            arrow for arrow in self.arrows
+            if arrow.target and arrow.file.startswith(tuple(f"{p}/" for p in PARTS))]
+        self.imports = [arrow for file in self.files
+                        if file.endswith(".py") and not file.startswith("tests/")
+                        for arrow in self.imports_of(file)]
 
     def found(self):
         """Yields all files except build folders and hidden ones."""
@@ -67,8 +81,35 @@ class Tree:
     def resolved(self, file, header):
         """Path of the included file: relative to the including one, to src, or to the top."""
         relative = posixpath.normpath(f"{folder(file)}/{header}")
-        places = (relative, f"src/{header}", header)
-        return next((place for place in places if place in self.known), None)
+        candidates = (relative, f"src/{header}", header)
+        return next((path for path in candidates if path in self.known), None)
+
+    def imports_of(self, file):
+        """Imports of a Python file, those within functions and for types included."""
+        for node in ast.walk(ast.parse((self.root / file).read_text(encoding="utf-8"))):
+            if isinstance(node, ast.Import):
+                names = [alias.name for alias in node.names]
+            elif isinstance(node, ast.ImportFrom):
+                start = "." * node.level + (node.module or "")
+                joint = "." if node.module else ""
+                names = [f"{start}{joint}{alias.name}" for alias in node.names]
+                # A name may be a module of the package, or an object of the module.
+                names = [name if self.imported(file, name) else start for name in names]
+            else:
+                continue
+            for name in dict.fromkeys(names):
+                yield Arrow(file, node.lineno, name, self.imported(file, name))
+
+    def imported(self, file, name):
+        """Path of an imported module: in the folder for `.name`, otherwise in the folders above,
+        too."""
+        dots = len(name) - len(name.lstrip("."))
+        path = name.lstrip(".").replace(".", "/")
+        above = [parent.as_posix() for parent in pathlib.PurePosixPath(file).parents]
+        bases = above[dots - 1:dots] if dots else above + [PACKAGE_ROOT]
+        candidates = (posixpath.normpath(f"{base}/{path}{end}") for base in bases
+                      for end in (".py", "/__init__.py"))
+        return next((path for path in candidates if path in self.known), None)
 
 
 def folder(file):
@@ -109,7 +150,7 @@ def upward(tree, floors):
     for room in sorted(set(floors.on) - rooms):
         yield f"floors: {room} holds no sources"
     used = collections.defaultdict(set)
-    for arrow in tree.own:
+    for arrow in tree.resolved_arrows:
         room, other = folder(arrow.file), folder(arrow.target)
         used[room].add(other)
         if room in floors.below and other in floors.on and other not in floors.below[room]:
@@ -132,6 +173,14 @@ def unresolved(tree):
             yield f"{text_of(arrow)}: src may not include files, messages or its users"
 
 
+def unknown_modules(tree):
+    """Imports of modules that are neither in the tree nor of Python nor in PACKAGES."""
+    for arrow in tree.imports:
+        top = arrow.header.partition(".")[0]
+        if not arrow.target and top not in sys.stdlib_module_names and top not in PACKAGES:
+            yield f"{text_of(arrow)}, which does not exist"
+
+
 def shortest_circle(start, arrows):
     """Includes of the shortest circle through a node, or none."""
     came, queue = {}, collections.deque([start])
@@ -150,11 +199,11 @@ def shortest_circle(start, arrows):
     return []
 
 
-def circles(tree, node_of, what):
+def circles(all_arrows, node_of, what):
     """Yields one circle through every node that is in any; nodes of a printed circle are done."""
     arrows = collections.defaultdict(dict)
-    for arrow in tree.own:
-        here, there = node_of(arrow.file), node_of(arrow.target)
+    for arrow in all_arrows:
+        here, there = node_of(arrow.file), node_of(arrow.target or arrow.file)
         if here != there:
             arrows[here].setdefault(there, arrow)
     done = set()
@@ -189,14 +238,14 @@ def missing_names(tree):
 
 def missing_folders(tree):
     """Yields names of missing folders in the overviews of folders, `name/`."""
-    known = {file[:place] for file in tree.files
-             for place, sign in enumerate(file) if sign == "/"}
+    known = {file[:index] for file in tree.files
+             for index, sign in enumerate(file) if sign == "/"}
     for file in tree.files:
         if not file.endswith("/README.md"):
             continue
         for number, line in enumerate(tree.lines(file), 1):
             for name in FOLDER.findall(line):
-                if name != "build" and not any(f"/{one}".endswith(f"/{name}") for one in known):
+                if name != "build" and not any(f"/{path}".endswith(f"/{name}") for path in known):
                     yield f"{file}:{number} names {name}/, which does not exist"
 
 
@@ -215,8 +264,8 @@ def clashing_constants(tree):
             continue
         for number, line in enumerate(tree.lines(file), 1):
             if match := CONSTANT.match(line):
-                place = namespace(file), match.group(1)
-                other = first.setdefault(place, f"{file}:{number}")
+                constant = namespace(file), match.group(1)
+                other = first.setdefault(constant, f"{file}:{number}")
                 if not other.startswith(f"{file}:"):
                     yield f"{file}:{number} defines {match.group(1)}, which {other} defines too"
 
@@ -229,12 +278,43 @@ def not_executable(tree):
             yield f"{file} names its interpreter but is not executable: chmod +x, or drop the line"
 
 
-def complaints(root, floors):
-    tree = Tree(root)
+def measured(tree):
+    """Numbers that ceilings.txt limits, by name."""
+    lines = {top: sum(len(tree.lines(file)) for file in tree.files
+                      if file.startswith(f"{top}/") and file.endswith(CODE + (".py",)))
+             for top in PARTS + ("tests",)}
+    reach = reach_of(tree.root)
+    return {"lines of src, mc and analysis": sum(lines[top] for top in PARTS),
+            "lines of tests": lines["tests"],
+            "functions and members that reach a study": len(reach.found),
+            "functions that answer yes or no about a study": len(reach.questions)}
+
+
+def compare(numbers, text):
+    """A line for each number, and a problem for each above its ceiling."""
+    ceilings = {}
+    for line in text.splitlines():
+        if line := line.partition("#")[0].strip():
+            name, _, number = line.rpartition(" ")
+            ceilings[name.strip()] = int(number)
+    problems = [f"ceilings: {name} has no line" for name in numbers if name not in ceilings]
+    problems += [f"ceilings: {name} is not measured" for name in ceilings if name not in numbers]
+    lines = []
+    for name in (name for name in numbers if name in ceilings):
+        left = ceilings[name] - numbers[name]
+        lines.append(f"{name}: {numbers[name]}, at most {ceilings[name]}, {max(left, 0)} left")
+        if left < 0:
+            problems.append(f"ceilings: {name}: {numbers[name]} are {-left} too many")
+    return lines, problems
+
+
+def complaints(tree, floors):
     yield from upward(tree, floors)
     yield from unresolved(tree)
-    yield from circles(tree, module, "modules")
-    yield from circles(tree, folder, "folders")
+    yield from unknown_modules(tree)
+    yield from circles(tree.resolved_arrows, module, "modules")
+    yield from circles(tree.resolved_arrows, folder, "folders")
+    yield from circles(tree.imports, module, "Python modules")
     yield from missing_names(tree)
     yield from missing_folders(tree)
     yield from clashing_constants(tree)
@@ -242,10 +322,13 @@ def complaints(root, floors):
 
 
 def main(arguments):
-    floors = arguments[1] if len(arguments) > 1 else pathlib.Path(__file__).with_name("floors.txt")
-    found = list(complaints(arguments[0],
-                            Floors(pathlib.Path(floors).read_text(encoding="utf-8"))))
-    print("\n".join(found) or "the sources are in order")
+    here = pathlib.Path(__file__).parent
+    listed = arguments[1:] + [here / "floors.txt", here / "ceilings.txt"][len(arguments) - 1:]
+    floors, ceilings = (pathlib.Path(path).read_text(encoding="utf-8") for path in listed)
+    tree = Tree(arguments[0])
+    lines, high = compare(measured(tree), ceilings)
+    found = list(complaints(tree, Floors(floors))) + high
+    print("\n".join((found or ["the sources are in order"]) + lines))
     return 1 if found else 0
 
 

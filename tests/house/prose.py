@@ -1,19 +1,16 @@
-"""Checks the language of names, comments and pages: python3 prose.py TREE [GLOSSARY]
+"""Checks the language of comments, messages and pages: python3 prose.py TREE [GLOSSARY]
 
 Prints every offence as file:line and exits with 1 if a limit is exceeded. Limits: openings of
-comments and paragraphs with a fragment word, names with a word of glossary.txt, messages of C++ and
-comments of studies with a word that is marked there, lines of the README and of pages, words of
-sentences.
+comments and paragraphs with a fragment word, messages of C++ and comments of studies with a word of
+glossary.txt, lines of the README and of pages, words of sentences.
 """
 
 import ast
 import bisect
-import io
 import math
 import pathlib
 import re
 import sys
-import tokenize
 
 TOPS = ("src", "mc", "analysis", "tests", "docs")
 NAMES = ("README.md", "CONTRIBUTING.md", "CHANGELOG.md")
@@ -26,52 +23,34 @@ MOST_FRAGMENTS = 0.005     # share of all openings
 MOST_README_LINES, MOST_PAGE_LINES = 120, 400
 MOST_WORDS, PERCENTILE = 35, 0.95
 
-# Comments, literals and identifiers of C++, in the order in which they hide each other.
-CPP = re.compile(r'(?P<comment>//[^\n]*|/\*.*?\*/)|R"(?P<mark>[^(\s]{0,16})\(.*?\)(?P=mark)"'
-                 r'|"(?:\\.|[^"\\\n])*"|(?<![0-9a-fA-F])\'(?:\\.|[^\'\\\n])*\''
-                 r'|^[ \t]*#[ \t]*include[^\n]*|(?P<name>[A-Za-z_]\w*)', re.S | re.M)
-TITLE = re.compile(r'\b(?:TEST_CASE|SECTION)\w*\(\s*((?:"(?:\\.|[^"\\])*"\s*)+)')
+# Comments and literals of C++, in the order in which they hide each other.
+CPP = re.compile(r'//[^\n]*|/\*.*?\*/|R"(?P<mark>[^(\s]{0,16})\(.*?\)(?P=mark)"|"(?:\\.|[^"\\\n])*"'
+                 r'|(?<![0-9a-fA-F])\'(?:\\.|[^\'\\\n])*\'|^[ \t]*#[ \t]*include[^\n]*', re.S | re.M)
 # Standard terms that contain a listed word.
 STANDARD = re.compile(r"periodic orbits?|exponentially tilted")
 TOML_COMMENT = re.compile(r"""^(?:[^"'#\n]|"(?:\\.|[^"\\\n])*"|'[^'\n]*')*#(.*)""", re.M)
 KEY = re.compile(r"\w*[_.]\w[\w.]*")    # identifier within a text
-IN_TEXTS = "(also in texts)"
-WORD = re.compile(r"[A-Z]+(?![a-z])|[A-Z]?[a-z]+")
 DIRECTIVE = re.compile(r"(NOLINT|clang-format|noqa|type:|shellcheck|pylint|!)")
 SENTENCE_END = re.compile(r'(?<!\be\.g)(?<!\bi\.e)(?<!\bal)(?<!\bvs)(?<!\bFig)(?<!\bFigs)(?<!\bEq)'
                           r'(?<!\bEqs)(?<!\bNo)(?<!\bSec)[.!?]["\')*]*\s+(?=["\'(*`\[]*[A-Z0-9`])')
 
 
 class Glossary:
+    """Words that no text may contain, with the standard terms."""
+
     def __init__(self, text):
-        self.words, self.in_texts, self.kept, self.known = [], [], set(), {}
+        self.words = []
         for line in text.splitlines():
-            line = line.partition("#")[0].rstrip()
-            if line.startswith("keep "):
-                self.kept.add(line.split()[1])
-            elif line:
+            if line := line.partition("#")[0].rstrip():
                 pattern, term = re.split(r"\s\s+", line, maxsplit=1)
                 expression = re.compile(rf"\b{pattern.replace('*', '[a-z]*')}\b")
-                if term.endswith(IN_TEXTS):
-                    term = term.removesuffix(IN_TEXTS).rstrip()
-                    self.in_texts.append((expression, pattern, term))
                 self.words.append((expression, pattern, term))
 
-    def text_offence(self, text):
-        """The word of a message or comment that is listed for texts, and the term, or nothing."""
-        plain_text = STANDARD.sub("", KEY.sub(" ", text).lower())
-        return next(((pattern, term) for expression, pattern, term in self.in_texts
-                     if expression.search(plain_text)), None)
-
-    def offence(self, name):
+    def offence(self, text):
         """The listed word and the standard term, or nothing."""
-        if name not in self.known:
-            text = STANDARD.sub("", " ".join(WORD.findall(name)).lower())
-            self.known[name] = None if name in self.kept else next(
-                ((pattern, term) for expression, pattern, term in self.words
-                 if expression.search(text)
-                 and not (" " in name and term.endswith("(not in titles)"))), None)
-        return self.known[name]
+        plain_text = STANDARD.sub("", KEY.sub(" ", text).lower())
+        return next(((pattern, term) for expression, pattern, term in self.words
+                     if expression.search(plain_text)), None)
 
 
 def sources(root):
@@ -96,7 +75,7 @@ class Lines:
     def __init__(self, text):
         self.ends = [match.start() for match in re.finditer("\n", text)]
 
-    def at(self, position):
+    def number(self, position):
         return bisect.bisect_left(self.ends, position) + 1
 
 
@@ -188,31 +167,16 @@ def is_fragment(text):
     return bool(match) and match.group(1).lower() in FRAGMENTS and not text.rstrip().endswith("?")
 
 
-def names(file, text):
-    """Identifiers of C++ and Python, and titles of tests, with their lines."""
-    if file.endswith(CODE):
-        lines = Lines(text)
-        for match in CPP.finditer(text):
-            if match.group("name"):
-                yield lines.at(match.start()), match.group("name")
-        for match in TITLE.finditer(text):
-            yield lines.at(match.start()), match.group(1)
-    elif file.endswith(".py"):
-        for token in tokenize.generate_tokens(io.StringIO(text).readline):
-            if token.type == tokenize.NAME:
-                yield token.start[0], token.string
-
-
 def user_texts(file, text):
     """Messages (string literals with a space) of C++ outside tests, and comments of studies."""
     lines = Lines(text)
     if file.endswith(".toml"):
         for match in TOML_COMMENT.finditer(text):
-            yield lines.at(match.start(1)), match.group(1)
+            yield lines.number(match.start(1)), match.group(1)
     elif file.endswith(CODE) and not file.startswith("tests/"):
         for match in CPP.finditer(text):
             if re.match(r'R?"', match.group()) and " " in match.group():
-                yield lines.at(match.start()), match.group()
+                yield lines.number(match.start()), match.group()
 
 
 class Report:
@@ -241,25 +205,12 @@ def check_openings(texts, report):
                f"{100 * MOST_FRAGMENTS:.1f} %", offences, len(offences) > MOST_FRAGMENTS * total)
 
 
-def check_names(files, texts, glossary, report):
-    offences = set()
-    for file in files:
-        if not file.startswith("docs/") and (bad := glossary.offence(file)):
-            offences.add((file, 1, f"file name with '{bad[0]}', use: {bad[1]}"))
-        for line, name in names(file, texts.get(file, "")):
-            if bad := glossary.offence(name):
-                name = " ".join(name.split())
-                offences.add((file, line, f"{name[:80]} has '{bad[0]}', use: {bad[1]}"))
-    report.add(f"names: {len(offences)} with a word of the glossary, at most 0", offences,
-               bool(offences))
-
-
 def check_texts(texts, glossary, report):
     offences, total = [], 0
     for file, text in texts.items():
         for line, words in user_texts(file, text):
             total += 1
-            if bad := glossary.text_offence(words):
+            if bad := glossary.offence(words):
                 offences.append((file, line, f"{' '.join(words.split())[:80]} has '{bad[0]}', "
                                  f"use: {bad[1]}"))
     report.add(f"texts: {len(offences)} of {total} with a word of the glossary, at most 0",
@@ -276,11 +227,11 @@ def check_pages(texts, report):
     found = [(count, file, line, sentence) for file in lengths
              for line, count, sentence in sentences(texts[file])]
     counts = sorted(count for count, *_ in found)
-    at = counts[math.ceil(PERCENTILE * len(counts)) - 1] if counts else 0
-    report.add(f"sentences: {at} words at {100 * PERCENTILE:.0f} % of {len(counts)}, at most "
+    most = counts[math.ceil(PERCENTILE * len(counts)) - 1] if counts else 0
+    report.add(f"sentences: {most} words at {100 * PERCENTILE:.0f} % of {len(counts)}, at most "
                f"{MOST_WORDS}", [(file, line, f"sentence of {count} words: {sentence[:80]}")
                                  for count, file, line, sentence in found if count > MOST_WORDS],
-               at > MOST_WORDS)
+               most > MOST_WORDS)
 
 
 def main(arguments):
@@ -292,7 +243,6 @@ def main(arguments):
              if file.endswith(CODE + SCRIPTS + (".py", ".md", ".toml"))}
     report = Report()
     check_openings(texts, report)
-    check_names(files, texts, glossary, report)
     check_texts(texts, glossary, report)
     check_pages(texts, report)
     print(report.text())

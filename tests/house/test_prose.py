@@ -8,11 +8,9 @@ import unittest
 
 PROSE = pathlib.Path(__file__).with_name("prose.py")
 GLOSSARY = """
-march*        integrate
+tilt*         exponential tilting
 own baseline  baseline record
-orbit         periodic orbit
-abreast       in lockstep (also in texts)
-keep march_hare   a person
+abreast       in lockstep
 """
 SOUND = {
     "README.md": "# Title\n\nA sentence of `code` words.\n",
@@ -41,7 +39,7 @@ class Prose(unittest.TestCase):
                                   root / "glossary.txt"], capture_output=True, text=True,
                                  check=False)
         self.assertEqual(run.stderr, "")
-        return run.stdout.splitlines()[:-5], run.returncode
+        return run.stdout.splitlines()[:-4], run.returncode
 
     def refused(self, changes, *offences):
         """Checks that these offences and no others are reported."""
@@ -68,21 +66,6 @@ class Prose(unittest.TestCase):
     def test_few_fragments_pass(self):
         many = "".join(f"// Comment {i}.\nint a{i};\n" for i in range(400))
         self.assertEqual(self.run_on({"src/a.hpp": many + "// Of two.\nint b;\n"})[1], 0)
-
-    def test_names_with_a_listed_word(self):
-        self.refused({"src/a.hpp": "int kMarched = march_hare;\nstruct OwnBaseline {};\n"},
-                     "src/a.hpp:1: kMarched has 'march*', use: integrate",
-                     "src/a.hpp:2: OwnBaseline has 'own baseline', use: baseline record")
-        self.refused({"src/a.hpp": "int orbit_state, periodic_orbit_state, summarch;\n"},
-                     "src/a.hpp:1: orbit_state has 'orbit', use: periodic orbit")
-        self.refused({"analysis/a.py": "x = 1\nmarches = x\n"},
-                     "analysis/a.py:2: marches has 'march*', use: integrate")
-
-    def test_titles_and_files_with_a_listed_word(self):
-        self.refused({"tests/a.cpp": '\nTEST_CASE("A march "\n          "of steps") {}\n'},
-                     'tests/a.cpp:2: "A march " "of steps" has \'march*\', use: integrate')
-        self.refused({"mc/march_plan.hpp": ""},
-                     "mc/march_plan.hpp:1: file name with 'march*', use: integrate")
 
     def test_messages_and_comments_of_studies_with_a_listed_word(self):
         self.refused({"mc/a.cpp": '\nauto a = f("{} rows abreast");\n'},

@@ -20,8 +20,8 @@ program for runs.
 from . import figures
 from .columns import Columns
 from .library import Features, Pod, Simulation, Study, features, modes, pod, simulate, stiffness
-from .program import Failed, find_program, run
-from .results import Lives, Results, open
+from .program import Failed, find_program
+from .results import Lives, Results, open, run
 
 __all__ = ["Columns", "Failed", "Features", "Lives", "Pod", "Results", "Simulation", "Study",
            "features", "figures", "find_program", "modes", "open", "pod", "run", "simulate",

@@ -35,11 +35,11 @@ def detection(results: "Results", feature: str, noise: Optional[float] = None,
     table = results.detection_columns()
     levels = results.noise_levels
     for level in levels if noise is None else levels[[results.level(noise)]]:
-        at = ((table["feature"] == feature) & (table["noise_level"] == level)
-              & (table["size_high"] > 0) & (table["tested"] > 0))
-        x = scale * 0.5 * (table["size_low"][at] + table["size_high"][at])
-        rate = table["pd"][at]
-        axes.errorbar(x, rate, yerr=[rate - table["lower"][at], table["upper"][at] - rate],
+        shown = ((table["feature"] == feature) & (table["noise_level"] == level)
+                 & (table["size_high"] > 0) & (table["tested"] > 0))
+        x = scale * 0.5 * (table["size_low"][shown] + table["size_high"][shown])
+        rate = table["pd"][shown]
+        axes.errorbar(x, rate, yerr=[rate - table["lower"][shown], table["upper"][shown] - rate],
                       marker="o", capsize=2, label=f"noise x {level:g}")
     axes.axhline(0.9, color="0.5", linewidth=0.8, linestyle="--")
     axes.set(xlabel=label, ylabel="detection rate", ylim=(-0.02, 1.03), title=feature)
@@ -53,8 +53,8 @@ def _level(results: "Results", feature: str, noise: Optional[float]) -> Dict[str
         raise ValueError(f"{results.path}: too many gearboxes for curves")
     for entry in reliability["features"]:
         if entry["name"] == feature:
-            at = results.level(results.reference if noise is None else noise)
-            level: Dict[str, Any] = entry["levels"][at]
+            index = results.level(results.reference if noise is None else noise)
+            level: Dict[str, Any] = entry["levels"][index]
             return level
     raise KeyError(f"no feature {feature}; available: {', '.join(results.features)}")
 
@@ -82,10 +82,10 @@ def pod(results: "Results", feature: str, noise: Optional[float] = None,
 def roc(results: "Results", feature: str, noise: Optional[float] = None,
         axes: Optional[Any] = None) -> Any:
     """ROC curve: share of faulty gearboxes found against share of healthy ones with an alarm."""
-    at = _level(results, feature, noise)
+    level = _level(results, feature, noise)
     axes = _axes(axes)
-    area = at["auc"]["auc"]
-    axes.plot(at["roc"]["false_alarm_rate"], at["roc"]["detection_rate"],
+    area = level["auc"]["auc"]
+    axes.plot(level["roc"]["false_alarm_rate"], level["roc"]["detection_rate"],
               label=feature if area is None else f"{feature}, area {area:.3f}")
     axes.set(xlabel="false-alarm rate", ylabel="detection rate", xlim=(0, 1), ylim=(0, 1.01))
     axes.legend(loc="lower right")
@@ -101,8 +101,8 @@ def scatter(results: "Results", feature: str, noise: Optional[float] = None,
     rows = results.rows("graded")
     axes.plot(scale * results.size[rows], results.feature(feature, noise)[rows], ".", alpha=0.4)
     table = results.detection_columns()
-    at = (table["feature"] == feature) & np.isclose(table["noise_level"], noise)
-    threshold = table["threshold"][at]
+    shown = (table["feature"] == feature) & np.isclose(table["noise_level"], noise)
+    threshold = table["threshold"][shown]
     if threshold.size and np.isfinite(threshold[0]):
         axes.axhline(threshold[0], color="0.3", linewidth=0.9, linestyle="--", label="threshold")
         axes.legend()

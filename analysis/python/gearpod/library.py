@@ -148,17 +148,17 @@ class Study:
         """Signals and features of the gearboxes in these rows of the study's results, over a
         planet turn or `meshes` mesh periods. With a sequence of rows, arrays have one axis more,
         the first. Raises Failed with code 3 if a gearbox fails."""
-        one = np.ndim(rows) == 0
+        single = np.ndim(rows) == 0
         given = self._open.simulate([int(row) for row in np.atleast_1d(np.asarray(rows))],
                                     0 if meshes is None else _positive("meshes", meshes))
 
         def shaped(array: Array) -> Array:
-            return np.asarray(array[0]) if one else array
+            return np.asarray(array[0]) if single else array
 
         values = shaped(given["features"])
         return Simulation(
             Columns([(name, unit, shaped(array)) for name, unit, array in given["signals"]],
-                    ("sample",) if one else ("row", "sample")),
+                    ("sample",) if single else ("row", "sample")),
             {name: values[..., f, :] for f, name in enumerate(given["feature_names"])},
             given["noise_levels"],
             {mesh: shaped(array) for mesh, array in given["contact_loss"].items()})

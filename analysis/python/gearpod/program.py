@@ -9,11 +9,7 @@ import shutil
 import subprocess
 import sys
 import tempfile
-import warnings
-from typing import TYPE_CHECKING, Any, Mapping, Optional, Sequence, Union
-
-if TYPE_CHECKING:
-    from .results import Results
+from typing import Any, Mapping, Sequence, Union
 
 PathLike = Union[str, "os.PathLike[str]"]
 SOME_FAILED = 3
@@ -35,9 +31,9 @@ def find_program() -> str:
     if given:
         return given
     for folder in pathlib.Path(__file__).resolve().parents:
-        for place in ("bin/gearpod", "build/gearpod"):
-            if (folder / place).is_file():
-                return str(folder / place)
+        for name in ("bin/gearpod", "build/gearpod"):
+            if (folder / name).is_file():
+                return str(folder / name)
     found = shutil.which("gearpod")
     if found is None:
         raise FileNotFoundError("program gearpod not found: build it, add it to PATH, or set "
@@ -71,35 +67,3 @@ def toml_value(value: Any) -> str:
     if isinstance(value, (list, tuple)) or getattr(value, "ndim", 0) > 0:
         return "[" + ", ".join(toml_value(each) for each in value) + "]"
     return repr(value.item() if hasattr(value, "item") else value)
-
-
-def run(study: PathLike, *, set: Optional[Mapping[str, Any]] = None, out: Optional[PathLike] = None,
-        instances: Optional[int] = None, seed: Optional[int] = None, resume: bool = False,
-        force: bool = False, progress: Optional[bool] = None) -> "Results":
-    """Simulates a study and opens its results.
-
-    set       keys of the study to change, {"sensor.noise_m_s2": 2}
-    out       results file; by default the study's name with .h5 in the working folder
-    resume    continue an interrupted run, or add gearboxes
-    force     overwrite the results of another study
-    progress  the program's lines on standard error; by default on a terminal
-
-    Raises Failed with the program's message if it refuses the study. Failed gearboxes only cause a
-    warning.
-    """
-    from .results import open as open_results
-
-    target = pathlib.Path(out) if out is not None else pathlib.Path(
-        pathlib.Path(study).with_suffix(".h5").name)
-    arguments = ["run", os.fspath(study), "--out", str(target)]
-    for key, value in (set or {}).items():
-        arguments += ["--set", f"{key}={toml_value(value)}"]
-    for name, number in (("--instances", instances), ("--seed", seed)):
-        if number is not None:
-            arguments += [name, str(number)]
-    arguments += ["--resume"] * resume + ["--force"] * force
-    shown = sys.stderr.isatty() if progress is None else progress
-    done = call(arguments + ([] if shown else ["--quiet"]), shown)
-    if done.returncode == SOME_FAILED:
-        warnings.warn(f"{target}: some gearboxes failed; results.status shows which", stacklevel=2)
-    return open_results(target)

@@ -25,7 +25,8 @@ import h5py
 import numpy as np
 
 from .columns import Array
-from .program import Failed, call, find_program, run
+from .program import Failed, call, find_program
+from .results import run
 
 INK, PUBLISHED = "0.15", "#c24e00"
 COLOURS = ["#0072b2", "#00795b", "#a23f7d", "#806000", "#4b4fb8", "#5b6066"]
@@ -48,9 +49,9 @@ def studies_folder() -> pathlib.Path:
     """Folder of the published studies in the program's checkout or installation."""
     program = pathlib.Path(find_program()).resolve()
     for folder in (*program.parents, *pathlib.Path(__file__).resolve().parents):
-        for place in ("studies/published", "share/gearpod/studies/published"):
-            if (folder / place / "figures.json").is_file():
-                return folder / place
+        for name in ("studies/published", "share/gearpod/studies/published"):
+            if (folder / name / "figures.json").is_file():
+                return folder / name
     raise FileNotFoundError("studies/published/figures.json not found near the program; set "
                             "GEARPOD_PROGRAM to the program of a checkout or an installation")
 
@@ -99,17 +100,17 @@ def _features(figure: Figure, folder: pathlib.Path, work: str) -> Tuple[Any, Lis
     for panel, axes in zip(figure["panels"], many):
         values = results.feature(panel["feature"], results.reference)[rows]
         for n, group in enumerate(np.unique(groups)):
-            at = np.flatnonzero(groups == group)
-            at = at[np.argsort(x[at], kind="stable")]
+            members = np.flatnonzero(groups == group)
+            order = members[np.argsort(x[members], kind="stable")]
             label = figure["line"].format(1 - group) if "lines" in figure else "gearpod"
-            _line(axes, n, x[at], values[at], label, True)
-            published_text: Dict[float, float] = {k: v for k, v in panel.get("published", [])}
+            _line(axes, n, x[order], values[order], label, True)
+            published: Dict[float, float] = dict(panel.get("published", []))
             group_text = f", {label}," if "lines" in figure else ""
-            for place, value in zip(x[at], values[at]):
-                known = next((v for k, v in published_text.items() if abs(k - place) < 1e-6), None)
-                if known is not None or not published_text:
+            for abscissa, value in zip(x[order], values[order]):
+                known = next((v for k, v in published.items() if abs(k - abscissa) < 1e-6), None)
+                if known is not None or not published:
                     table.append(Row(
-                        figure["name"], f"{panel['feature']}{group_text} at {place:g} "
+                        figure["name"], f"{panel['feature']}{group_text} at {abscissa:g} "
                         f"({figure['axis']})", known, float(value)))
         if panel.get("published"):
             axes.plot(*zip(*panel["published"]), "s", color=PUBLISHED, markersize=6,
@@ -184,12 +185,12 @@ def _motion(figure: Figure, folder: pathlib.Path, work: str) -> Tuple[Any, List[
         axes.plot(phase, away, color=COLOURS[n - 1], linewidth=0.8, label=label)
         table.append(Row(figure["name"], f"largest at {label} ({figure['axis']})", None,
                          float(np.max(away))))
-    (what, published_text), = figure["published"].items()
-    at = _spikes(away, figure["peaks"])
+    (what, distance), = figure["published"].items()
+    spikes = _spikes(away, figure["peaks"])
     for k in range(figure["peaks"]):
-        axes.axvline(phase[at[0]] + k * published_text, color=PUBLISHED, linewidth=1, linestyle="--",
+        axes.axvline(phase[spikes[0]] + k * distance, color=PUBLISHED, linewidth=1, linestyle="--",
                      label="published distance" if k == 0 else None)
-    table.append(Row(figure["name"], what, published_text, float(np.mean(np.diff(phase[at])))))
+    table.append(Row(figure["name"], what, distance, float(np.mean(np.diff(phase[spikes])))))
     axes.set(xlabel="mesh periods", ylabel=figure["axis"])
     axes.legend(fontsize=8)
     return drawing, table
@@ -200,14 +201,14 @@ def _orders(figure: Figure, folder: pathlib.Path, work: str) -> Tuple[Any, List[
     values = _signals(figure, folder, work, figure["row"])[figure["signal"]]
     lines = 2 * figure["scale"] * np.abs(np.fft.rfft(values))[:figure["shown"] + 1] / len(values)
     lines[0] = 0.0
-    (what, published_text), = figure["published"].items()
+    (what, largest), = figure["published"].items()
     drawing, (axes,) = _panels(1)
     axes.vlines(np.arange(len(lines)), 0, lines, color=COLOURS[0], linewidth=1.4, label="gearpod")
-    axes.axvline(published_text, color=PUBLISHED, linewidth=1, linestyle="--", label="published largest")
+    axes.axvline(largest, color=PUBLISHED, linewidth=1, linestyle="--", label="published largest")
     axes.set(xlabel=figure["axis"], ylabel=figure["value"])
     axes.set_ylim(bottom=0)
     axes.legend(fontsize=8)
-    return drawing, [Row(figure["name"], what, published_text, float(np.argmax(lines)))]
+    return drawing, [Row(figure["name"], what, largest, float(np.argmax(lines)))]
 
 
 KINDS = {"features": _features, "stiffness": _stiffness, "motion": _motion, "orders": _orders}

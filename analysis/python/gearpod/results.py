@@ -5,9 +5,11 @@ from __future__ import annotations
 import json
 import os
 import pathlib
+import sys
 import tempfile
+import warnings
 from dataclasses import dataclass
-from typing import Any, Dict, List, Optional, Tuple, Union
+from typing import Any, Dict, List, Mapping, Optional, Tuple, Union
 
 import numpy as np
 
@@ -18,7 +20,7 @@ except ImportError as error:
 
 from . import library
 from .columns import Array, import_pandas, require_parquet
-from .program import PathLike, call
+from .program import SOME_FAILED, PathLike, call, toml_value
 
 FORMAT, NEWEST = "gearpod results", 3
 LIFE_COLUMNS = {"crack_depth": "crack_depth", "record_torque": "torque", "record_speed": "speed",
@@ -31,6 +33,36 @@ def open(path: PathLike) -> "Results":
     """Opens a results file. Raises OSError if there is none, ValueError if gearpod did not write
     it."""
     return Results(path)
+
+
+def run(study: PathLike, *, set: Optional[Mapping[str, Any]] = None, out: Optional[PathLike] = None,
+        instances: Optional[int] = None, seed: Optional[int] = None, resume: bool = False,
+        force: bool = False, progress: Optional[bool] = None) -> "Results":
+    """Simulates a study and opens its results.
+
+    set       keys of the study to change, {"sensor.noise_m_s2": 2}
+    out       results file; by default the study's name with .h5 in the working folder
+    resume    continue an interrupted run, or add gearboxes
+    force     overwrite the results of another study
+    progress  the program's lines on standard error; by default on a terminal
+
+    Raises Failed with the program's message if it refuses the study. Failed gearboxes only cause a
+    warning.
+    """
+    target = pathlib.Path(out) if out is not None else pathlib.Path(
+        pathlib.Path(study).with_suffix(".h5").name)
+    arguments = ["run", os.fspath(study), "--out", str(target)]
+    for key, value in (set or {}).items():
+        arguments += ["--set", f"{key}={toml_value(value)}"]
+    for name, number in (("--instances", instances), ("--seed", seed)):
+        if number is not None:
+            arguments += [name, str(number)]
+    arguments += ["--resume"] * resume + ["--force"] * force
+    shown = sys.stderr.isatty() if progress is None else progress
+    done = call(arguments + ([] if shown else ["--quiet"]), shown)
+    if done.returncode == SOME_FAILED:
+        warnings.warn(f"{target}: some gearboxes failed; results.status shows which", stacklevel=2)
+    return open(target)
 
 
 @dataclass
@@ -134,11 +166,11 @@ class Results:
 
     def level(self, noise: float) -> int:
         """Index of a noise level. Raises KeyError with the available levels."""
-        at = np.flatnonzero(np.isclose(self.noise_levels, noise))
-        if at.size == 0:
+        matches = np.flatnonzero(np.isclose(self.noise_levels, noise))
+        if matches.size == 0:
             raise KeyError(f"no noise level {noise:g}; available: "
                            + ", ".join(f"{level:g}" for level in self.noise_levels))
-        return int(at[0])
+        return int(matches[0])
 
     @property
     def reference(self) -> float:
@@ -259,8 +291,8 @@ class Results:
         reliability = self.report()["reliability"]
         if reliability is None:
             return None
-        at = self.level(self.reference if noise is None else noise)
-        found = reliability["levels"][at]["smallest_fault"]
+        level = self.level(self.reference if noise is None else noise)
+        found = reliability["levels"][level]["smallest_fault"]
         return None if found is None else (found["size"], found["feature"])
 
     def _read(self, folder: str, name: str, names: List[str]) -> Array:

@@ -161,7 +161,7 @@ class Function:
         used = {name: signals[name] for name in self.uses}
         if self.samples:
             return used
-        return {name: [one.without_samples() for one in value] if isinstance(value, list)
+        return {name: [record.without_samples() for record in value] if isinstance(value, list)
                 else value.without_samples() for name, value in used.items()}
 
     def number(self, value):
@@ -187,12 +187,12 @@ class Records:
         rows = self.all if level is None else self.all[level]
         levels = numpy.array(self.request["levels"])
         noise = levels if level is None else levels[level]
-        made, at = [], 0
+        made, column = [], 0
         for kind, properties, arrays in self.request["records"]:
             signals = {}
             for name, count in arrays:
-                signals[name] = rows[..., at:at + count]
-                at += count
+                signals[name] = rows[..., column:column + count]
+                column += count
             made.append((kind, Record(properties | {"noise_level": noise}, signals)))
         found = {kind: record for kind, record in made}
         return found | {"baselines": [record for kind, record in made if kind == "baselines"]}
@@ -265,14 +265,14 @@ def load(path, expected, loaded):
     source = Source(path, sha256(text))
     check_hash(path, source.sha256, expected.get("sha256", source.sha256))
     # Every file imports its modules anew, so that the list does not depend on other files.
-    for folder in {source.folder, *(one.folder for one in loaded)}:
+    for folder in {source.folder, *(other.folder for other in loaded)}:
         for name in imported_from(folder):
             del sys.modules[name]
     importlib.invalidate_caches()
     module = types.ModuleType(os.path.splitext(os.path.basename(path))[0])
     module.__file__ = path
     sys.modules.setdefault(module.__name__, module)
-    sys.path[:] = [source.folder] + [place for place in sys.path if place != source.folder]
+    sys.path[:] = [source.folder] + [folder for folder in sys.path if folder != source.folder]
     try:
         exec(compile(text, path, "exec"), module.__dict__)
     except BaseException as error:
@@ -312,12 +312,12 @@ class Worker:
         if len(sys.modules) == self.imported:
             return
         self.imported = len(sys.modules)
-        known = {os.path.join(one.folder, line) for one in self.sources.values()
-                 for line in [*one.modules, f"{os.path.basename(one.path)} {one.sha256}"]}
-        for one in self.sources.values():
-            for line in one.imported():
-                if os.path.join(one.folder, line) not in known:
-                    raise Refused(f"{one.path}: a function imports {line.rsplit(' ', 1)[0]}; import "
+        known = {os.path.join(loaded.folder, line) for loaded in self.sources.values()
+                 for line in [*loaded.modules, f"{os.path.basename(loaded.path)} {loaded.sha256}"]}
+        for loaded in self.sources.values():
+            for line in loaded.imported():
+                if os.path.join(loaded.folder, line) not in known:
+                    raise Refused(f"{loaded.path}: a function imports {line.rsplit(' ', 1)[0]}; import "
                                   f"it outside of functions, because results hold its SHA-256")
 
     def reply(self, request, data):
@@ -329,21 +329,21 @@ class Worker:
         for path, name in request["features"]:
             random.seed(0)
             numpy.random.seed(0)
-            own, own_errors = self.functions[path][name].values(records, levels)
-            values.append(own)
-            errors += [(name, request["levels"][level], *error) for level, *error in own_errors]
+            result, result_errors = self.functions[path][name].values(records, levels)
+            values.append(result)
+            errors += [(name, request["levels"][level], *error) for level, *error in result_errors]
         self.check_imports()
         return {"errors": errors}, numpy.concatenate(values).tobytes()
 
 
 def receive(connection, count):
     data = bytearray(count)
-    view, at = memoryview(data), 0
-    while at < count:
-        got = connection.recv_into(view[at:])
+    view, received = memoryview(data), 0
+    while received < count:
+        got = connection.recv_into(view[received:])
         if got == 0:
             os._exit(0)
-        at += got
+        received += got
     return data
 
 
