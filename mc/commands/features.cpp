@@ -345,7 +345,8 @@ int recordings_command(const FeaturesOptions& options) {
     try {
         std::optional<Population> population;
         if (!options.against.empty()) {
-            population = read_population(options.against, options.noise_level, scene->study());
+            population =
+                read_population(options.against, options.noise_level, scene->features().teeth);
         }
         std::vector<std::string> notes;
         const HealthyReference healthy =

@@ -21,7 +21,7 @@ void check_any_feature(const std::vector<MeasuredFeature>& all, const std::strin
     int shortest = 0;
     for (const MeasuredFeature& one : all) {
         const bool there = (one.feature->from_sensor ? signal.has_sensor : signal.has_te) &&
-                           !(one.feature->from_sensor && scene.study().effects.quasi_static());
+                           !(one.feature->from_sensor && !scene.features().sensor);
         const bool central = one.feature->needs.overlaps(features::kCentralGears);
         const int needed = central ? 0 : scene.features().least_meshes(*one.feature);
         const int has = one.feature->from_sensor ? signal.sensor_meshes : signal.te_meshes;
@@ -42,7 +42,8 @@ void check_any_feature(const std::vector<MeasuredFeature>& all, const std::strin
 PopulationDecisions compared(const SignalRequest& request, const Measurement& measured,
                              const Scene& scene) {
     PopulationDecisions compared;
-    compared.population = read_population(request.against, request.noise_level, scene.study());
+    compared.population =
+        read_population(request.against, request.noise_level, scene.features().teeth);
     std::vector<const features::Feature*> features;
     for (const MeasuredFeature& one : measured.features) {
         features.push_back(one.feature);

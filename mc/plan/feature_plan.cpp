@@ -14,13 +14,9 @@ constexpr SignalSet kFolded =
     SignalSet::of<features::TeTurn, features::SensorPower, features::ToothRms<Gear::planet>,
                   features::TeParts, features::HealthyRecords>();
 
-std::optional<signals::GearTurns> central_turns(const signals::SpanLayout& span,
-                                                std::optional<int> teeth) {
-    if (!teeth) {
-        return std::nullopt;
-    }
-    const auto turns = signals::turns_of_span(*teeth, span.carrier_meshes, span.meshes());
-    return turns.turns > 0 ? turns : signals::fewest_turns(*teeth, span.carrier_meshes);
+signals::GearTurns central_turns(const signals::SpanLayout& span, int teeth) {
+    const auto turns = signals::turns_of_span(teeth, span.carrier_meshes, span.meshes());
+    return turns.turns > 0 ? turns : signals::fewest_turns(teeth, span.carrier_meshes);
 }
 
 }  // namespace
@@ -88,7 +84,7 @@ FeaturePlan make_feature_plan(const Study& study, const signals::SpanLayout& spa
     plan.te_harmonics = study.features.te_harmonics;
     plan.span = span;
     for (const Member member : kAllMembers) {
-        plan.teeth[member] = study.gearbox.bodies[member].teeth;
+        plan.teeth[member] = study.gearbox.bodies[member].teeth.value_or(0);
     }
     if (study.gearbox.kind == GearboxKind::planetary) {
         plan.planets = study.gearbox.planets;
@@ -96,6 +92,7 @@ FeaturePlan make_feature_plan(const Study& study, const signals::SpanLayout& spa
         plan.ring = central_turns(span, plan.teeth[Member::ring]);
     }
     plan.signal_meshes = plan.meshes_needed(plan.needs.all());
+    plan.low_pass_Hz = study.sensor.low_pass_Hz;
     plan.sensor = !study.effects.quasi_static();
     return plan;
 }

@@ -41,14 +41,15 @@ struct FeaturePlan {
     double tukey_taper = 0.0;  // of the windows of the teeth
     int te_harmonics = 0;      // mesh harmonics of the transmission error
     signals::SpanLayout span;
-    MemberArray<std::optional<int>> teeth;  // of the members that have teeth
-    int planets = 0;                        // 0 in a fixed-shaft gearbox
+    MemberArray<int> teeth{};  // 0: the gearbox has no such member, or it has no teeth
+    int planets = 0;           // 0 in a fixed-shaft gearbox
     // Turns of the central gears that fit into the span, or the smallest number that is enough;
     // empty in a fixed-shaft gearbox.
     std::optional<signals::GearTurns> sun, ring;
     // Number of mesh periods of sensor signal that the used features need.
     int signal_meshes = 0;
-    bool sensor = true;  // false if the gearboxes are quasi-static: only encoders measure
+    double low_pass_Hz = 0.0;  // highest frequency of the sensor's signal
+    bool sensor = true;        // false if the gearboxes are quasi-static: only encoders measure
 
     // Number of mesh periods of sensor signal that features with these needs use.
     int meshes_needed(features::SignalSet with_needs) const;

@@ -29,11 +29,10 @@ constexpr int kFewestOfParts = 4;  // samples per mesh period that order_spectru
 // Reason why a feature cannot be computed from this signal; "" if it can.
 std::string why_unavailable(const Feature& feature, const Scene& scene,
                             const MeasuredSignal& signal, bool has_reference) {
-    const bool planetary = scene.study().gearbox.kind == GearboxKind::planetary;
-    if (feature.needs.overlaps(features::kCentralGears) && !planetary) {
+    if (feature.needs.overlaps(features::kCentralGears) && !scene.features().sun) {
         return "the gearbox has no sun and no ring";
     }
-    if (feature.from_sensor && scene.study().effects.quasi_static()) {
+    if (feature.from_sensor && !scene.features().sensor) {
         return "the study has no sensor (effects.motion)";
     }
     if (!(feature.from_sensor ? signal.has_sensor : signal.has_te)) {

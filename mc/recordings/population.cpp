@@ -11,7 +11,7 @@
 #include "analysis/statistics/rank_statistics.hpp"
 #include "mc/files/input/terminal_text.hpp"
 #include "mc/results/results_file.hpp"
-#include "mc/study/gears.hpp"
+#include "mc/study/study.hpp"
 
 namespace gearpod::mc {
 namespace {
@@ -24,7 +24,7 @@ constexpr double kNoValue = std::numeric_limits<double>::quiet_NaN();
 
 // Refuses a file whose tooth numbers differ from the study's, because its features are not
 // comparable.
-void check_teeth(const std::string& path, const Results& results, const Study& study) {
+void check_teeth(const std::string& path, const Results& results, const MemberArray<int>& teeth) {
     std::string text = results.provenance_value("study");
     if (text.empty()) {
         text = results.provenance_value("measured_by_study");
@@ -34,12 +34,12 @@ void check_teeth(const std::string& path, const Results& results, const Study& s
         return;
     }
     for (const Member member : {Member::sun, Member::planet, Member::ring}) {
-        const auto own = teeth_of(study, member), other = teeth_of(*theirs, member);
-        if (own != other) {
+        const int other = theirs->gearbox.bodies[member].teeth.value_or(0);
+        if (teeth[member] != other) {
             refuse(path,
                    fmt::format("has a gear with {} teeth, but the study has {}; use results of "
                                "the same gearbox",
-                               other.value_or(0), own.value_or(0)));
+                               other, teeth[member]));
         }
     }
 }
@@ -82,12 +82,13 @@ PopulationFeature feature_of(const Results& results, std::size_t f, std::size_t 
 
 }  // namespace
 
-Population read_population(const std::string& path, double noise_level, const Study& study) {
+Population read_population(const std::string& path, double noise_level,
+                           const MemberArray<int>& teeth) {
     const Results results = read_results(path);
     if (results.provenance_value("kind") == kLivesKind) {
         refuse(path, "holds lives; compare with the results of `run`");
     }
-    check_teeth(path, results, study);
+    check_teeth(path, results, teeth);
     Population population;
     population.file = path;
     population.is_measured = results.provenance_value("kind") == kRecordingsKind;

@@ -29,9 +29,10 @@ struct Population {
 };
 
 // Reads the population at one of the file's noise levels. Throws std::runtime_error naming the file
-// if it is not a results file, has other tooth numbers than the study, lacks the noise level, or
-// has no healthy gearboxes.
-Population read_population(const std::string& path, double noise_level, const Study& study);
+// if it is not a results file, has other tooth numbers than the study (`teeth`), lacks the noise
+// level, or has no healthy gearboxes.
+Population read_population(const std::string& path, double noise_level,
+                           const MemberArray<int>& teeth);
 
 // Comparison of one feature.
 struct AlarmDecision {

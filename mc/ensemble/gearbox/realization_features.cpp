@@ -32,8 +32,8 @@ namespace {
 nlohmann::json properties(const Scene& scene, const InstanceInputs& inputs) {
     nlohmann::json teeth = nlohmann::json::object();
     for (const Member member : kAllMembers) {
-        if (const auto count = scene.features().teeth[member]) {
-            teeth[std::string(member_name(member))] = *count;
+        if (const int count = scene.features().teeth[member]; count > 0) {
+            teeth[std::string(member_name(member))] = count;
         }
     }
     const double mesh_Hz = 1.0 / dynamics::mesh_period_s(scene.inputs(inputs));
