@@ -15,7 +15,8 @@ namespace {
 constexpr double kReach = 1.5;  // standard deviations
 
 double nominal_of(const Study& study, const RandomInput& input) {
-    return std::get<NumberAccess>(find_key(input.key)->access).get(study).value() / input.to_si;
+    const Key& key = *find_key(input.key);
+    return std::get<NumberAccess>(key.access).get(study).value() / key.unit.to_si;
 }
 
 double normal_density(double z) {
@@ -49,8 +50,9 @@ RecordDistribution::RecordDistribution(const Study& study, RecordQuantity quanti
         distinct_ = means_of_parts(*distinct);
     }
     for (const RandomInput& input : study.random) {
-        if (input.distribution.per_record() && record_quantity(input.key) == quantity) {
+        if (input.distribution.per_record() && input.quantity == quantity) {
             input_ = input;
+            input_->distribution = input.distribution.in_unit_of_file();
             nominal_ = nominal_of(study, input);
         }
     }
@@ -142,8 +144,7 @@ RecordDistributions::RecordDistributions(const Study& study)
       gain(study, RecordQuantity::gain, study.life.gain_scatter),
       noise(study, RecordQuantity::noise, study.life.noise_scatter),
       sensor_noise_only(std::ranges::any_of(study.random, [](const RandomInput& input) {
-          return input.distribution.per_record() &&
-                 record_quantity(input.key) == RecordQuantity::noise;
+          return input.distribution.per_record() && input.quantity == RecordQuantity::noise;
       })) {}
 
 std::vector<double> interpolation_weights(const std::vector<double>& integrated, double factor) {

@@ -77,9 +77,8 @@ double SamplingPlan::variate(std::size_t input, Group group, std::uint64_t index
 
 namespace {
 
-// The size is the only key of a fault that may be random.
 bool is_fault_size(const RandomInput& input) {
-    return input.key.starts_with("fault.");
+    return input.kind == InputKind::fault_size;
 }
 
 // Address at which the study stores the number with this key.
@@ -206,11 +205,9 @@ Realization Sampler::draw(const GearboxId& id, std::span<const GivenInput> given
         // A baseline's own values are not points of the plan.
         const bool planned =
             plan_.has(i) && (id.record == Record::test || distribution.per() == DrawnPer::gearbox);
-        const double value =
-            drawn.input->to_si * (copula_.has(i) ? distribution.quantile(uniform[correlated++])
-                                  : planned
-                                      ? distribution.quantile(plan_.variate(i, id.group, id.index))
-                                      : draw_alone(drawn, id));
+        const double value = copula_.has(i) ? distribution.quantile(uniform[correlated++])
+                             : planned ? distribution.quantile(plan_.variate(i, id.group, id.index))
+                                       : draw_alone(drawn, id);
         values.set(drawn.place, value);
         if (!drawn.is_size) {
             realization.random_values.push_back(value);

@@ -39,7 +39,7 @@ void check_steady(const NeighbourStage& stage) {
                          "give it a steady torque and speed");
     }
     for (const RandomInput& input : stage.study->random) {
-        if (input.key.starts_with("operation.") && input.key.find("speed") != std::string::npos) {
+        if (input.quantity == RecordQuantity::speed) {
             throw SceneError(kStagesKey,
                              named(stage, input.key + " is random, but the common shaft sets it"),
                              "remove it from [random] there");
@@ -114,7 +114,7 @@ std::vector<Scene> make_stages(const Study& study) {
         const InstanceInputs nominal = nominal_inputs(studies[i]);
         if (stage.role == SourceRole::other_fault && !(nominal.fault_size > 0.0) &&
             std::ranges::none_of(studies[i].random, [](const RandomInput& input) {
-                return input.key.starts_with("fault.");
+                return input.kind == InputKind::fault_size;
             })) {
             throw SceneError(kStagesKey, named(stage, "its other fault has the size 0"),
                              "give its [fault] a size");

@@ -76,11 +76,9 @@ double upper_value(const Study& study, const char* key, double given) {
         return given;
     }
     const std::vector<double> levels = random->distribution.levels();
-    const double value = !levels.empty() ? *std::max_element(levels.begin(), levels.end())
-                         : random->distribution.has_quantile()
-                             ? random->distribution.quantile(0.999)
-                             : random->distribution.support().high;
-    return value * random->to_si;
+    return !levels.empty()                       ? *std::max_element(levels.begin(), levels.end())
+           : random->distribution.has_quantile() ? random->distribution.quantile(0.999)
+                                                 : random->distribution.support().high;
 }
 
 // Largest corner gap that extended contact resolves, m: three times the nominal approach plus four

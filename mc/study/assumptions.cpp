@@ -74,7 +74,7 @@ std::string assumptions(const Study& study, bool lives) {
     }
     const bool alike =
         std::all_of(study.random.begin(), study.random.end(),
-                    [](const RandomInput& input) { return input.key.starts_with("fault."); });
+                    [](const RandomInput& input) { return input.kind == InputKind::fault_size; });
     if (alike) {
         text += " Only the fault and the noise vary.";
     }

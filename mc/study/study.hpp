@@ -143,19 +143,21 @@ double crack_begin_m(const Life& life);
 
 // Random inputs of the section [random]: their distributions and correlations.
 
+// Kinds of random inputs that are treated in different ways: those of the sensor do not change the
+// motion, and the fault size is 0 in healthy gearboxes.
+enum class InputKind { other, sensor, fault_size };
+// Quantities that may vary from record to record.
+enum class RecordQuantity { torque, speed, gain, noise };
+
 struct RandomInput {
     std::string key;            // "gearbox.planet_bearing_stiffness_N_m"
-    std::string unit;           // of the key and of the distribution, e.g. "N/m"
-    Distribution distribution;  // in that unit
-    double to_si = 1.0;         // SI value = drawn value * to_si
+    std::string unit;           // of the key, e.g. "N/m"
+    Distribution distribution;  // SI
+    InputKind kind = InputKind::other;
+    std::optional<RecordQuantity> quantity;
 
     bool operator==(const RandomInput&) const = default;
 };
-
-// Quantities that may vary from record to record.
-enum class RecordQuantity { torque, speed, gain, noise };
-// Record quantity that a key gives; empty for keys whose values belong to the gearbox.
-std::optional<RecordQuantity> record_quantity(std::string_view key);
 
 // Rank correlation (Spearman's) of two random inputs.
 struct Correlation {

@@ -33,7 +33,7 @@ int record_turns(const Scene& scene, const InstanceInputs& inputs) {
 
 bool shares_windows(const Study& study) {
     const bool random_speed = std::ranges::any_of(study.random, [](const RandomInput& input) {
-        return input.key.find("_speed_rpm") != std::string::npos;
+        return input.quantity == RecordQuantity::speed;
     });
     return has_record_length(study) && !reason_not_periodic(study).empty() &&
            !study.effects.quasi_static() && !random_speed && !speed_fluctuates(study) &&

@@ -47,14 +47,14 @@ std::optional<std::size_t> distinct_integrations(const Scene& scene) {
     }
     std::size_t count = 1;
     for (const RandomInput& input : scene.study().random) {
-        if (input.key.starts_with("sensor.")) {
+        if (input.kind == InputKind::sensor) {
             continue;
         }
         std::vector<double> values = input.distribution.levels();
         if (values.empty()) {
             return std::nullopt;
         }
-        if (input.key.starts_with("fault.")) {
+        if (input.kind == InputKind::fault_size) {
             values.push_back(0.0);  // the healthy gearboxes of the threshold sample
         }
         std::sort(values.begin(), values.end());

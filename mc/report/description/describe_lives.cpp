@@ -46,7 +46,7 @@ std::string load_text(const RecordDistribution& law, const std::optional<int>& e
 
 // True for fault inputs, which only `run` uses: in a life the crack grows to its depth.
 bool is_of_fault(const RandomInput& input) {
-    return input.key.starts_with("fault.");
+    return input.kind == InputKind::fault_size;
 }
 
 std::string growth_text(const Study& study) {

@@ -1,4 +1,4 @@
-// Uniform distribution on [low, high).
+// Continuous distributions.
 #pragma once
 
 #include <algorithm>
@@ -22,6 +22,7 @@
 
 namespace gearpod::mc {
 
+// Uniform distribution on [low, high).
 struct Uniform : LawDefaults {
     static constexpr std::string_view kName = "uniform";
     double low = 0.0;
@@ -41,7 +42,6 @@ struct Uniform : LawDefaults {
 };
 
 // Triangular distribution: density highest at the mode, falling linearly to zero at low and high.
-
 struct Triangular : LawDefaults {
     static constexpr std::string_view kName = "triangular";
     double low = 0.0;
@@ -76,7 +76,6 @@ struct Triangular : LawDefaults {
 
 // Normal distribution. Values beyond 8.3 standard deviations (probability 1e-16) are rejected and
 // sampled again. A bounded input may therefore be normal if its bound is that far from the mean.
-
 struct Normal : LawDefaults {
     static constexpr std::string_view kName = "normal";
     double mean = 0.0;
@@ -105,7 +104,6 @@ struct Normal : LawDefaults {
 // Truncated normal distribution: mean and sd before truncation to [low, high]. Sampled by inverting
 // its distribution function. It is evaluated on the side of the mean where the tail is small, so
 // that an interval far from the mean keeps its shape.
-
 struct TruncatedNormal : LawDefaults {
     static constexpr std::string_view kName = "truncated-normal";
     double mean = 0.0;
@@ -153,9 +151,8 @@ struct TruncatedNormal : LawDefaults {
 };
 
 // Lognormal distribution, given by its median and its coefficient of variation cv = sd / mean:
-// sigma^2 = ln(1 + cv^2), mu = ln(median).
-
-// The member cannot be called `median` as in the study file, because median() is a function.
+// sigma^2 = ln(1 + cv^2), mu = ln(median). The member cannot be called
+// `median` as in the study file, because median() is a function.
 struct Lognormal : LawDefaults {
     static constexpr std::string_view kName = "lognormal";
     double middle = 0.0;
@@ -179,7 +176,6 @@ struct Lognormal : LawDefaults {
 };
 
 // Weibull distribution, for lives, wind speeds and loads: P(value > x) = exp(-(x / scale)^shape).
-
 struct Weibull : LawDefaults {
     static constexpr std::string_view kName = "weibull";
     double scale = 0.0;
@@ -203,7 +199,6 @@ struct Weibull : LawDefaults {
 
 // Beta distribution on [low, high]: density proportional to (x - low)^(alpha - 1) (high - x)^(beta
 // - 1). Sampled by inverting its distribution function.
-
 struct Beta : LawDefaults {
     static constexpr std::string_view kName = "beta";
     double low = 0.0;

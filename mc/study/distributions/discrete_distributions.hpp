@@ -1,4 +1,4 @@
-// Degenerate distribution: one value for all gearboxes.
+// Discrete distributions: a constant, values taken in turn, and random values of a list.
 #pragma once
 
 #include <algorithm>
@@ -17,6 +17,7 @@
 
 namespace gearpod::mc {
 
+// Degenerate distribution: one value for all gearboxes.
 struct Constant : LawDefaults {
     static constexpr std::string_view kName = "constant";
     double value = 0.0;
@@ -31,7 +32,6 @@ struct Constant : LawDefaults {
 
 // Given values taken in turn: level index t gives values[t mod count]. A repeated value has a
 // higher weight.
-
 struct Levels : LawDefaults {
     static constexpr std::string_view kName = "levels";
     std::vector<double> values;
@@ -57,7 +57,6 @@ struct Levels : LawDefaults {
 
 // Equally spaced values from low to high, both included, taken in turn: level index t gives value
 // number t mod count.
-
 struct Grid {
     static constexpr std::string_view kName = "grid";
     double low = 0.0;
@@ -91,7 +90,6 @@ struct Grid {
 
 // Discrete distribution: a random value of a list, with probabilities proportional to the weights.
 // In contrast, `levels` takes its values in turn.
-
 struct Discrete : LawDefaults {
     static constexpr std::string_view kName = "discrete";
     std::vector<double> values;
@@ -146,7 +144,6 @@ struct Discrete : LawDefaults {
 // Empirical distribution: a list of equally probable values, measured or sampled from a posterior.
 // Inputs with the same nonzero `rows` use the same index into their lists, so that values measured
 // together stay together.
-
 struct Empirical : LawDefaults {
     static constexpr std::string_view kName = "empirical";
     static constexpr std::string_view kOtherwise =
@@ -166,16 +163,16 @@ struct Empirical : LawDefaults {
         return {*low, *high, false, false};
     }
     double draw(Philox& engine, std::uint64_t) const {
-        const double place = boost::random::uniform_01<double>()(engine);
-        return values[static_cast<std::size_t>(place * static_cast<double>(values.size()))];
+        const double share = boost::random::uniform_01<double>()(engine);
+        return values[static_cast<std::size_t>(share * static_cast<double>(values.size()))];
     }
     double quantile(double p) const {
         std::vector<double> ascending = values;
-        const auto place = static_cast<std::size_t>(p * static_cast<double>(values.size()));
-        const auto at =
-            ascending.begin() + static_cast<std::ptrdiff_t>(std::min(place, values.size() - 1));
-        std::nth_element(ascending.begin(), at, ascending.end());
-        return *at;
+        const auto rank = static_cast<std::size_t>(p * static_cast<double>(values.size()));
+        const auto ranked =
+            ascending.begin() + static_cast<std::ptrdiff_t>(std::min(rank, values.size() - 1));
+        std::nth_element(ascending.begin(), ranked, ascending.end());
+        return *ranked;
     }
     bool operator==(const Empirical&) const = default;
 };

@@ -162,8 +162,9 @@ class FieldReader {
         return what.empty() || add(entry.position, entry.name, std::move(what), "");
     }
 
-    bool add(const Position& at, const std::string& name, std::string what, std::string remedy) {
-        problems_.push_back({at.file, at.line, name.empty() ? key_ : key_ + "." + name,
+    bool add(const Position& position, const std::string& name, std::string what,
+             std::string remedy) {
+        problems_.push_back({position.file, position.line, name.empty() ? key_ : key_ + "." + name,
                              std::move(what), std::move(remedy)});
         return false;
     }
@@ -217,26 +218,36 @@ std::string text_of(const std::vector<double>& values) {
 
 }  // namespace
 
-Distribution::Distribution(std::shared_ptr<const DistributionKind> kind) : kind_(std::move(kind)) {}
+Distribution::Distribution(std::shared_ptr<const DistributionKind> kind, double to_si)
+    : kind_(std::move(kind)), to_si_(to_si) {}
 
 std::string_view Distribution::name() const {
     return std::visit([](const auto& law) { return law.kName; }, kind_->law);
 }
 
 double Distribution::median() const {
-    return std::visit([](const auto& law) { return law.median(); }, kind_->law);
+    return to_si_ * std::visit([](const auto& law) { return law.median(); }, kind_->law);
 }
 
 Support Distribution::support() const {
-    return std::visit([](const auto& law) { return law.support(); }, kind_->law);
+    Support support = std::visit([](const auto& law) { return law.support(); }, kind_->law);
+    support.low *= to_si_;
+    support.high *= to_si_;
+    return support;
 }
 
 std::vector<double> Distribution::levels() const {
-    return std::visit([](const auto& law) { return law.levels(); }, kind_->law);
+    std::vector<double> levels =
+        std::visit([](const auto& law) { return law.levels(); }, kind_->law);
+    for (double& level : levels) {
+        level *= to_si_;
+    }
+    return levels;
 }
 
 double Distribution::draw(Philox& engine, std::uint64_t level_index) const {
-    return std::visit([&](const auto& law) { return law.draw(engine, level_index); }, kind_->law);
+    return to_si_ *
+           std::visit([&](const auto& law) { return law.draw(engine, level_index); }, kind_->law);
 }
 
 bool Distribution::has_quantile() const {
@@ -250,15 +261,15 @@ bool Distribution::has_quantile() const {
 }
 
 double Distribution::quantile(double share) const {
-    return std::visit(
-        [&](const auto& law) {
-            if constexpr (requires { law.quantile(share); }) {
-                return law.quantile(share);
-            } else {
-                return law.median();
-            }
-        },
-        kind_->law);
+    return to_si_ * std::visit(
+                        [&](const auto& law) {
+                            if constexpr (requires { law.quantile(share); }) {
+                                return law.quantile(share);
+                            } else {
+                                return law.median();
+                            }
+                        },
+                        kind_->law);
 }
 
 Distribution::Rows Distribution::rows() const {
@@ -297,11 +308,12 @@ std::string Distribution::toml() const {
 }
 
 bool Distribution::operator==(const Distribution& other) const {
-    return kind_->law == other.kind_->law && kind_->per == other.kind_->per;
+    return kind_->law == other.kind_->law && kind_->per == other.kind_->per &&
+           to_si_ == other.to_si_;
 }
 
 std::optional<Distribution> Distribution::read(const Value& table, const std::string& key,
-                                               Problems& problems) {
+                                               Problems& problems, double to_si) {
     const std::string choices = fmt::format("one of {}", fmt::join(distribution_names(), ", "));
     const Entry* kind = table.kind == Value::Kind::table ? table.find("distribution") : nullptr;
     if (kind == nullptr) {
@@ -326,7 +338,8 @@ std::optional<Distribution> Distribution::read(const Value& table, const std::st
             const std::optional<DrawnPer> drawn_per = read_per(table, key, problems);
             if (FieldReader(table, key, problems).read(law) && drawn_per) {
                 distribution = Distribution(std::make_shared<const DistributionKind>(
-                    DistributionKind{std::move(law), *drawn_per}));
+                                                DistributionKind{std::move(law), *drawn_per}),
+                                            to_si);
             }
         }
     });

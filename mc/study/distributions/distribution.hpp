@@ -22,7 +22,8 @@ struct DistributionKind;  // distribution.cpp
 // baseline was recorded and the one that is tested), or each record.
 enum class DrawnPer { gearbox, assembly, record };
 
-// Immutable distribution; copies share their state. Values are in the unit of the study file's key.
+// Immutable distribution; copies share their state. Values are in SI: to_si times those of the
+// study file.
 class Distribution {
   public:
     std::string_view name() const;
@@ -48,17 +49,22 @@ class Distribution {
     DrawnPer per() const;
     // True if every record of a gearbox has its own value (per = "record").
     bool per_record() const { return per() == DrawnPer::record; }
-    // Inline TOML table, e.g. { distribution = "uniform", low = 0, high = 3 }.
+    // The same distribution with its values as in the study file.
+    Distribution in_unit_of_file() const { return Distribution(kind_, 1.0); }
+    // Inline TOML table with values as in the study file, e.g. { distribution = "uniform", low = 0,
+    // high = 3 }.
     std::string toml() const;
     bool operator==(const Distribution& other) const;
 
-    // Reads a TOML table. Problems are appended under `key`; the result is then empty.
+    // Reads a TOML table. Problems are appended under `key`; the result is then empty. `to_si`:
+    // factor from its unit to SI.
     static std::optional<Distribution> read(const Value& table, const std::string& key,
-                                            Problems& problems);
+                                            Problems& problems, double to_si = 1.0);
 
   private:
-    explicit Distribution(std::shared_ptr<const DistributionKind> kind);
+    Distribution(std::shared_ptr<const DistributionKind> kind, double to_si);
     std::shared_ptr<const DistributionKind> kind_;
+    double to_si_;
 };
 
 // Names of all distributions, for help texts and spelling suggestions.

@@ -1,4 +1,4 @@
-// Support of a distribution.
+// Ranges of numbers: the support of a distribution, and the values allowed in a study file.
 #pragma once
 
 #include <cmath>
@@ -18,7 +18,6 @@ struct Support {
 };
 
 // Interval of values allowed for a number in a study file, in the unit of the file.
-
 struct Range {
     double low = -std::numeric_limits<double>::infinity();
     double high = std::numeric_limits<double>::infinity();
@@ -31,8 +30,6 @@ struct Range {
     // Remedy text, e.g. "give a value > 0"; empty if every value is allowed.
     std::string hint() const;
 };
-
-// Limits on the magnitude of a study's numbers and on the length of its lists.
 
 // True for 0 and for magnitudes that leave room for the products and high powers computed from
 // them. The eighth power of a torque, a stiffness or a noise level must be a finite double.

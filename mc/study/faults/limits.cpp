@@ -25,9 +25,12 @@ void check_size(StudyDraft& draft, const SizeLimit& limit) {
         draft.reject(draft.given.at(path), path, what(nominal), remedy);
     }
     const RandomInput* random = draft.study.find_random(path);
-    if (random != nullptr && random->distribution.support().high > limit.largest * kMargin) {
-        draft.reject(draft.given_random.at(path), "random." + path,
-                     what(random->distribution.support().high), remedy);
+    if (random == nullptr) {
+        return;
+    }
+    const double largest = random->distribution.in_unit_of_file().support().high;
+    if (largest > limit.largest * kMargin) {
+        draft.reject(draft.given_random.at(path), "random." + path, what(largest), remedy);
     }
 }
 

@@ -155,7 +155,7 @@ void check_uncertain_inputs(StudyDraft& draft) {
     const std::vector<std::string> named = draft.study.detection.uncertain_inputs;
     for (auto key = named.begin(); key != named.end(); ++key) {
         const auto drawn = std::ranges::find(draft.study.random, *key, &RandomInput::key);
-        if (drawn == draft.study.random.end() || key->starts_with("fault.")) {
+        if (drawn == draft.study.random.end() || drawn->kind == InputKind::fault_size) {
             draft.reject("detection.uncertain_inputs",
                          fmt::format("\"{}\" is not a random input of the gearboxes", *key),
                          "name keys of [random] other than the fault's");

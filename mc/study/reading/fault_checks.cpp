@@ -103,7 +103,7 @@ void check_edges_given(StudyDraft& draft, const Distribution& size) {
             fmt::format("add {} = [...] to [detection]", edges_name));
         return;
     }
-    const Support support = size.support();
+    const Support support = size.in_unit_of_file().support();
     if (edges.size() < 2 || edges.front() / key.unit.to_si > support.low * kMargin ||
         edges.back() / key.unit.to_si * kMargin < support.high) {
         const std::string unit = key.unit.suffix.empty() ? "" : " " + std::string(key.unit.name);

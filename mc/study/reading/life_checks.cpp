@@ -42,7 +42,7 @@ void check_loads(StudyDraft& draft) {
                            const std::optional<int>& distinct, RecordQuantity quantity,
                            double scatter) {
         const bool by_law = std::ranges::any_of(study.random, [&](const RandomInput& input) {
-            return input.distribution.per_record() && record_quantity(input.key) == quantity;
+            return input.distribution.per_record() && input.quantity == quantity;
         });
         const std::optional<int>& nodes =
             quantity == RecordQuantity::torque ? life.polynomial_torques : life.polynomial_speeds;

@@ -24,7 +24,7 @@ void reject(StudyDraft& draft, const Entry& entry, const std::string& path, std:
 
 void check_support(StudyDraft& draft, const Key& key, const Entry& entry,
                    const Distribution& distribution) {
-    const Support support = distribution.support();
+    const Support support = distribution.in_unit_of_file().support();
     if (key.range.contains(support)) {
         return;
     }
@@ -46,10 +46,10 @@ Value with_values(StudyDraft& draft, const Key& key, const Entry& entry) {
     if (!source || table.find("values") != nullptr) {
         return table;
     }
-    const Position at = entry.position;
-    Entry values{"values", {}, at}, rows{"rows", {}, at};
+    const Position position = entry.position;
+    Entry values{"values", {}, position}, rows{"rows", {}, position};
     try {
-        values.value = list_of(*source, key.path(), at, kMostElements);
+        values.value = list_of(*source, key.path(), position, kMostElements);
     } catch (const SignalError& error) {
         reject(draft, entry, key.path(), error.what(), "name a file and one of its columns");
         draft.bad.insert(key.path());
@@ -61,8 +61,9 @@ Value with_values(StudyDraft& draft, const Key& key, const Entry& entry) {
     if (known == draft.random_files.end()) {
         draft.random_files.push_back(source->file);
     }
-    std::erase_if(table.entries, [](const Entry& one) {
-        return one.name == "file" || one.name == "column" || one.name == "rows";
+    std::erase_if(table.entries, [](const Entry& source_entry) {
+        const std::string& name = source_entry.name;
+        return name == "file" || name == "column" || name == "rows";
     });
     table.entries.push_back(std::move(values));
     table.entries.push_back(std::move(rows));
@@ -109,6 +110,29 @@ void check_rows(StudyDraft& draft) {
     }
 }
 
+// Record quantity that a key gives; empty for keys whose values belong to the gearbox.
+std::optional<RecordQuantity> record_quantity(std::string_view key) {
+    if (key == "operation.torque_N_m") {
+        return RecordQuantity::torque;
+    }
+    if (key.starts_with("operation.") && key.ends_with("_speed_rpm")) {
+        return RecordQuantity::speed;
+    }
+    if (key == "sensor.gain") {
+        return RecordQuantity::gain;
+    }
+    if (key == "sensor.noise_m_s2") {
+        return RecordQuantity::noise;
+    }
+    return std::nullopt;
+}
+
+InputKind kind_of(const Key& key) {
+    return key.section == "sensor"  ? InputKind::sensor
+           : key.section == "fault" ? InputKind::fault_size
+                                    : InputKind::other;
+}
+
 void add_random(StudyDraft& draft, const Key& key, const Entry& entry) {
     const std::string path = key.path();
     if (!key.may_be_random()) {
@@ -125,7 +149,8 @@ void add_random(StudyDraft& draft, const Key& key, const Entry& entry) {
         draft.bad.insert("random." + path);
         return;
     }
-    const auto distribution = Distribution::read(table, "random." + path, draft.problems);
+    const auto distribution =
+        Distribution::read(table, "random." + path, draft.problems, key.unit.to_si);
     if (!distribution) {
         draft.bad.insert(path);
         draft.bad.insert("random." + path);
@@ -133,10 +158,10 @@ void add_random(StudyDraft& draft, const Key& key, const Entry& entry) {
     }
     check_support(draft, key, entry, *distribution);
     check_record_law(draft, key, entry, *distribution);
-    draft.study.random.push_back({path, std::string(key.unit.name), *distribution, key.unit.to_si});
+    draft.study.random.push_back(
+        {path, std::string(key.unit.name), *distribution, kind_of(key), record_quantity(path)});
     if (!draft.given.contains(path)) {
-        std::get<NumberAccess>(key.access)
-            .set(draft.study, distribution->median() * key.unit.to_si);
+        std::get<NumberAccess>(key.access).set(draft.study, distribution->median());
     }
 }
 
@@ -251,7 +276,7 @@ class CorrelationReader {
             if (!draft_.bad.contains("random." + key)) {
                 reject(key + " is not random", known.empty() ? "" : suggest(key, known));
             }
-        } else if (key.starts_with("fault.")) {
+        } else if (input->kind == InputKind::fault_size) {
             reject(key + " is the fault size, which cannot be correlated with other inputs",
                    "correlate other inputs");
         } else if (input->distribution.per() != DrawnPer::gearbox) {
@@ -279,7 +304,9 @@ class CorrelationReader {
     }
 
     void add(const Correlation& pair) {
-        const auto keys = [](const Correlation& one) { return std::minmax(one.first, one.second); };
+        const auto keys = [](const Correlation& known) {
+            return std::minmax(known.first, known.second);
+        };
         auto& all = draft_.study.correlations;
         const bool known = std::ranges::any_of(
             all, [&](const Correlation& other) { return keys(other) == keys(pair); });
@@ -347,7 +374,7 @@ ShortForm short_form(const Study& study, RecordQuantity quantity) {
 
 void check_input(StudyDraft& draft, const RandomInput& input) {
     const Study& study = draft.study;
-    const auto quantity = record_quantity(input.key);
+    const auto quantity = input.quantity;
     const auto reject = [&](const std::string& what, const std::string& remedy) {
         draft.reject(draft.given_random[input.key], "random." + input.key + ".per", what, remedy);
     };

@@ -22,10 +22,7 @@ std::vector<double> single_sizes(const Study& study) {
     if (random == nullptr) {
         return {fault_size(study)};
     }
-    std::vector<double> sizes;
-    for (const double level : random->distribution.levels()) {
-        sizes.push_back(level * random->to_si);
-    }
+    std::vector<double> sizes = random->distribution.levels();
     sort_distinct(sizes);
     return sizes;
 }

@@ -92,7 +92,8 @@ TEST_CASE("The nominal value of a random input is the given one, else the median
     CHECK(fault_size(study) == Approx(0.002));
     const Study without = study_of(example_with("planet_bearing_stiffness_N_m = 1e8\n", ""));
     CHECK(*without.gearbox.bodies[Member::planet].bearing_stiffness_N_m == 1.1e8);
-    CHECK(study.find_random("fault.depth_mm")->to_si == 1e-3);
+    CHECK(study.find_random("fault.depth_mm")->distribution.median() ==
+          1e-3 * study.find_random("fault.depth_mm")->distribution.in_unit_of_file().median());
     CHECK(study.find_random("sensor.noise_m_s2") == nullptr);
 }
 
@@ -105,7 +106,7 @@ TEST_CASE("Overrides replace values of the file and may omit quotes around strin
     CHECK(study.ensemble.seed == 12);
     CHECK(study.fault.side == FaultSide::sun);
     CHECK(study.effects.motion == Motion::torsional);
-    CHECK(study.find_random("fault.depth_mm")->distribution.levels() ==
+    CHECK(study.find_random("fault.depth_mm")->distribution.in_unit_of_file().levels() ==
           std::vector<double>{0.0, 2.0, 4.0});
     CHECK(study.find_random("gearbox.planet_bearing_stiffness_N_m")->distribution.toml() ==
           "{ distribution = \"lognormal\", median = 110000000, cv = 0.5 }");
