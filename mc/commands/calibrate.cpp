@@ -17,9 +17,6 @@
 #include "mc/files/signal_file.hpp"
 #include "mc/library/run/command_files.hpp"
 #include "mc/recordings/measure_recordings.hpp"
-#include "mc/study/housing.hpp"
-#include "mc/study/noise.hpp"
-#include "mc/study/other_sources.hpp"
 
 namespace gearpod::mc {
 namespace {
@@ -80,31 +77,7 @@ class Command {
         if (!scene || !outputs_good()) {
             return kBadInput;
         }
-        if (scene->study().effects.quasi_static()) {
-            problems_.push_back({options_.study.path, 0, "effects.motion",
-                                 "a quasi-static study has no acceleration signal to calibrate",
-                                 "choose a motion with inertia, e.g. \"translational-torsional\""});
-            return stop();
-        }
-        if (!scene->study().sensor.additional.empty()) {
-            problems_.push_back({options_.study.path, 0, "sensor.additional",
-                                 "calibration has one sensor", "remove them"});
-        }
-        if (has_housing(scene->study())) {
-            problems_.push_back({options_.study.path, 0, "sensor.housing_modes",
-                                 "calibration does not simulate the housing",
-                                 "remove them, and a measured response (sensor.response_Hz)"});
-        }
-        if (has_range(scene->study())) {
-            problems_.push_back({options_.study.path, 0, "sensor.range_m_s2",
-                                 "calibration does not clip the samples", "remove it"});
-        }
-        if (has_other_sources(scene->study())) {
-            problems_.push_back({options_.study.path, 0, "sensor.bearings",
-                                 "calibration simulates neither faulty bearings nor neighbouring "
-                                 "stages (sensor.stages)",
-                                 "use recordings without them, and remove the keys"});
-        }
+        problems_ = calibration_problems(scene->study(), options_.study.path);
         if (!problems_.empty()) {
             return stop();
         }
@@ -119,8 +92,17 @@ class Command {
             return stop();
         }
         set_ = healthy_set(records, options_.feature, problems_);
-        choose_inputs(scene->study());
-        return problems_.empty() ? calibrated(scene->study()) : stop();
+        const double rms = set_.mean_of("sensor_rms");
+        if (inputs_.empty() && rms > 0.0) {
+            inputs_ = default_inputs(scene->study(), rms);
+        } else if (inputs_.empty() && problems_.empty()) {
+            problems_.push_back({"calibrate", 0, "",
+                                 "the default prior of the background noise needs the feature "
+                                 "sensor_rms",
+                                 "give --prior sensor.noise_m_s2=LOW:HIGH:log and the other "
+                                 "priors"});
+        }
+        return problems_.empty() ? calibrated(thread_count(scene->study())) : stop();
     }
 
   private:
@@ -168,24 +150,7 @@ class Command {
         return can_write({"--json", options_.json}, read, {json_output(), options_.force}) && good;
     }
 
-    // Uses the priors given by --prior, or else the default ones.
-    void choose_inputs(const Study& study) {
-        if (!inputs_.empty()) {
-            return;
-        }
-        const double rms = set_.mean_of("sensor_rms");
-        if (rms > 0.0) {
-            inputs_ = default_inputs(study, rms);
-        } else if (problems_.empty()) {
-            problems_.push_back({"calibrate", 0, "",
-                                 "the default prior of the background noise needs the feature "
-                                 "sensor_rms",
-                                 "give --prior sensor.noise_m_s2=LOW:HIGH:log and the other "
-                                 "priors"});
-        }
-    }
-
-    int calibrated(const Study& study) {
+    int calibrated(int threads) {
         StudyOptions random = options_.study;
         for (const CalibratedInput& input : inputs_) {
             random.overrides.push_back(input.as_override());
@@ -212,21 +177,25 @@ class Command {
         task.inputs = inputs_;
         task.lengths = set_.lengths;
         task.measured = set_.values;
-        task.threads = thread_count(study);
         task.integrated = static_cast<std::size_t>(options_.sets);
         const SetSummary summary(set_.features, set_.values);
         std::vector<SimulatedSet> first;
         print_cost_of_rounds(task);
+        const auto report_time = [&](double seconds) {
+            if (!options_.quiet) {
+                fmt::print(
+                    stderr,
+                    "this round: about {:.0f} s of processor time, {:.0f} s on {} thread(s)\n",
+                    seconds, seconds / threads, threads);
+            }
+        };
         const CalibrationResult result =
-            calibrate(*scene, task, summary, first, [&](double seconds) {
-                if (!options_.quiet) {
-                    fmt::print(
-                        stderr,
-                        "this round: about {:.0f} s of processor time, {:.0f} s on {} thread(s)\n",
-                        seconds, seconds / task.threads, task.threads);
-                }
+            calibrate(task, summary, first, [&](const PriorRegion& region, const SetPlan& plan) {
+                return simulate_sets(*scene, inputs_, region, plan, set_.lengths, summary, threads,
+                                     report_time);
             });
-        return finish(*written.study, task, result);
+        return finish(text_without_distributions(*written.study, inputs_),
+                      calibration_intro(scene->draw().seed, set_, result), task, result);
     }
 
     void print_cost_of_rounds(const CalibrationTask& task) const {
@@ -241,12 +210,12 @@ class Command {
         }
     }
 
-    int finish(const Study& study, const CalibrationTask& task, const CalibrationResult& result) {
+    int finish(std::string study, const std::vector<std::string>& intro,
+               const CalibrationTask& task, const CalibrationResult& result) {
         if (options_.json != "-" && options_.out != "-") {
             fmt::print("{}", calibration_text(result));
         }
-        const std::string text =
-            calibrated_study(study, result, calibration_intro(study, set_, result));
+        const std::string text = calibrated_study(std::move(study), result, intro);
         const bool out = options_.out.empty() || write_text_to(options_.out, text);
         const bool json =
             options_.json.empty() ||

@@ -184,19 +184,13 @@ void check_count(const SetsInRegion& in_region, std::size_t of, std::size_t inpu
 
 }  // namespace
 
-CalibrationResult calibrate(const Scene& scene, const CalibrationTask& task,
-                            const SetSummary& summary, std::vector<SimulatedSet>& first,
-                            const std::function<void(double)>& report_time) {
+CalibrationResult calibrate(const CalibrationTask& task, const SetSummary& summary,
+                            std::vector<SimulatedSet>& first, const SimulateRound& simulate) {
     const std::size_t inputs = task.inputs.size();
     const PriorRegion prior{std::vector<double>(inputs, 0.0), std::vector<double>(inputs, 1.0)};
     const std::vector<double> observed = summary.of(task.measured);
-    const auto simulate = [&](const PriorRegion& region, std::size_t number) {
-        return simulate_sets(scene, task.inputs, region,
-                             {task.integrated, task.backgrounds, number}, task.lengths, summary,
-                             task.threads, report_time);
-    };
     if (first.empty()) {
-        first = simulate(prior, 0);
+        first = simulate(prior, {task.integrated, task.backgrounds, 0});
     }
     const std::size_t summaries = summary.names().size();
     const SetsInRegion coarse = sets_in_region(prior, first, summaries);
@@ -204,7 +198,8 @@ CalibrationResult calibrate(const Scene& scene, const CalibrationTask& task,
     const PriorRegion region =
         narrowed(analysis::regression_abc(coarse.abc, observed, kAcceptedShare), prior);
 
-    std::vector<SimulatedSet> sets = simulate(region, task.integrated);
+    std::vector<SimulatedSet> sets =
+        simulate(region, {task.integrated, task.backgrounds, task.integrated});
     sets.insert(sets.end(), first.begin(), first.end());
     const SetsInRegion fine = sets_in_region(region, sets, summaries);
     check_count(fine, sets.size(), inputs);
@@ -273,7 +268,7 @@ std::string comment_of(const CalibrationResult& result, std::size_t p) {
 
 }  // namespace
 
-std::string calibrated_study(const Study& study, const CalibrationResult& result,
+std::string calibrated_study(std::string study, const CalibrationResult& result,
                              const std::vector<std::string>& intro) {
     std::string out;
     for (const std::string& line : intro) {
@@ -285,35 +280,25 @@ std::string calibrated_study(const Study& study, const CalibrationResult& result
         found +=
             fmt::format("{} = {}\n", result.found[p].input.key, distribution_of(result.samples[p]));
     }
-    // The sample replaces the study's own distributions of these inputs.
-    Study kept = study;
-    kept.detection.uncertain_inputs.clear();
-    for (const InputPosterior& one : result.found) {
-        kept.detection.uncertain_inputs.push_back(one.input.key);
-    }
-    std::erase_if(kept.random, [&](const RandomInput& one) {
-        return std::ranges::any_of(result.found,
-                                   [&](const InputPosterior& f) { return f.input.key == one.key; });
-    });
-    std::string text = resolved_text(kept);
     const std::string section = "[random]\n";
-    const std::size_t at = text.find("\n" + section);
-    if (at == std::string::npos) {
-        const std::size_t features = text.find("\n[features]");
-        text.insert(features == std::string::npos ? text.size() : features, "\n" + section + found);
+    const std::size_t random = study.find("\n" + section);
+    if (random == std::string::npos) {
+        const std::size_t features = study.find("\n[features]");
+        study.insert(features == std::string::npos ? study.size() : features,
+                     "\n" + section + found);
     } else {
-        text.insert(at + 1 + section.size(), found);
+        study.insert(random + 1 + section.size(), found);
     }
-    return out + text;
+    return out + study;
 }
 
-std::vector<std::string> calibration_intro(const Study& study, const HealthySet& set,
+std::vector<std::string> calibration_intro(std::uint64_t seed, const HealthySet& set,
                                            const CalibrationResult& result) {
     std::vector<std::string> lines{
         fmt::format("Calibrated to {} record(s) of {} healthy gearbox(es) by approximate",
                     set.records, set.lengths.size()),
         fmt::format("Bayesian computation: {} simulated sets ({} failed), seed {}.", result.sets,
-                    result.failed, study.ensemble.seed),
+                    result.failed, seed),
         "Each distribution is the uncertainty of one value, the same for all gearboxes.",
         "A run with this study includes that uncertainty."};
     for (const FeatureCheck& check : result.checks) {

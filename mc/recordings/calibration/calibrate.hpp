@@ -4,6 +4,7 @@
 // posterior.
 #pragma once
 
+#include <cstdint>
 #include <functional>
 #include <nlohmann/json.hpp>
 #include <string>
@@ -54,20 +55,19 @@ struct CalibrationTask {
     RecordLengths lengths;
     RecordValues measured;                          // in the order of the summary's features
     std::size_t integrated = 200, backgrounds = 8;  // in each round
-    int threads = 1;
 };
 
-// Runs both rounds. `report_time`: passed to simulate_sets in each round. `first`: first round of
-// another task that differs only in the measured values. If it is empty, the first round is
+// Runs both rounds. `simulate` returns the sets of one round (simulate_sets). `first`: first round
+// of another task that differs only in the measured values. If it is empty, the first round is
 // simulated and stored there. Throws std::runtime_error if too few sets can be simulated.
-CalibrationResult calibrate(const Scene& scene, const CalibrationTask& task,
-                            const SetSummary& summary, std::vector<SimulatedSet>& first,
-                            const std::function<void(double)>& report_time);
+using SimulateRound = std::function<std::vector<SimulatedSet>(const PriorRegion&, const SetPlan&)>;
+CalibrationResult calibrate(const CalibrationTask& task, const SetSummary& summary,
+                            std::vector<SimulatedSet>& first, const SimulateRound& simulate);
 
-// Study file (TOML) in which the posterior sample replaces the distributions of the inputs in
-// [random]. The sample is stored in rows; comments give the uncertainty. `intro`: comment lines at
-// the top.
-std::string calibrated_study(const Study& study, const CalibrationResult& result,
+// Study file (TOML) with the posterior sample as distributions of the inputs in [random]. The
+// sample is stored in rows; comments give the uncertainty. `study`: text of the study without
+// distributions of the inputs. `intro`: comment lines at the top.
+std::string calibrated_study(std::string study, const CalibrationResult& result,
                              const std::vector<std::string>& intro);
 
 // Results of `calibrate` as text, as JSON and as the first comment of the calibrated study.
@@ -79,7 +79,7 @@ nlohmann::ordered_json calibration_json(const HealthySet& set, const Calibration
                                         const CalibrationResult& result);
 
 // Comment lines of calibrated_study().
-std::vector<std::string> calibration_intro(const Study& study, const HealthySet& set,
+std::vector<std::string> calibration_intro(std::uint64_t seed, const HealthySet& set,
                                            const CalibrationResult& result);
 
 }  // namespace gearpod::mc

@@ -113,7 +113,7 @@ class Simulator {
         signal.has_sensor = true;
         signal.sensor.resize(count);
         if (noise_by_density(scene_.study())) {
-            draw_unit_noise(scene_, inputs, NoiseEngines{engine, engine, engine},
+            draw_unit_noise(scene_, inputs, NoiseEngines<Philox>{engine, engine, engine},
                             std::span(signal.sensor));
         } else {
             signals::draw_normals(engine, std::span(signal.sensor));

@@ -8,9 +8,9 @@
 #include <span>
 #include <vector>
 
+#include "mc/plan/calibration_plan.hpp"
 #include "mc/plan/scene.hpp"
 #include "mc/recordings/calibration/healthy_records.hpp"
-#include "mc/recordings/calibration/parameters.hpp"
 
 namespace gearpod::mc {
 

@@ -2,7 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "mc/recordings/calibration/parameters.hpp"
+#include "mc/plan/calibration_plan.hpp"
 #include "mc/study/noise.hpp"
 #include "mc/study/study.hpp"
 #include "signals/spectra/order_spectrum.hpp"

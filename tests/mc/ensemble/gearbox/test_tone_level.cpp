@@ -4,7 +4,7 @@
 #include <algorithm>
 
 #include "mc/numerics/study_scene.hpp"
-#include "mc/recordings/calibration/parameters.hpp"
+#include "mc/plan/calibration_plan.hpp"
 #include "mc/recordings/calibration/simulated_sets.hpp"
 #include "tests/mc/program.hpp"
 

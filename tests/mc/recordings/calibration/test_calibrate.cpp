@@ -63,7 +63,6 @@ struct Synthetic {
         const RecordValues ones(3, {std::vector<double>(used.size(), 1.0)});
         summary = std::make_unique<SetSummary>(used, ones);
         task.integrated = integrated;
-        task.threads = 2;
     }
 
     // Calibration result of the set at `truth` (positions in the priors).
@@ -72,7 +71,11 @@ struct Synthetic {
         task.measured = simulate_set(*scene, given_at(task.inputs, truth), 1000000 + number,
                                      task.lengths, *summary);
         REQUIRE(!task.measured.empty());
-        return calibrate(*scene, task, *summary, first, [](double) {});
+        return calibrate(task, *summary, first,
+                         [&](const PriorRegion& region, const SetPlan& plan) {
+                             return simulate_sets(*scene, task.inputs, region, plan, task.lengths,
+                                                  *summary, 2, [](double) {});
+                         });
     }
 };
 

@@ -1,4 +1,5 @@
-// Inputs to calibrate: random inputs of a study with their prior ranges.
+// Calibration of a study: its inputs, which are random within prior ranges, and what it cannot
+// simulate.
 #pragma once
 
 #include <span>
@@ -28,6 +29,12 @@ struct CalibratedInput {
 // Parses texts such as "gearbox.tooth_quality=3:10" and "sensor.noise_m_s2=0.01:1:log". Problems
 // refer to `--prior`.
 std::vector<CalibratedInput> read_priors(const std::vector<std::string>& texts, Problems& problems);
+
+// Problems of a study that calibration does not simulate; `path` names its file.
+Problems calibration_problems(const Study& study, const std::string& path);
+
+// Text of the study with all defaults in which these inputs are uncertain and not random.
+std::string text_without_distributions(Study study, std::span<const CalibratedInput> inputs);
 
 // Default inputs of a study whose sensor measures `rms` m/s^2: tooth errors, noise, level of the
 // tones, gain and path exponent, as far as the study allows them.

@@ -1,4 +1,4 @@
-#include "mc/recordings/calibration/parameters.hpp"
+#include "mc/plan/calibration_plan.hpp"
 
 #include <fmt/format.h>
 
@@ -9,7 +9,9 @@
 #include "mc/files/input/document.hpp"
 #include "mc/files/input/spelling.hpp"
 #include "mc/files/text/text_table.hpp"
+#include "mc/study/housing.hpp"
 #include "mc/study/noise.hpp"
+#include "mc/study/other_sources.hpp"
 #include "mc/study/schema/schema.hpp"
 #include "signals/noise/coloured_noise.hpp"
 
@@ -62,7 +64,7 @@ class ParameterReader {
         if (input.logarithmic && *low <= 0.0) {
             return reject("LOW must be > 0 on a logarithmic scale", "");
         }
-        if (std::ranges::any_of(inputs, [&](const auto& one) { return one.key == name; })) {
+        if (std::ranges::any_of(inputs, [&](const auto& other) { return other.key == name; })) {
             return reject("is given twice", "");
         }
         input.low = *low;
@@ -99,6 +101,46 @@ std::vector<CalibratedInput> read_priors(const std::vector<std::string>& texts,
         reader.read(text, inputs);
     }
     return inputs;
+}
+
+Problems calibration_problems(const Study& study, const std::string& path) {
+    if (study.effects.quasi_static()) {
+        return {{path, 0, "effects.motion",
+                 "a quasi-static study has no acceleration signal to calibrate",
+                 "choose a motion with inertia, e.g. \"translational-torsional\""}};
+    }
+    Problems problems;
+    if (!study.sensor.additional.empty()) {
+        problems.push_back(
+            {path, 0, "sensor.additional", "calibration has one sensor", "remove them"});
+    }
+    if (has_housing(study)) {
+        problems.push_back({path, 0, "sensor.housing_modes",
+                            "calibration does not simulate the housing",
+                            "remove them, and a measured response (sensor.response_Hz)"});
+    }
+    if (has_range(study)) {
+        problems.push_back(
+            {path, 0, "sensor.range_m_s2", "calibration does not clip the samples", "remove it"});
+    }
+    if (has_other_sources(study)) {
+        problems.push_back({path, 0, "sensor.bearings",
+                            "calibration simulates neither faulty bearings nor neighbouring "
+                            "stages (sensor.stages)",
+                            "use recordings without them, and remove the keys"});
+    }
+    return problems;
+}
+
+std::string text_without_distributions(Study study, std::span<const CalibratedInput> inputs) {
+    study.detection.uncertain_inputs.clear();
+    for (const CalibratedInput& input : inputs) {
+        study.detection.uncertain_inputs.push_back(input.key);
+    }
+    std::erase_if(study.random, [&](const RandomInput& random) {
+        return std::ranges::count(inputs, random.key, &CalibratedInput::key) > 0;
+    });
+    return resolved_text(study);
 }
 
 std::vector<CalibratedInput> default_inputs(const Study& study, double rms) {
