@@ -10,6 +10,7 @@
 #include "analysis/statistics/distributions.hpp"
 #include "analysis/statistics/interval.hpp"
 #include "analysis/statistics/quiet_policy.hpp"
+#include "machine/contracts.hpp"
 
 namespace gearpod::analysis {
 namespace {
@@ -101,6 +102,7 @@ TailFit::TailFit(std::span<const double> largest, long sample)
     : sample_(sample),
       exceedances_(static_cast<long>(largest.size()) - 1),
       above_(largest.front()) {
+    EXPECTS(largest.size() >= 2 && std::ranges::is_sorted(largest));
     std::vector<double> excess;
     for (const double value : largest.subspan(1)) {
         excess.push_back(value - above_);

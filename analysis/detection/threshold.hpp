@@ -55,8 +55,7 @@ class TailFit {
     // contradicts the fit.
     double rate(double value) const;
     HealthyRate rate(double value, long alarms, long tested, double confidence) const;
-    // Value whose expected rate is `rate`. The rate must not exceed that of the order statistic;
-    // for a larger one, returns the order statistic.
+    // Value whose expected rate is `rate`; the order statistic for a rate above its own.
     double threshold(double rate) const;
     // Interval of the value whose rate is exactly `rate`.
     Interval threshold_interval(double rate, double confidence) const;

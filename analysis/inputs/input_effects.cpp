@@ -10,10 +10,12 @@
 #include "analysis/statistics/distributions.hpp"
 #include "analysis/statistics/interval.hpp"
 #include "features/statistics/signal_statistics.hpp"
+#include "machine/contracts.hpp"
 
 namespace gearpod::analysis {
 
 InputBins equal_count_bins(std::span<const double> values, std::size_t bins) {
+    EXPECTS(std::ranges::all_of(values, [](double value) { return std::isfinite(value); }));
     std::vector<std::size_t> order(values.size());
     std::iota(order.begin(), order.end(), std::size_t{0});
     std::stable_sort(order.begin(), order.end(),

@@ -13,7 +13,7 @@ namespace gearpod::analysis {
 
 // Bin of each value, 0 to bins - 1 in ascending order of the values. With at most `bins` distinct
 // values, each has its own bin. Otherwise equal values share a bin and the counts are as equal as
-// that allows. Values must be finite.
+// that allows.
 struct InputBins {
     std::vector<std::size_t> of;
     std::size_t bins = 0;

@@ -15,6 +15,7 @@
 #include "analysis/statistics/noncentral_distributions.hpp"
 #include "analysis/statistics/quiet_policy.hpp"
 #include "analysis/statistics/rank_statistics.hpp"
+#include "machine/contracts.hpp"
 
 namespace gearpod::analysis {
 namespace {
@@ -348,6 +349,8 @@ void add_total(SobolIndex& index, int input, const PolynomialSurrogate& surrogat
 
 SobolIndices sobol_indices(std::span<const double> output, const std::vector<InputColumn>& inputs,
                            double confidence) {
+    EXPECTS(std::ranges::all_of(
+        inputs, [&](const InputColumn& input) { return input.values.size() == output.size(); }));
     SobolIndices result;
     output = output.first(std::min(output.size(), kMost));
     result.count = static_cast<long>(output.size());

@@ -88,7 +88,7 @@ struct SobolIndices {
     std::string refusal;                // reason why there are no indices, or ""
 };
 
-// Computes the indices from `output` and every input per gearbox; all values must be finite.
+// Computes the indices from `output` and every input per gearbox, all finite.
 // Refuses fewer than 100 gearboxes, a constant output, and inputs with correlated ranks, whose
 // shares cannot be attributed to one input. Uses the first 20,000 gearboxes.
 SobolIndices sobol_indices(std::span<const double> output, const std::vector<InputColumn>& inputs,

@@ -6,6 +6,7 @@
 
 #include "analysis/statistics/interval.hpp"
 #include "features/statistics/signal_statistics.hpp"
+#include "machine/contracts.hpp"
 
 namespace gearpod::analysis {
 
@@ -90,6 +91,7 @@ HeldOutAlarms held_out_alarms(const Detector& detector, std::span<const HealthyL
 }
 
 Drift drift_of(std::span<const double> values) {
+    EXPECTS(std::ranges::all_of(values, [](double value) { return std::isfinite(value); }));
     constexpr std::size_t kMost = 1000;
     std::vector<double> used;
     const std::size_t count = std::min(values.size(), kMost);

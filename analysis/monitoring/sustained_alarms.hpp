@@ -54,8 +54,8 @@ HeldOutAlarms held_out_alarms(const Detector& detector, std::span<const HealthyL
 // Drift of a level over time: Theil-Sen estimate of its change from first to last value (the median
 // slope of all pairs), relative to the median, and Kendall's tau with its normal p-value for
 // independent values. P. K. Sen, J. Am. Stat. Assoc. 63 (1968), 1379-1389; M. G. Kendall,
-// Biometrika 30 (1938), 81-93. Of more than 1000 values, equally spaced ones are used. Values must
-// be finite. All results are NaN for fewer than 10 values.
+// Biometrika 30 (1938), 81-93. Of more than 1000 values, equally spaced ones are used. All
+// results are NaN for fewer than 10 values.
 struct Drift {
     double change = kNan;
     double tau = kNan, p_value = kNan;  // two-sided

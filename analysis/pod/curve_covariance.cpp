@@ -9,11 +9,13 @@
 
 #include "analysis/statistics/distributions.hpp"
 #include "analysis/statistics/interval.hpp"
+#include "machine/contracts.hpp"
 
 namespace gearpod::analysis {
 
 Eigen::Matrix2d curve_covariance(std::span<const ClusteredOutcome> outcomes, const PodCurve& curve,
                                  bool by_cluster) {
+    EXPECTS(!curve.form.free_ceiling);
     constexpr double kTiny = 1e-290;
     const PodForm& form = curve.form;
     Eigen::Matrix2d information = Eigen::Matrix2d::Zero();
@@ -79,6 +81,7 @@ double LocationScale::eta_at(double x, double z) const {
 }
 
 LocationScale location_scale(double intercept, double slope, const Eigen::Matrix2d& covariance) {
+    EXPECTS(slope > 0.0);
     LocationScale curve{-intercept / slope, 1.0 / slope, {}};
     Eigen::Matrix2d by;
     by << -1.0 / slope, intercept / (slope * slope), 0.0, -1.0 / (slope * slope);

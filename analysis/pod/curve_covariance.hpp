@@ -18,8 +18,8 @@ struct ClusteredOutcome {
     long cluster = 0;
 };
 
-// Robust covariance if `by_cluster`. NaN if the outcomes do not determine both parameters. The
-// curve must not have a fitted ceiling.
+// Robust covariance if `by_cluster`. NaN if the outcomes do not determine both parameters. For
+// curves without a fitted ceiling.
 Eigen::Matrix2d curve_covariance(std::span<const ClusteredOutcome> outcomes, const PodCurve& curve,
                                  bool by_cluster);
 
@@ -38,7 +38,7 @@ struct LocationScale {
     double eta_at(double x, double z) const;
 };
 
-// Location and scale of eta = intercept + slope x with the covariance of the two; slope > 0.
+// Location and scale of eta = intercept + slope x with the covariance of the two.
 LocationScale location_scale(double intercept, double slope, const Eigen::Matrix2d& covariance);
 
 // Wald bounds at `z` standard errors, within the tested sizes.

@@ -10,6 +10,7 @@
 #include "analysis/ranking/feature_ranking.hpp"
 #include "analysis/statistics/binary_regression.hpp"
 #include "analysis/statistics/interval.hpp"
+#include "machine/contracts.hpp"
 
 namespace gearpod::analysis {
 namespace {
@@ -249,6 +250,7 @@ CombinedDetector combine_features(const std::vector<CombinedFeature>& features,
                                   std::span<const double> healthy_size,
                                   std::span<const double> graded_size,
                                   const DetectionRequest& request) {
+    EXPECTS(request.noise_levels.size() == 1);
     CombinedDetector result;
     result.noise_level = request.noise_levels.front();
     const Half training_half = half_of(healthy_size.size(), graded_size.size(), true);

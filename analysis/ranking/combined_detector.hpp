@@ -54,7 +54,7 @@ struct CombinedDetector {
 // group, so that alternating levels do not fall into one half.
 bool in_training_half(std::size_t instance);
 
-// Trains and evaluates the detector. `request` must have the one noise level of these values.
+// Trains and evaluates the detector. The noise level of `request` is that of the values.
 // Refuses fewer than two usable features, and fewer than 50 healthy or faulty training gearboxes.
 CombinedDetector combine_features(const std::vector<CombinedFeature>& features,
                                   std::span<const double> healthy_size,

@@ -10,6 +10,7 @@
 #include "analysis/statistics/difference_tests.hpp"
 #include "analysis/statistics/interval.hpp"
 #include "analysis/statistics/link.hpp"
+#include "machine/contracts.hpp"
 
 namespace gearpod::analysis {
 namespace {
@@ -72,6 +73,7 @@ std::vector<RocPoint> thinned(const std::vector<RocPoint>& points, std::size_t m
 
 std::vector<RocPoint> roc_curve(std::span<const double> healthy, std::span<const double> faulty,
                                 bool high, std::size_t most_points) {
+    EXPECTS(most_points >= 2);
     const std::vector<double> below = from_alarm_side(healthy, high);
     const std::vector<double> beyond = from_alarm_side(faulty, high);
     if (below.empty() || beyond.empty()) {
@@ -122,6 +124,10 @@ double paired_p_value(const AucComponents& a, const AucComponents& b) {
 }  // namespace
 
 FeatureRanking rank_features(const std::vector<RankedFeature>& features, double confidence) {
+    EXPECTS(std::ranges::all_of(features, [&](const RankedFeature& feature) {
+        return feature.healthy.size() == features.front().healthy.size() &&
+               feature.faulty.size() == features.front().faulty.size();
+    }));
     FeatureRanking ranking;
     std::vector<const RankedFeature*> used;
     for (const RankedFeature& feature : features) {

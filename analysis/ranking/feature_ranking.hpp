@@ -20,7 +20,7 @@ struct RocPoint {
 
 // Curve from (0, 0) to (1, 1) with a corner for each threshold. Tied values are joined by a
 // straight line, so that the trapezoidal area equals that of auc(). Corners in excess of
-// `most_points` (two or more) are removed evenly along the curve. Values that are not finite are
+// `most_points` are removed evenly along the curve. Values that are not finite are
 // left out. With `high` false, low values alarm. Empty without a value of either kind.
 std::vector<RocPoint> roc_curve(std::span<const double> healthy, std::span<const double> faulty,
                                 bool high, std::size_t most_points = 101);
@@ -31,8 +31,8 @@ std::vector<RocPoint> roc_curve(std::span<const double> healthy, std::span<const
 // Largest share of missing values with which a feature is still ranked and combined with others.
 inline constexpr double kMostMissing = 0.1;
 
-// Values of one feature at one noise level. All features must have the same gearboxes in the same
-// order.
+// Values of one feature at one noise level, of the same gearboxes in the same order as those of
+// other features.
 struct RankedFeature {
     std::string name;
     Alarm alarm = Alarm::high;

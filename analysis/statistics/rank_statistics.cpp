@@ -7,6 +7,7 @@
 
 #include "analysis/statistics/interval.hpp"
 #include "analysis/statistics/link.hpp"
+#include "machine/contracts.hpp"
 
 namespace gearpod::analysis {
 
@@ -45,6 +46,9 @@ double covariance(const std::vector<double>& a, double mean_a, const std::vector
 }  // namespace
 
 AucComponents auc_components(std::span<const double> healthy, std::span<const double> faulty) {
+    const auto is_finite = [](double value) { return std::isfinite(value); };
+    EXPECTS(!healthy.empty() && std::ranges::all_of(healthy, is_finite));
+    EXPECTS(!faulty.empty() && std::ranges::all_of(faulty, is_finite));
     std::vector<double> all(healthy.begin(), healthy.end());
     all.insert(all.end(), faulty.begin(), faulty.end());
     const std::vector<double> joint = midranks(all);

@@ -23,8 +23,7 @@ struct AucComponents {
     std::vector<double> faulty;
 };
 
-// Computes the components. Values must be finite and larger on the alarm side. Both samples need at
-// least one value.
+// Computes the components of samples with larger values on the alarm side.
 AucComponents auc_components(std::span<const double> healthy, std::span<const double> faulty);
 
 // Covariance of two areas over the same gearboxes, or with a equal to b the variance. Needs at

@@ -1,15 +1,14 @@
 #include "dynamics/fixed_shaft_motion.hpp"
 
-#include <cassert>
-
 #include "dynamics/gearbox_matrices.hpp"
+#include "machine/contracts.hpp"
 
 namespace gearpod::dynamics {
 
 template <int W, class Real>
 FixedShaftLanes<W, Real> make_lanes(const FixedShaftLayout& layout,
                                     std::span<const FixedShaftInputs> inputs) {
-    assert(inputs.size() == W);
+    EXPECTS(inputs.size() == W);
     FixedShaftLanes<W, Real> lanes{};
     lanes.sensor = layout.sensor;
     for (int l = 0; l < W; ++l) {

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "dynamics/gearbox_matrices.hpp"
+#include "machine/contracts.hpp"
 
 namespace gearpod::dynamics {
 namespace {
@@ -14,9 +15,10 @@ struct Overloaded : Cases... {
 template <class... Cases>
 Overloaded(Cases...) -> Overloaded<Cases...>;
 
-// Calls f() with the values that the two variants hold. Both must be of the same gearbox kind.
+// Calls f() with the values that the two variants hold.
 template <class F>
 auto with_inputs(const GearboxLayout& layout, const GearboxInputs& inputs, F f) {
+    EXPECTS(layout.index() == inputs.index());
     return std::visit(Overloaded{[&](const PlanetaryLayout& kind) {
                                      return f(kind, std::get<PlanetaryInputs>(inputs));
                                  },

@@ -8,6 +8,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "machine/contracts.hpp"
+
 namespace gearpod::dynamics {
 
 Eigen::VectorXcd eigenvalues(const Eigen::MatrixXd& matrix) {
@@ -28,6 +30,7 @@ Eigen::VectorXd solve(const Eigen::MatrixXd& matrix, const Eigen::VectorXd& righ
 }
 
 Modes modes(const Eigen::MatrixXd& stiffness, const Eigen::MatrixXd& mass) {
+    EXPECTS(stiffness.isApprox(stiffness.transpose()) && mass.isApprox(mass.transpose()));
     const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> solver(stiffness, mass);
     return {solver.eigenvalues(), solver.eigenvectors()};
 }

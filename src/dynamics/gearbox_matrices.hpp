@@ -23,7 +23,7 @@ EigenPairs eigen_pairs(const Eigen::MatrixXd& matrix);
 Eigen::MatrixXd inverse(const Eigen::MatrixXd& matrix);
 // Minimum-norm solution.
 Eigen::VectorXd solve(const Eigen::MatrixXd& matrix, const Eigen::VectorXd& right);
-// Undamped modes; both matrices must be symmetric.
+// Undamped modes of symmetric matrices.
 Modes modes(const Eigen::MatrixXd& stiffness, const Eigen::MatrixXd& mass);
 bool positive_definite(const Eigen::MatrixXd& matrix);
 

@@ -1,9 +1,10 @@
 #include "dynamics/planetary_motion.hpp"
 
 #include <algorithm>
-#include <cassert>
 #include <cmath>
 #include <numbers>
+
+#include "machine/contracts.hpp"
 
 namespace gearpod::dynamics {
 namespace {
@@ -78,7 +79,7 @@ void set_lane(PlanetaryLanes<W, Real>& lanes, int l, const PlanetaryLayout& layo
 template <int W, class Real>
 PlanetaryLanes<W, Real> make_lanes(const PlanetaryLayout& layout,
                                    std::span<const PlanetaryInputs> inputs) {
-    assert(inputs.size() == W);
+    EXPECTS(inputs.size() == W);
     PlanetaryLanes<W, Real> lanes{};
     set_directions(lanes, layout);
     for (int l = 0; l < W; ++l) {

@@ -30,8 +30,8 @@ struct Gear {
     // inv a0 (internal, beta_2; negative for many teeth, where both flanks meet above the base
     // circle). Profile shift adds 2 x tan a0 / N.
     double half_base_angle() const;
-    // Half the angle of a tooth on the circle of radius r, which must not be below the base circle,
-    // and the tooth thickness along that arc.
+    // Half the angle of a tooth on the circle of radius r, below the base circle that on it, and
+    // the tooth thickness along that arc.
     double half_angle_at(double radius_m) const;
     double thickness_at(double radius_m) const { return 2 * radius_m * half_angle_at(radius_m); }
     // Smallest profile shift at which a rack of this addendum with a sharp-cornered tip does not

@@ -24,7 +24,7 @@ class CancellationSource {
     virtual bool stop() const = 0;
 };
 
-// Throws Stopped if the active CancellationSource requests cancellation.
+// Throws Cancelled if the active CancellationSource requests cancellation.
 void throw_if_cancelled();
 
 // Teams of OpenMP threads. No other file uses OpenMP.

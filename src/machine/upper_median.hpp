@@ -5,10 +5,12 @@
 #include <cstddef>
 #include <vector>
 
+#include "machine/contracts.hpp"
+
 namespace gearpod::machine {
 
-// Upper median of at least one value.
 inline double upper_median(std::vector<double> values) {
+    EXPECTS(!values.empty());
     const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
     std::nth_element(values.begin(), middle, values.end());
     return *middle;

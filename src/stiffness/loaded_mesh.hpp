@@ -11,6 +11,7 @@
 
 #include <vector>
 
+#include "machine/contracts.hpp"
 #include "stiffness/mesh_stiffness.hpp"
 
 namespace gearpod::stiffness {
@@ -29,8 +30,10 @@ double secant_stiffness(std::vector<ContactSpring>& springs, double force_N);
 
 class LoadedMesh {
   public:
-    // The mesh must outlive the object. force_N: along the line of action, positive or 0.
-    LoadedMesh(const MeshStiffness& mesh, double force_N) : mesh_(mesh), force_(force_N) {}
+    // The mesh must outlive the object. force_N: along the line of action.
+    LoadedMesh(const MeshStiffness& mesh, double force_N) : mesh_(mesh), force_(force_N) {
+        EXPECTS(force_N >= 0.0);
+    }
 
     double force_N() const { return force_; }
     // Approach d, m, at a position within the stretch of `inside` (mesh_stiffness.hpp).

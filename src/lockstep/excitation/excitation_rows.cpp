@@ -1,9 +1,10 @@
 #include "lockstep/excitation/excitation_rows.hpp"
 
 #include <algorithm>
-#include <cassert>
 #include <cmath>
 #include <numbers>
+
+#include "machine/contracts.hpp"
 
 namespace gearpod::lockstep {
 
@@ -160,7 +161,7 @@ void ExcitationRows::fill_speed_values(int mesh) {
 // The classical Runge-Kutta method has nodes at the start, middle and end of a step. The time at
 // the end follows from Simpson's rule, the time at the middle from the parabola through the three.
 void ExcitationRows::integrate_time(int mesh) {
-    assert(nodes_per_step_ == 2 && position_.size() % 2 == 1);
+    EXPECTS(nodes_per_step_ == 2 && position_.size() % 2 == 1);
     const auto lanes = static_cast<std::size_t>(lanes_);
     const int at = columns_in(excitation_) + mesh_period_value;
     for (std::size_t l = 0; l < lanes; ++l) {

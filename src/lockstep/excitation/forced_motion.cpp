@@ -1,9 +1,8 @@
 #include "lockstep/excitation/forced_motion.hpp"
 
-#include <cassert>
-
 #include "dynamics/gearbox.hpp"
 #include "dynamics/gearbox_matrices.hpp"
+#include "machine/contracts.hpp"
 
 namespace gearpod::lockstep {
 namespace {
@@ -40,7 +39,7 @@ ExcitationForces<W> make_excitation_forces(const IntegrationPlan& plan,
                                            const Excitation& excitation,
                                            std::span<const dynamics::GearboxInputs> inputs,
                                            bool over_mass) {
-    assert(inputs.size() == W);
+    EXPECTS(inputs.size() == W);
     const std::vector<double> none(static_cast<std::size_t>(dynamics::pairs(plan.layout)), 0.0);
     std::vector<Eigen::MatrixXd> lane;
     Eigen::MatrixXd size;  // largest absolute entries over the lanes; zero entries are omitted

@@ -1,9 +1,9 @@
 #include "lockstep/integrators/implicit_lanes.hpp"
 
 #include <algorithm>
-#include <cassert>
 
 #include "dynamics/gearbox_matrices.hpp"
+#include "machine/contracts.hpp"
 
 namespace gearpod::lockstep {
 namespace {
@@ -104,7 +104,7 @@ void set_rows(ImplicitLanes<W>& lanes, const Eigen::MatrixXd& rows) {
         int entries = 0;
         for (int d = 0; d < lanes.degrees; ++d) {
             if (rows(pair, d) != 0.0) {
-                assert(entries < ImplicitLanes<W>::kMaxRowEntries);
+                EXPECTS(entries < ImplicitLanes<W>::kMaxRowEntries);
                 lanes.row_degree[pair][entries] = d;
                 lanes.row_weight[pair][entries] = rows(pair, d);
                 ++entries;
@@ -220,7 +220,7 @@ void set_constants(ImplicitLanes<W>& lanes, const dynamics::GearboxMatrices& m, 
 template <int W>
 ImplicitLanes<W> make_implicit_lanes(const IntegrationPlan& plan, const ImplicitSpan& span,
                                      std::span<const dynamics::GearboxInputs> inputs) {
-    assert(inputs.size() == W);
+    EXPECTS(inputs.size() == W);
     ImplicitLanes<W> lanes;
     lanes.degrees = dynamics::degrees_of_freedom(plan.layout);
     lanes.pairs = dynamics::pairs(plan.layout);

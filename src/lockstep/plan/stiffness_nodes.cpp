@@ -1,12 +1,12 @@
 #include "lockstep/plan/stiffness_nodes.hpp"
 
 #include <algorithm>
-#include <cassert>
 #include <cmath>
 #include <limits>
 #include <numbers>
 
 #include "dynamics/effects/mesh_damping.hpp"
+#include "machine/contracts.hpp"
 #include "stiffness/mesh_stiffness.hpp"
 #include "stiffness/teeth/positions.hpp"
 
@@ -186,7 +186,7 @@ ErrorValue error_at(const MeshError& error, double x) {
 
 void add_errors(const PairSet& pairs, const PhaseGrid& grid, std::span<const MeshError> errors,
                 StiffnessNodes& nodes) {
-    assert(errors.size() == static_cast<std::size_t>(pairs.pairs()));
+    EXPECTS(errors.size() == static_cast<std::size_t>(pairs.pairs()));
     nodes.error.resize(nodes.stiffness.size());
     nodes.error_rate.resize(nodes.stiffness.size());
     const double sense = pairs.reversed ? -1.0 : 1.0;

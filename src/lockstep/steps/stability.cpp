@@ -11,6 +11,7 @@
 #include "lockstep/integrators/facts.hpp"
 #include "lockstep/tile/rigid_rotation.hpp"
 #include "lockstep/tile/tile_integrators.hpp"
+#include "machine/contracts.hpp"
 
 namespace gearpod::lockstep {
 namespace {
@@ -269,6 +270,7 @@ bool above_critical_speed(const dynamics::GearboxLayout& layout,
 }
 
 double growth_per_mesh(const IntegrationPlan& plan, const dynamics::GearboxInputs& inputs) {
+    EXPECTS(!dynamics::separates(plan.mesh_law));
     const auto matrices = dynamics::assemble(plan.layout, inputs, mean_stiffness(plan));
     return growth(plan, matrices.mass,
                   mesh_period_map(in_double_precision(plan), inputs, matrices.mass.rows(),

@@ -71,7 +71,7 @@ bool above_critical_speed(const dynamics::GearboxLayout& layout,
 // Growth per mesh period of the fastest growing motion: the largest |eigenvalue| (Floquet
 // multiplier) of the healthy gearbox's mesh period. It is computed by integrating every unit
 // displacement and velocity with the plan's steps. The rigid rotation is removed as in
-// lockstep/tile. Infinite if a motion overflows. The plan's meshes must not separate.
+// lockstep/tile. Infinite if a motion overflows. For meshes that do not separate.
 double growth_per_mesh(const IntegrationPlan& plan, const dynamics::GearboxInputs& inputs);
 
 // Reason why the integration of this gearbox diverged or did not converge. A growth below 1e-5 per

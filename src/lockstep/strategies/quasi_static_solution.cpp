@@ -1,7 +1,6 @@
 #include "lockstep/strategies/quasi_static_solution.hpp"
 
 #include <algorithm>
-#include <cassert>
 #include <cmath>
 #include <memory>
 #include <optional>

@@ -3,12 +3,12 @@
 #pragma once
 
 #include <algorithm>
-#include <cassert>
 #include <variant>
 
 #include "lockstep/strategies/integrated_solutions.hpp"
 #include "lockstep/strategies/quasi_static_solution.hpp"
 #include "lockstep/strategies/superposed_solution.hpp"
+#include "machine/contracts.hpp"
 
 namespace gearpod::lockstep {
 
@@ -21,8 +21,8 @@ using Solution = std::variant<PeriodicSolution, FullSolution, SuperposedSolution
 template <int W>
 TileResult run_tile(const IntegrationPlan& plan, std::span<const dynamics::GearboxInputs> gearboxes,
                     const FaultCurves& faults, const Solution& solution) {
-    assert(gearboxes.size() == W &&
-           std::ranges::all_of(faults.curve, [](const auto& lanes) { return lanes.size() == W; }));
+    EXPECTS(gearboxes.size() == W &&
+            std::ranges::all_of(faults.curve, [](const auto& lanes) { return lanes.size() == W; }));
     const TileInputs tile{plan, gearboxes, faults};
     return std::visit([&](const auto& strategy) { return strategy.template run<W>(tile); },
                       solution);

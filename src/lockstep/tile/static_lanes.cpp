@@ -1,11 +1,11 @@
 #include "lockstep/tile/static_lanes.hpp"
 
 #include <algorithm>
-#include <cassert>
 #include <cmath>
 
 #include "dynamics/effects/mesh_law.hpp"
 #include "dynamics/gearbox_matrices.hpp"
+#include "machine/contracts.hpp"
 
 namespace gearpod::lockstep {
 namespace {
@@ -25,7 +25,7 @@ template <int W>
 StaticLanes<W> make_static_lanes(const dynamics::GearboxLayout& layout, dynamics::MeshLaw law,
                                  std::span<const dynamics::GearboxInputs> inputs,
                                  double mesh_stiffness_N_m, int contacts) {
-    assert(inputs.size() == W);
+    EXPECTS(inputs.size() == W);
     StaticLanes<W> lanes;
     lanes.degrees = dynamics::degrees_of_freedom(layout);
     lanes.pairs = dynamics::pairs(layout);

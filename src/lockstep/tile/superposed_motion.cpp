@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "machine/contracts.hpp"
+
 namespace gearpod::lockstep {
 namespace {
 
@@ -12,6 +14,7 @@ std::size_t place(int k, std::size_t period) {
 
 void add_up(std::span<const machine::AlignedVector* const> parts, machine::AlignedVector& sum) {
     const std::size_t size = sum.size();
+    EXPECTS(std::ranges::all_of(parts, [&](const auto* part) { return part->size() == size; }));
     double* __restrict out = sum.data();
     if (parts.size() == 3) {  // a planetary train: one pass over memory
         const double* __restrict a = parts[0]->data();

@@ -40,8 +40,7 @@ struct SuperposedMotion {
     // Subtracts the periodic orbit from all parts but the first, so that the sum of the parts is
     // the motion.
     void count_periodic_orbit_once();
-    // Superpose mesh period k, which may be any integer. `record` and `state` must have their
-    // sizes.
+    // Superpose mesh period k, which may be any integer, in a record or state of the parts' sizes.
     void record(int k, MeshRecord& record) const;
     void state(int k, TileState& state) const;
     // [lane]: true if all tooth pairs stay in contact in mesh periods [from, to). This includes

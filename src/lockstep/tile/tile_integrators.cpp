@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cassert>
 #include <memory>
 #include <span>
 #include <stdexcept>
@@ -18,6 +17,7 @@
 #include "lockstep/integrators/filter_coefficients.hpp"
 #include "lockstep/integrators/implicit_lanes.hpp"
 #include "lockstep/kernels/kernel_table.hpp"
+#include "machine/contracts.hpp"
 #include "machine/team.hpp"
 
 namespace gearpod::lockstep {
@@ -48,6 +48,8 @@ class KernelCall {
                                        static_cast<int>(inputs.size()))) {}
 
     void operator()(const MeshOverrides& overrides, TileState& state, MeshRecord& record) const {
+        EXPECTS(!record.te.empty() && record.te.size() % plan_.samples() == 0 &&
+                record.acceleration.size() == record.te.size() * plan_.channels());
         kernel_(plan_, lanes, filter_, overrides, state, record);
     }
 
@@ -125,7 +127,7 @@ std::unique_ptr<const MeshIntegrator<W>> make_kernel_integrator(
 template <int W>
 std::unique_ptr<const MeshIntegrator<W>> make_mesh_integrator(
     const IntegrationPlan& plan, std::span<const dynamics::GearboxInputs> inputs) {
-    assert(inputs.size() == W);
+    EXPECTS(inputs.size() == W);
     if (plan.precision == Precision::single_precision) {
         if (has_single_precision(plan.integrator)) {
             return make_kernel_integrator<W, float>(plan, inputs);
@@ -189,7 +191,9 @@ template <int W>
 std::unique_ptr<ExcitedIntegrator<W>> make_excited_integrator(
     const IntegrationPlan& plan, const Excitation& excitation,
     std::span<const dynamics::GearboxInputs> inputs) {
-    assert(inputs.size() == W);
+    EXPECTS(inputs.size() == W);
+    EXPECTS(!excitation.speed ||
+            std::ranges::all_of(excitation.speed->turns_per_s, [](double n) { return n == 0.0; }));
     if (!supports_excitation(plan, excitation)) {
         throw std::invalid_argument(fmt::format(
             "varying forces need double precision and one of: {}; a varying speed needs {} and a "
@@ -243,6 +247,7 @@ class StepKernelIntegrator final : public StepIntegrator<W> {
 
     void operator()(int step, const MeshOverrides& overrides, TileState& state,
                     MeshRecord& record) override {
+        EXPECTS(step == 0 || step == part().last);
         if (step == 0) {
             machine::throw_if_cancelled();
         }
@@ -269,7 +274,7 @@ template <int W>
 std::unique_ptr<StepIntegrator<W>> make_step_integrator(
     const IntegrationPlan& plan, const std::vector<ShaftEnd>& shafts,
     std::span<const dynamics::GearboxInputs> inputs) {
-    assert(inputs.size() == W);
+    EXPECTS(inputs.size() == W);
     if (!supports_steps(plan) || shafts.size() > kMostShafts) {
         throw std::invalid_argument(
             "coupled stages need the central difference method in double precision, and at most "

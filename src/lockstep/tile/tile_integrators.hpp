@@ -16,8 +16,8 @@ template <int W>
 class MeshIntegrator {
   public:
     virtual ~MeshIntegrator() = default;
-    // Integrates `state` over one mesh period that starts at an integer phase, and records it.
-    // `record` must have its sizes (make_record).
+    // Integrates `state` over one mesh period that starts at an integer phase, and records it in a
+    // record of make_record().
     virtual void operator()(const MeshOverrides& overrides, TileState& state,
                             MeshRecord& record) const = 0;
 };
@@ -36,9 +36,8 @@ template <int W>
 class ExcitedIntegrator {
   public:
     virtual ~ExcitedIntegrator() = default;
-    // Integrates `state` over mesh period `mesh` and records it. `record` must have its sizes
-    // (make_record). Consecutive calls must have consecutive values of `mesh`; otherwise time does
-    // not continue (ExcitationRows::fill).
+    // Integrates `state` over mesh period `mesh` and records it in a record of make_record(). Time
+    // continues from the previous call only if that was mesh - 1 (ExcitationRows::fill).
     virtual void operator()(int mesh, const MeshOverrides& overrides, TileState& state,
                             MeshRecord& record) = 0;
 };
@@ -63,8 +62,8 @@ class StepIntegrator {
     virtual ~StepIntegrator() = default;
     // Torque of each shaft in its positive sense during the next step, [shaft][lane], N m.
     virtual machine::AlignedVector& torques() = 0;
-    // Integrates `state` over step number `step` of a mesh period, and records it. The steps of a
-    // mesh period must follow each other. `record` must have its sizes (make_record).
+    // Integrates `state` over step number `step` of a mesh period, and records it in a record of
+    // make_record(). Calls follow the steps from 0 on.
     virtual void operator()(int step, const MeshOverrides& overrides, TileState& state,
                             MeshRecord& record) = 0;
 };

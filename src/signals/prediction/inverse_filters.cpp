@@ -4,9 +4,12 @@
 #include <cmath>
 #include <numeric>
 
+#include "machine/contracts.hpp"
+
 namespace gearpod::signals {
 
 std::vector<double> solve_toeplitz(std::span<const double> r, std::span<const double> b) {
+    EXPECTS(!r.empty() && r.size() == b.size());
     // `predictor`: 1, a_1, ..., a_m of the prediction error filter of order m.
     std::vector<double> predictor{1.0}, solution{b[0] / r[0]};
     double error = r[0];
@@ -68,6 +71,7 @@ std::vector<double> PeriodicSignal::filtered(std::span<const double> filter) {
 }
 
 std::vector<double> PeriodicSignal::correlated(std::span<const double> y, std::size_t lags) {
+    EXPECTS(y.size() == values_.size());
     transform(y);
     for (std::size_t k = 0; k < product_.size(); ++k) {
         product_[k] *= std::conj(spectrum_[k]) / static_cast<double>(product_.size());
@@ -76,6 +80,7 @@ std::vector<double> PeriodicSignal::correlated(std::span<const double> y, std::s
 }
 
 void PeriodicSignal::transform(std::span<const double> values) {
+    EXPECTS(values.size() <= values_.size());
     std::fill(std::copy(values.begin(), values.end(), values_.begin()), values_.end(), 0.0);
     forward_.transform(values_, product_);
 }
@@ -102,6 +107,7 @@ void scale_to_unit_rms(std::vector<double>& values) {
 }  // namespace
 
 std::vector<double> deconvolve(std::span<const double> x, std::size_t length, int iterations) {
+    EXPECTS(length > 0 && std::ranges::any_of(x, [](double value) { return value != 0.0; }));
     PeriodicSignal signal(x);
     const std::vector<double> r = signal.corrected_autocorrelation(length);
     std::vector<double> impulse(length, 0.0);
@@ -120,7 +126,9 @@ std::vector<double> deconvolve(std::span<const double> x, std::size_t length, in
 Prewhitening::Prewhitening(int points)
     : forward_(points),
       backward_(points, FourierTransform::Direction::back),
-      spectrum_(static_cast<std::size_t>(points)) {}
+      spectrum_(static_cast<std::size_t>(points)) {
+    EXPECTS(points >= 1);
+}
 
 std::vector<double> Prewhitening::whitened(std::span<const double> samples) {
     constexpr double kRoundingPower = 1e-24;  // of the largest squared magnitude

@@ -11,8 +11,7 @@
 namespace gearpod::signals {
 
 // Solution x of sum over j of r_|i-j| x_j = b_i by Levinson's recursion; N. Levinson, J. Math.
-// Phys. 25 (1947) 261-278. `r` and `b` have equal sizes, at least one; the matrix must be positive
-// definite.
+// Phys. 25 (1947) 261-278. The matrix is positive definite.
 std::vector<double> solve_toeplitz(std::span<const double> r, std::span<const double> b);
 
 // Filters and correlations of one periodic signal x of n samples, by products of spectra.
@@ -29,7 +28,7 @@ class PeriodicSignal {
     std::vector<double> corrected_autocorrelation(std::size_t lags);
     // y_i = sum over l of f_l x_((i-l) mod n), n values.
     std::vector<double> filtered(std::span<const double> filter);
-    // (1/n) sum over i of y_i x_((i-l) mod n) for l = 0 to `lags` - 1; `y` has n values.
+    // (1/n) sum over i of y_i x_((i-l) mod n) for l = 0 to `lags` - 1.
     std::vector<double> correlated(std::span<const double> y, std::size_t lags);
 
   private:
@@ -51,8 +50,7 @@ class PeriodicSignal {
 //     sum over m of r_|l-m| f_m = sum over i of y_i^3 x_(i-l),   l = 0 to length - 1,
 //
 // with the autocorrelation r of x, and scales y to an RMS of 1. These are the
-// conditions for a stationary kurtosis of y. Few iterations may stop short of the maximum. x must
-// not be zero.
+// conditions for a stationary kurtosis of y. Few iterations may stop short of the maximum.
 std::vector<double> deconvolve(std::span<const double> x, std::size_t length, int iterations);
 
 // Cepstral pre-whitening: P. Borghesani, P. Pennacchi, R. B. Randall, N. Sawalhi and R. Ricci,
@@ -61,7 +59,7 @@ std::vector<double> deconvolve(std::span<const double> x, std::size_t length, in
 // Holds the transforms of one length: use one object per thread.
 class Prewhitening {
   public:
-    // `points` is the number of samples, at least one.
+    // `points` is the number of samples.
     explicit Prewhitening(int points);
 
     int points() const { return forward_.points(); }

@@ -6,6 +6,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "machine/contracts.hpp"
 #include "signals/sensor/sensor_response_kernel.hpp"
 #include "signals/spectra/synchronous_average.hpp"
 
@@ -36,7 +37,7 @@ std::vector<int> consecutive(int first, int count) {
     return meshes;
 }
 
-// Signals of the lanes from `first` on. If there are tones, the meshes must be consecutive.
+// Signals of the lanes from `first` on.
 std::vector<std::vector<double>> signals_of(const TileSignals& tile, int first,
                                             const Timeline& timeline, const SpanLayout& layout,
                                             const PathGrid& path,
@@ -45,6 +46,7 @@ std::vector<std::vector<double>> signals_of(const TileSignals& tile, int first,
     const int lanes = static_cast<int>(path_exponent.size());
     const int mesh_count = static_cast<int>(meshes.size());
     const int first_mesh = meshes.empty() ? 0 : meshes.front();
+    EXPECTS(tones.empty() || meshes.empty() || meshes.back() - first_mesh == mesh_count - 1);
     check_tile(tile, timeline);
     if (first < 0 || lanes > tile.lanes - first || first_mesh < 0 ||
         path.first_source() + path.planets() > tile.sources() || path.phases() != tile.phases ||

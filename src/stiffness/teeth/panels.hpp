@@ -10,8 +10,9 @@ namespace gearpod::stiffness {
 
 // Calls panel(a, b) for each panel of [from, to], in order; `to` may lie below `from`. The
 // thickness changes by at most a factor of 1.5 on a panel. The pole of 1 / t^3 then lies at least
-// two panel lengths outside it, where a Gauss rule of n points converges as 9.9^(-2 n). The
-// thickness must be positive, and may have an extremum only where it is nearly constant.
+// two panel lengths outside it, where a Gauss rule of n points converges as 9.9^(-2 n). An extremum
+// of the thickness may lie only where it is nearly constant. Throws std::logic_error unless the
+// thickness is positive.
 template <typename Thickness, typename Panel>
 void for_panels(double from, double to, Thickness&& thickness, Panel&& panel) {
     constexpr double kMaxRatio = 1.5;

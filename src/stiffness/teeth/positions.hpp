@@ -7,6 +7,8 @@
 #include <span>
 #include <vector>
 
+#include "machine/contracts.hpp"
+
 namespace gearpod::stiffness {
 
 // Tolerance of positions, mesh periods. Positions this close to the end of an engagement count as
@@ -26,6 +28,7 @@ struct PositionRange {
 };
 
 inline PositionRange positions_within(std::span<const double> ascending, double begin, double end) {
+    EXPECTS(std::ranges::is_sorted(ascending));
     const auto low =
         std::lower_bound(ascending.begin(), ascending.end(), begin - kPositionTolerance);
     const auto high = std::upper_bound(low, ascending.end(), end + kPositionTolerance);
@@ -40,9 +43,10 @@ struct Stretch {
     double begin = 0, end = 0;
 };
 
-// Stretch around a position that lies strictly within it. transitions must not be empty.
+// Stretch around a position that lies strictly within it.
 inline Stretch stretch_around(std::span<const double> transitions, std::span<const double> jumps,
                               double inside) {
+    EXPECTS(!transitions.empty());
     const double period = std::floor(inside);
     const auto next = std::upper_bound(transitions.begin(), transitions.end(), inside - period);
     Stretch stretch;

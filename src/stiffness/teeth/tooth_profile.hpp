@@ -87,8 +87,8 @@ class ToothProfile {
     // u of the section with half thickness h, on the tip side of the thickest section, 0 <= h <=
     // root half thickness. If necessary, the involute is continued past the tip circle.
     double angle_of_half_thickness(double h) const;
-    // u of the section with half thickness h on the fillet, between the root and the waist. h must
-    // be at least the waist's.
+    // u of the section with half thickness h on the fillet, between the root and the waist; that of
+    // the waist for a smaller h.
     double fillet_angle_of_half_thickness(double h) const;
     // u of the section at xi, on the tooth or, past its tip, on the continued involute; root() for
     // sections below the root.
