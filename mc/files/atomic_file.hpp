@@ -27,7 +27,7 @@ class PendingFile {
     ~PendingFile();
 
     const std::string& name() const { return name_; }
-    // Flushes `fd`, which must be open on name(), and renames the file. Throws std::runtime_error.
+    // Flushes `fd`, a descriptor of name(), and renames the file. Throws std::runtime_error.
     void commit(int fd);
     // Throws std::runtime_error with the reason of `error` (errno).
     [[noreturn]] void fail(int error) const;

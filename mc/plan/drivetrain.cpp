@@ -8,6 +8,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "machine/contracts.hpp"
 #include "mc/study/gears.hpp"
 #include "mc/study/housing.hpp"
 
@@ -235,6 +236,7 @@ double nominal_mesh_frequency_Hz(const Study& study, const Drivetrain& drivetrai
 }
 
 std::unique_ptr<const Drivetrain> make_drivetrain(const Study& study) {
+    EXPECTS(has_gears(study));
     if (study.gearbox.kind == GearboxKind::fixed_shaft) {
         return std::make_unique<const FixedShaftDrivetrain>(study);
     }

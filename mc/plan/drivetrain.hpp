@@ -64,7 +64,7 @@ class Drivetrain {
     virtual signals::SpanLayout span() const = 0;
 };
 
-// Precondition: has_gears(study).
+// Drivetrain of a study with gears.
 std::unique_ptr<const Drivetrain> make_drivetrain(const Study& study);
 // Mesh frequency at the nominal speed of its study, with the sign of mesh_frequency_rad_s().
 double nominal_mesh_frequency_Hz(const Study& study, const Drivetrain& drivetrain);

@@ -7,6 +7,7 @@
 #include <numeric>
 #include <stdexcept>
 
+#include "machine/contracts.hpp"
 #include "mc/plan/drivetrain.hpp"
 #include "mc/plan/scene_stiffness.hpp"
 #include "stiffness/iso_6336.hpp"
@@ -139,6 +140,7 @@ std::string torque_of(const Study& study) {
 }  // namespace
 
 std::vector<MeshLoad> mesh_loads(const Study& study) {
+    EXPECTS(has_gears(study));
     const double force_N = std::abs(make_drivetrain(study)->mesh_force_N(nominal_inputs(study)));
     const std::optional<stiffness::Material> material = material_of_flanks(study.gearbox);
     std::vector<MeshLoad> loads;

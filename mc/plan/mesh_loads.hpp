@@ -21,7 +21,7 @@ struct MeshLoad {
     double error_m = 0.0;  // of both gears' teeth, upper estimate
 };
 
-// Precondition: has_gears(study).
+// Loads of the meshes of a study with gears.
 std::vector<MeshLoad> mesh_loads(const Study& study);
 
 // Text of a load's stresses, force and deflection.

@@ -25,8 +25,7 @@ std::vector<Study> stage_studies(const Study& study);
 // Immutable. Copies, and scenes derived from it, share the parts that are equal.
 class Scene {
   public:
-    // Precondition: has_gears(study). The study's numerics are used as they are; numerics.tolerance
-    // must be resolved before (resolve_numerics). Throws SceneError.
+    // The study has gears, and its numerics are resolved (resolve_numerics). Throws SceneError.
     explicit Scene(const Study& study);
     Scene(const Scene&) = default;
     Scene& operator=(const Scene&) = delete;

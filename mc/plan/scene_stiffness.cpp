@@ -5,6 +5,7 @@
 
 #include "dynamics/helical_pair.hpp"
 #include "gears/tooth_deviations.hpp"
+#include "machine/contracts.hpp"
 #include "mc/plan/scene_error.hpp"
 #include "mc/study/faults/fault_kind.hpp"
 #include "mc/study/gears.hpp"
@@ -157,6 +158,7 @@ double pitch_error_m(const Study& study, Member member) {
 }
 
 double given_mean_stiffness(const Study& study, MeshKind mesh) {
+    EXPECTS(stiffness_given(study));
     return mean_total(*given_mesh(study, mesh));
 }
 

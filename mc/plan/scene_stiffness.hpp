@@ -35,7 +35,7 @@ double body_radius_m(const Study& study, Member member);
 // plus three times a given rms, and at least the largest measured deviation.
 double pitch_error_m(const Study& study, Member member);
 
-// Mean stiffness of a mesh, N/m, in the transverse plane. Precondition: stiffness_given().
+// Given mean stiffness of a mesh, N/m, in the transverse plane.
 double given_mean_stiffness(const Study& study, MeshKind mesh);
 
 // Makes one mesh for each of meshes_of(kind). force_N: mean force of a pair, for load-dependent
@@ -53,7 +53,7 @@ std::vector<double> constant_pairs(const Study& study);
 
 class SceneFault {
   public:
-    // Precondition: the meshes outlive the fault. Throws SceneError.
+    // The meshes outlive the fault. Throws SceneError.
     SceneFault(const Study& study, const std::vector<SceneMesh>& meshes,
                const lockstep::PairSet& pairs);
 

@@ -65,8 +65,8 @@ Measurement measure(const Scene& scene, const MeasuredSignal& signal,
 std::vector<double> measured_values(const Scene& scene, const MeasuredSignal& signal,
                                     std::span<const features::Feature* const> requested);
 
-// Mean over recordings of healthy gearboxes; each must have at least `turns` planet turns. Adds the
-// notes on them to `notes`. Throws SignalError.
+// Mean over recordings of healthy gearboxes. Adds the notes on them to `notes`. Throws SignalError,
+// also for a recording of fewer than `turns` planet turns.
 HealthyReference measured_reference(const std::vector<SignalSource>& recordings,
                                     const SignalColumns& columns, const Scene& scene, int turns,
                                     std::vector<std::string>& notes);

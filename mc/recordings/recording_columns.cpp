@@ -8,6 +8,7 @@
 #include <cmath>
 #include <limits>
 
+#include "machine/contracts.hpp"
 #include "machine/upper_median.hpp"
 #include "mc/files/input/terminal_text.hpp"
 #include "signals/spectra/recording_checks.hpp"
@@ -233,6 +234,7 @@ std::string spacing_problem(const std::vector<double>& steps, double unit) {
 }  // namespace
 
 SampleTimes sample_times(std::vector<double> column, double factor) {
+    EXPECTS(column.size() >= 2);
     const auto [low, high] = std::ranges::minmax(column);
     if (low == high) {
         return {{}, fmt::format("is {:.17g} at all samples", low)};

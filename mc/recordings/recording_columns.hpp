@@ -22,8 +22,7 @@ struct SampleTimes {
 // Evenly spaced times, s, from a column that may have been rounded: to decimals, to significant
 // digits, or to single or double precision. `factor` converts the column to seconds. Missing
 // samples, and times that stand still or run back by more than the rounding, are reported with
-// their position; so are times rounded so coarsely that a missing sample would not show. `column`
-// must have at least two values.
+// their position; so are times rounded so coarsely that a missing sample would not show.
 SampleTimes sample_times(std::vector<double> column, double factor = 1.0);
 
 // The values 0, 1, 2, ... divided by `rate`.

@@ -12,6 +12,7 @@
 #include <optional>
 
 #include "analysis/report/json_values.hpp"
+#include "machine/contracts.hpp"
 #include "mc/ensemble/gearbox/gearbox_tile.hpp"
 #include "mc/ensemble/gearbox/realization_features.hpp"
 #include "mc/ensemble/gearbox/record_window.hpp"
@@ -49,6 +50,7 @@ void for_each_stretch(std::span<const double> values, std::size_t count, Use use
 }  // namespace
 
 std::vector<std::size_t> extremes(std::span<const double> values, std::size_t most) {
+    EXPECTS(most >= 2);
     if (values.size() <= most) {
         return all_of(values.size());
     }

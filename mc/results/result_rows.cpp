@@ -11,6 +11,7 @@
 
 #include "analysis/detection/detection.hpp"
 #include "features/feature.hpp"
+#include "machine/contracts.hpp"
 #include "mc/files/hdf5_data.hpp"
 #include "mc/results/layout.hpp"
 
@@ -122,10 +123,11 @@ void ColumnRows::visit(const std::function<void(const RowBlock&)>& use) const {
     }
 }
 
-void RowBlock::put(const double* column, std::size_t at, std::size_t width) {
+void RowBlock::put(const double* column, std::size_t first_value, std::size_t width) {
     const std::size_t all = row_values();
+    EXPECTS(values.size() == count() * all && first_value + width <= all);
     for (std::size_t row = 0; row < count(); ++row) {
-        std::copy_n(column + row * width, width, values.data() + row * all + at);
+        std::copy_n(column + row * width, width, values.data() + row * all + first_value);
     }
 }
 

@@ -160,9 +160,9 @@ struct RowBlock {
     std::size_t count() const { return status.size(); }
     // Number of values in a row.
     std::size_t row_values() const { return count() == 0 ? 0 : values.size() / count(); }
-    // Copies a column's values, `width` for each row, to this place in the rows. Precondition:
-    // `values` has the size of all rows.
-    void put(const double* column, std::size_t at, std::size_t width);
+    // Copies a column's values, `width` for each row, to the positions from `first_value` on in the
+    // rows.
+    void put(const double* column, std::size_t first_value, std::size_t width);
 };
 
 class RowSource {

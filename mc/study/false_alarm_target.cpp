@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include "machine/contracts.hpp"
+
 namespace gearpod::mc {
 namespace {
 
@@ -22,6 +24,7 @@ bool has_alarm_target(const Study& study) {
 }
 
 double alarm_target_per_hour(const Study& study) {
+    EXPECTS(has_alarm_target(study));
     const Detection& d = study.detection;
     return d.false_alarms_per_year ? *d.false_alarms_per_year / kYear_h
                                    : *d.false_alarms_per_1000_h / 1000.0;

@@ -11,7 +11,7 @@ namespace gearpod::mc {
 // True if the study gives false alarms in time, not as a rate of a record.
 bool has_alarm_target(const Study& study);
 
-// False alarms of all machines per hour. Precondition: has_alarm_target().
+// False alarms of all machines per hour.
 double alarm_target_per_hour(const Study& study);
 
 // Hours between two records of a machine; empty if the study does not give them.

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "dynamics/helical_pair.hpp"
+#include "machine/contracts.hpp"
 #include "stiffness/iso_6336.hpp"
 
 namespace gearpod::mc {
@@ -211,6 +212,7 @@ gears::WorkingShifts working_shifts(const Study& study) {
     if (!shift_given(study)) {
         return {};
     }
+    EXPECTS(has_gears(study));
     const Gearbox& g = study.gearbox;
     const auto [first, second] = shifted_pair(study);
     const auto transverse = [&](Member member) {
@@ -231,6 +233,7 @@ gears::WorkingShifts working_shifts(const Study& study) {
 }
 
 gears::Gear gear_of(const Study& study, Member member) {
+    EXPECTS(teeth_of(study, member) && study.gearbox.transverse_module_m());
     gears::Gear gear = standard_gear(study, member);
     if (shift_given(study) && has_gears(study)) {
         const gears::WorkingShifts set = working_shifts(study);
@@ -254,6 +257,7 @@ double centre_distance_m(const Study& study) {
 }
 
 gears::PlanetDimensions planet_dimensions(const Study& study) {
+    EXPECTS(shift_given(study));
     const double module = study.gearbox.transverse_module_m().value();
     return {centre_distance_m(study) / module,
             2.0 * gear_of(study, Member::planet).tip_radius() / module};
@@ -321,6 +325,7 @@ double blank_factor(const Study& study, const MeshMembers& mesh) {
 
 stiffness::Material material_of(const Study& study, const MeshMembers& mesh) {
     const Gearbox& g = study.gearbox;
+    EXPECTS(g.young_modulus_Pa && g.poisson_ratio && g.face_width_m);
     stiffness::Material material{g.young_modulus_Pa.value() * blank_factor(study, mesh),
                                  g.poisson_ratio.value(), g.face_width_m.value(),
                                  study.effects.shear};

@@ -42,17 +42,16 @@ bool has_toothed_member(GearboxKind kind, Member member);
 // Number of teeth of a member; empty if not given.
 std::optional<int> teeth_of(const Study& study, Member member);
 
-// Centre distance of sun and planets, or of a gear pair, m. Precondition: has_gears().
+// Centre distance of sun and planets, or of a gear pair, m; for a study with gears.
 double centre_distance_m(const Study& study);
 
 // True if a profile shift or a centre distance is given, even that of standard gears.
 bool shift_given(const Study& study);
 // Keys of profile shifts, centre distance and tip diameters.
 std::vector<std::string> shift_keys();
-// All profile shifts of the study's gears, given or derived. Precondition: has_gears().
+// All profile shifts of the study's gears, given or derived.
 gears::WorkingShifts working_shifts(const Study& study);
-// Radius of the planets' axes and diameter of their tip circle, in modules. Precondition:
-// shift_given().
+// Radius of the planets' axes and diameter of their tip circle, in modules, of a study with shifts.
 gears::PlanetDimensions planet_dimensions(const Study& study);
 // Relief and crowning of a member's flanks; has_relief(): true if any member has some.
 gears::FlankRelief relief_of(const Study& study, Member member);
@@ -63,7 +62,7 @@ bool has_flank_gaps(const Study& study);
 // True if the mesh force is computed tooth pair by tooth pair with unilateral contact, which
 // transmits compression only.
 bool has_unilateral_teeth(const Study& study);
-// Working pressure angle of a mesh in the transverse plane. Precondition: has_gears().
+// Working pressure angle of a mesh in the transverse plane.
 double working_angle_rad(const Study& study, MeshKind mesh);
 
 // True if the study gives the mesh stiffness, so that it is not computed from the teeth.
@@ -97,7 +96,7 @@ double transverse_pressure_angle_rad(const Gearbox& gearbox);
 double normal_over_transverse(const Gearbox& gearbox);
 
 // Gear of a toothed member. Helical gears are replaced by the equivalent spur gears in the
-// transverse plane. Precondition: its number of teeth and the module are given.
+// transverse plane.
 gears::Gear gear_of(const Study& study, Member member);
 
 // Profile that defines the root of the beam model of its teeth; meaningless where the stiffness is
@@ -110,9 +109,8 @@ stiffness::Profile profile_of(const Study& study);
 double blank_factor(const Study& study, Member member);
 double blank_factor(const Study& study, const MeshMembers& mesh);
 
-// Material and face width of the teeth of a mesh. Precondition: face width, Young's modulus and
-// Poisson's ratio are given. Young's modulus is multiplied by the mesh's blank factor, because
-// every part of a tooth pair's stiffness is proportional to it.
+// Material and face width of the teeth of a mesh. Young's modulus is multiplied by the mesh's blank
+// factor, because every part of a tooth pair's stiffness is proportional to it.
 stiffness::Material material_of(const Study& study, const MeshMembers& mesh);
 
 // Overlap ratio: number of mesh periods by which helical teeth engage later at one end of the face

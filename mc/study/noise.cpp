@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "machine/contracts.hpp"
 #include "signals/noise/coloured_noise.hpp"
 
 namespace gearpod::mc {
@@ -31,6 +32,7 @@ bool has_own_rate(const Study& study) {
 }
 
 signals::NoiseSpectrum background_spectrum(const Study& study) {
+    EXPECTS(has_background(study));
     return {study.sensor.background_Hz, study.sensor.background_density_m_s2_per_sqrt_Hz};
 }
 

@@ -15,7 +15,7 @@ namespace gearpod::mc {
 // the background's.
 bool noise_by_density(const Study& study);
 bool has_background(const Study& study);
-// Spectrum of the background at level 1. Precondition: has_background().
+// Spectrum of the background at level 1.
 signals::NoiseSpectrum background_spectrum(const Study& study);
 
 // True if the converter of any sensor has a measuring range, at which it clips the samples.

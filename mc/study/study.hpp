@@ -15,6 +15,7 @@
 #include "gears/flank_gaps.hpp"
 #include "lockstep/plan/fault_pattern.hpp"
 #include "lockstep/plan/integrator.hpp"
+#include "machine/contracts.hpp"
 #include "machine/instruction_sets.hpp"
 #include "mc/files/input/problems.hpp"
 #include "mc/files/input/python_hashes.hpp"
@@ -134,8 +135,9 @@ inline int integrated_torques(const Life& life) {
 inline int integrated_speeds(const Life& life) {
     return life.given_speeds.value_or(2);
 }
-// Smallest crack of interest. Precondition: the last depth is given.
+// Smallest crack of interest.
 inline double smallest_depth_m(const Life& life) {
+    EXPECTS(life.smallest_depth_m || life.last_depth_m);
     return life.smallest_depth_m.value_or(0.5 * *life.last_depth_m);
 }
 // Depth of the crack at the start of a life.

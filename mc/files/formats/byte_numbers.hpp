@@ -6,15 +6,18 @@
 #include <cstdint>
 #include <string_view>
 
+#include "machine/contracts.hpp"
+
 namespace gearpod::mc {
 
-// Unsigned integer of `width` bytes at `at`; the bytes must be there.
-inline std::uint64_t unsigned_at(std::string_view bytes, std::size_t at, std::size_t width,
+// Unsigned integer of `width` bytes from `offset` on.
+inline std::uint64_t unsigned_at(std::string_view bytes, std::size_t offset, std::size_t width,
                                  bool big_endian = false) {
+    EXPECTS(offset <= bytes.size() && width <= bytes.size() - offset);
     std::uint64_t value = 0;
     for (std::size_t i = 0; i < width; ++i) {
-        const std::size_t place = big_endian ? i : width - 1 - i;
-        value = value << 8 | static_cast<unsigned char>(bytes[at + place]);
+        const std::size_t digit = big_endian ? i : width - 1 - i;
+        value = value << 8 | static_cast<unsigned char>(bytes[offset + digit]);
     }
     return value;
 }

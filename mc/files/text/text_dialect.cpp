@@ -6,6 +6,7 @@
 #include <map>
 #include <optional>
 
+#include "machine/contracts.hpp"
 #include "mc/files/input/file_text.hpp"
 #include "mc/files/signal_file.hpp"
 #include "mc/files/signal_units.hpp"
@@ -59,6 +60,7 @@ TableColumn header_column(std::string_view field) {
 
 TextLayout::TextLayout(const std::vector<SampledLine>& sample, char separator)
     : sample_(sample), separator_(separator) {
+    EXPECTS(std::ranges::any_of(sample, [](const SampledLine& line) { return !line.comment; }));
     for (std::size_t i = 0; i < sample.size(); ++i) {
         if (!sample[i].comment) {
             lines_.push_back(i);

@@ -33,8 +33,8 @@ struct SampledLine {
     bool comment = false;
 };
 
-// Finds the header and the columns of numbers in the first lines of a file. `sample` must have a
-// line that is not a comment, and must outlive the layout.
+// Finds the header and the columns of numbers in the first lines of a file. `sample` outlives the
+// layout.
 class TextLayout {
   public:
     TextLayout(const std::vector<SampledLine>& sample, char separator);
@@ -106,7 +106,7 @@ class TableRows {
     long last_header_line_;
 };
 
-// Checks the number of fields of a row. Additional fields must be empty. Throws SignalError.
+// Checks the number of fields of a row. Throws SignalError unless additional fields are empty.
 void check_row(const TextDialect& dialect, const std::vector<std::string_view>& fields,
                const std::string& path, long line);
 

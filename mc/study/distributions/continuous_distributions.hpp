@@ -16,6 +16,7 @@
 #include <string_view>
 #include <tuple>
 
+#include "machine/contracts.hpp"
 #include "mc/study/distributions/field.hpp"
 #include "mc/study/distributions/range.hpp"
 #include "mc/study/random/philox.hpp"
@@ -129,8 +130,8 @@ struct TruncatedNormal : LawDefaults {
     double draw(Philox& engine, std::uint64_t) const {
         return quantile(boost::random::uniform_01<double>()(engine));
     }
-    // Precondition: 0 <= p < 1.
     double quantile(double p) const {
+        EXPECTS(p >= 0.0 && p < 1.0);
         const double side = mean < 0.5 * low + 0.5 * high ? 1.0 : -1.0;
         const double scale = side / (std::sqrt(2.0) * sd);
         const double tail_low = std::erfc((low - mean) * scale);

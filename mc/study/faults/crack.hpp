@@ -32,8 +32,7 @@ double crack_angle_rad(const Study& study);
 // fillets and sections for other profiles.
 stiffness::CrackLaw crack_law(const Study& study);
 
-// Depth at which the faulty member's tooth is cut through, m. Precondition: the tooth geometry is
-// given.
+// Depth at which the faulty member's tooth, of given geometry, is cut through, m.
 double max_crack_depth_m(const Study& study);
 // Thickness of that tooth at the section where its cracks start, m.
 double critical_section_m(const Study& study);

@@ -61,19 +61,18 @@ class FaultKind {
     virtual bool shapes_tooth() const { return true; }
     // True if the fault is wear of all flanks of the gear; its size is then the depth in m.
     virtual bool wears_flanks() const { return false; }
-    // Rejects values that the faulty tooth cannot have. Precondition: the study's gears and face
-    // width are known.
+    // Rejects values that the faulty tooth cannot have, of known gears and face width.
     virtual void check(StudyDraft& /*draft*/) const {}
     // Null for wear, which changes no stiffness.
     virtual std::unique_ptr<const stiffness::ToothFaultFamily> family(
         const Study& study, const FaultyTooth& tooth) const = 0;
 
     // Text for the user: location of the fault on the tooth, and the datum from which its sizes
-    // (SI) are measured. Precondition: the tooth geometry is given if the kind shapes the tooth.
+    // (SI) are measured. Needs the tooth geometry if the kind shapes the tooth.
     virtual std::string origin(const Study& study, std::span<const double> sizes) const = 0;
 
     // Size (SI) as a share of the tooth, for the user: "70 % of the tooth section"; "" if the size
-    // is no part of a tooth dimension. Precondition: as for origin().
+    // is no part of a tooth dimension. Needs what origin() needs.
     virtual std::string share_text(const Study& study, double size) const;
 
     // All keys of the kind, the size first.

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <string>
 
+#include "machine/contracts.hpp"
 #include "mc/study/faults/crack.hpp"
 #include "mc/study/faults/limits.hpp"
 #include "mc/study/gears.hpp"
@@ -130,9 +131,9 @@ void check_records_of_lives(StudyDraft& draft) {
     }
 }
 
-// Precondition: the last depth is given.
 void check_depths(StudyDraft& draft) {
     const Life& life = draft.study.life;
+    EXPECTS(life.last_depth_m);
     check_curve(draft);
     const bool begins =
         life.curve_h.empty() ? life.first_depth_m.has_value() : !life.curve_depth_m.empty();
