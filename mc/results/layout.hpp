@@ -36,6 +36,8 @@ struct StoredColumn {
     bool by_level;             // if the dataset has the shape rows x levels
     Values& values;
 };
+template <class Values>
+StoredColumn(std::string, std::size_t, std::size_t, bool, Values&) -> StoredColumn<Values>;
 
 // Calls `use` with all columns of Results, in the order of their numbers in a row.
 template <class Frame, class Use>
