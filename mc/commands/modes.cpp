@@ -8,12 +8,12 @@
 
 #include "mc/commands/commands.hpp"
 #include "mc/commands/options/options.hpp"
-#include "mc/ensemble/coupling/neighbour_stages.hpp"
 #include "mc/files/json_text.hpp"
 #include "mc/library/run/command_files.hpp"
 #include "mc/library/stiffness_modes.hpp"
 #include "mc/numerics/numerics_choice.hpp"
 #include "mc/plan/scene_error.hpp"
+#include "mc/plan/stage_plan.hpp"
 #include "mc/report/page.hpp"
 #include "mc/study/gears.hpp"
 #include "mc/study/other_sources.hpp"
@@ -124,7 +124,7 @@ int modes_command(const ModesOptions& options) {
         modes.frequencies_Hz = natural_frequencies_Hz(*study);
         modes.speeds = frequencies_over_speed(*study, kHighestSpeed, kSpeeds);
         if (is_coupled(*study)) {
-            modes.train_Hz = train_frequencies_Hz(Scene(resolve_numerics(*study).study));
+            modes.train_Hz = train_frequencies_Hz(Scene(resolve_numerics(*study).study).gearbox());
         }
     } catch (const SceneError& error) {
         print_problems({{options.study.path, 0, error.key(), error.what(), error.remedy()}});

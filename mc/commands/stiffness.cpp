@@ -58,7 +58,7 @@ void print_summary(const Scene& scene) {
             mesh_name(mesh.members), contact_ratio_text(*mesh.stiffness), "",
             mean_total(*mesh.stiffness), "", mesh.stiffness->pitch_position());
     }
-    const std::vector<int> pairs = faulty_pairs(scene);
+    const std::vector<int> pairs = faulty_pairs(scene.fault());
     if (!pairs.empty()) {
         const Unit& unit = fault_size_key(scene.study()).unit;
         std::string names;

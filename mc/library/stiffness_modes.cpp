@@ -55,7 +55,7 @@ void add_faulty(const Scene& scene, int pair, const stiffness::FaultyMesh& mesh,
                               choice_text(scene.study(), "fault", "kind"),
                               size_name(scene.study(), size), period + 1),
                   "N/m", [&](double phase) {
-                      return faulty_total(scene, pair, mesh, phase + period - start);
+                      return faulty_total(scene.pairs(), pair, mesh, phase + period - start);
                   });
     }
 }
@@ -68,7 +68,7 @@ std::vector<SignalColumn> stiffness_columns(const Scene& scene, int points) {
         table.add(scene.drivetrain().pair_name(pair), "N/m",
                   [&](double phase) { return scene.pairs().total(pair, phase); });
     }
-    const std::vector<int> pairs = faulty_pairs(scene);
+    const std::vector<int> pairs = faulty_pairs(scene.fault());
     for (int curve = 0; curve < scene.fault().curves(); ++curve) {
         for (const double size : fault_sizes(scene.study())) {
             add_faulty(scene, pairs[static_cast<std::size_t>(curve)],
@@ -81,8 +81,9 @@ std::vector<SignalColumn> stiffness_columns(const Scene& scene, int points) {
 std::vector<SignalColumn> transmission_error_columns(const Scene& scene, int points) {
     PhaseTable table(points);
     for (int pair = 0; pair < scene.pairs().pairs(); ++pair) {
-        table.add(scene.drivetrain().pair_name(pair) + "_te_um", "um",
-                  [&](double phase) { return 1e6 * loaded_approach(scene, pair, phase); });
+        table.add(scene.drivetrain().pair_name(pair) + "_te_um", "um", [&](double phase) {
+            return 1e6 * loaded_approach(*scene.gearbox().stiffness, pair, phase);
+        });
     }
     return std::move(table).columns();
 }
@@ -97,7 +98,7 @@ std::vector<double> mean_pairs(const Study& study) {
 
 // Gearbox layout at rest, without inertial terms.
 dynamics::GearboxLayout layout_at_rest(const Study& study) {
-    dynamics::GearboxLayout layout = gearbox_layout(study);
+    dynamics::GearboxLayout layout = BodyModel(study).layout;
     if (auto* planetary = std::get_if<dynamics::PlanetaryLayout>(&layout)) {
         planetary->inertial_terms = false;
     }
@@ -126,7 +127,7 @@ void check_masses(const Study& study) {
 
 std::vector<double> natural_frequencies_Hz(const Study& study) {
     check_masses(study);
-    const auto inputs = body_inputs(study, nominal_inputs(study));
+    const auto inputs = BodyModel(study).inputs(nominal_inputs(study));
     return dynamics::natural_frequencies_Hz(
         dynamics::assemble(layout_at_rest(study), inputs, mean_pairs(study)));
 }
@@ -139,7 +140,7 @@ std::vector<SpeedFrequencies> frequencies_over_speed(const Study& study, double 
         return speeds;
     }
     const auto drivetrain = make_drivetrain(study);
-    const dynamics::GearboxLayout layout = gearbox_layout(study);
+    const BodyModel bodies(study);
     const std::vector<double> pairs = mean_pairs(study);
     const InstanceInputs nominal = nominal_inputs(study);
     for (int i = 0; i < points; ++i) {
@@ -149,8 +150,10 @@ std::vector<SpeedFrequencies> frequencies_over_speed(const Study& study, double 
         at.speed_rad_s = inputs.speed_rad_s;
         at.mesh_Hz = std::abs(drivetrain->mesh_frequency_rad_s(inputs.speed_rad_s)) /
                      (2.0 * std::numbers::pi);
-        at.frequencies_Hz = dynamics::rotating_frequencies_Hz(
-            dynamics::assemble(layout, gearbox_inputs(study, *drivetrain, inputs), pairs));
+        dynamics::GearboxInputs gearbox = bodies.inputs(inputs);
+        drivetrain->set(inputs, gearbox);
+        at.frequencies_Hz =
+            dynamics::rotating_frequencies_Hz(dynamics::assemble(bodies.layout, gearbox, pairs));
     }
     return speeds;
 }

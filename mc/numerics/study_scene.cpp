@@ -3,9 +3,9 @@
 #include <stdexcept>
 
 #include "lockstep/kernels/kernel_table.hpp"
-#include "mc/ensemble/coupling/neighbour_stages.hpp"
 #include "mc/files/python/python_worker.hpp"
 #include "mc/plan/mesh_loads.hpp"
+#include "mc/plan/stage_plan.hpp"
 #include "mc/study/gears.hpp"
 #include "mc/study/other_sources.hpp"
 
@@ -81,7 +81,7 @@ StudyScene make_scene(const std::string& name, StudyReading reading) {
                         std::move(resolved.choice),
                         {},
                         std::move(reading.notices)};
-        check_stages(*made.scene);
+        check_stages(resolved.study, *made.scene);
         add_torque_notices(resolved.study, name, made.notices);
         for (Problem& warning : load_warnings(resolved.study, name)) {
             made.notices.push_back(std::move(warning));

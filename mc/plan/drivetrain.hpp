@@ -146,14 +146,4 @@ class FixedShaftDrivetrain : public Drivetrain {
     bool gear_monitored_;
 };
 
-// Dynamic model of a study's gearbox at rest: degrees of freedom, masses, springs and dampers.
-// Speed and load are set by Drive (drivetrain.hpp).
-
-// Model options of a study. Also valid for planetary gearboxes without teeth, for which only
-// vibration modes are defined.
-dynamics::GearboxLayout gearbox_layout(const Study& study);
-
-// Inputs of one gearbox of that layout; speed and load are left at zero.
-dynamics::GearboxInputs body_inputs(const Study& study, const InstanceInputs& instance);
-
 }  // namespace gearpod::mc

@@ -8,19 +8,14 @@
 #include <optional>
 #include <vector>
 
-#include "mc/plan/drivetrain.hpp"
 #include "mc/plan/feature_plan.hpp"
+#include "mc/plan/gearbox_plan.hpp"
 #include "mc/plan/sampling.hpp"
 #include "mc/plan/scene_error.hpp"
 #include "mc/plan/scene_plan.hpp"
-#include "mc/plan/scene_stiffness.hpp"
 #include "mc/study/study.hpp"
 
 namespace gearpod::mc {
-
-// Studies of the neighbouring stages, with the speed of their common shafts and the sensor of the
-// study. Only their vibration is used: they have no records and one feature. Throws SceneError.
-std::vector<Study> stage_studies(const Study& study);
 
 // Immutable. Copies, and scenes derived from it, share the parts that are equal.
 class Scene {
@@ -44,25 +39,23 @@ class Scene {
     // Draws the gearboxes of the study.
     const Sampler& sampler() const { return *sampler_; }
     const DrawPlan& draw() const { return sampler_->draw_plan(); }
-    const Drivetrain& drivetrain() const { return *drivetrain_; }
-    const std::vector<SceneMesh>& meshes() const { return stiffness_->meshes(); }
-    const lockstep::PairSet& pairs() const { return stiffness_->pairs(); }
-    const SceneFault& fault() const { return stiffness_->fault(); }
+    const GearboxPlan& gearbox() const { return *gearbox_; }
+    const Drivetrain& drivetrain() const { return *gearbox_->drivetrain; }
+    const std::vector<SceneMesh>& meshes() const { return gearbox_->stiffness->meshes(); }
+    const lockstep::PairSet& pairs() const { return gearbox_->pairs(); }
+    const SceneFault& fault() const { return gearbox_->fault(); }
     const lockstep::IntegrationPlan& plan() const { return plan_->integration; }
     const lockstep::FaultPattern& pattern() const { return fault().pattern(); }
     // Gear pair that the first passage of the faulty tooth weakens, or -1.
-    int faulty_pair() const { return pattern().passages.empty() ? -1 : pattern().passages[0].pair; }
+    int faulty_pair() const { return gearbox_->faulty_pair(); }
     // Gear pair faulty_pair() with the faulty tooth of that size; null if the size is 0.
     std::shared_ptr<const stiffness::FaultyMesh> faulty_mesh(double size) const {
         return fault().mesh(0, size);
     }
     // See SceneStiffness.
     const MemberArray<gears::DeviationScales>& tooth_scales() const {
-        return stiffness_->tooth_scales();
+        return gearbox_->stiffness->tooth_scales();
     }
-
-    // Scenes of the neighbouring stages, in the order of the study.
-    const std::vector<Scene>& stages() const { return *stages_; }
 
     const FeaturePlan& features() const { return features_; }
     const signals::SpanLayout& span() const { return span_; }
@@ -80,7 +73,7 @@ class Scene {
     // Number of samples per mesh period of the sensor and of the encoders.
     int samples_per_mesh() const { return plan().grid.samples; }
     int te_samples_per_mesh() const { return plan_->te_samples; }
-    double nominal_mesh_frequency_Hz() const { return nominal_mesh_frequency_Hz_; }
+    double nominal_mesh_frequency_Hz() const { return gearbox_->mesh_frequency_Hz; }
     // See Stepping.
     int least_steps() const { return plan_->stepping.least; }
     double explicit_steps() const { return plan_->stepping.explicit_steps; }
@@ -91,48 +84,26 @@ class Scene {
     // Largest number of mesh periods within which a gearbox must converge.
     int max_meshes() const { return max_meshes_; }
     // See SceneStiffness.
-    std::vector<double> transitions() const { return stiffness_->transitions(); }
-    std::vector<double> stiffest_pairs() const { return stiffness_->stiffest_pairs(); }
-    const std::vector<double>& mean_pairs() const { return stiffness_->mean_pairs(); }
+    std::vector<double> transitions() const { return gearbox_->stiffness->transitions(); }
+    std::vector<double> stiffest_pairs() const { return gearbox_->stiffness->stiffest_pairs(); }
+    const std::vector<double>& mean_pairs() const { return gearbox_->stiffness->mean_pairs(); }
 
     dynamics::GearboxInputs inputs(const InstanceInputs& instance) const {
-        return gearbox_inputs(study_, *drivetrain_, instance);
+        return gearbox_->inputs(instance);
     }
 
   private:
-    using SharedStiffness = std::shared_ptr<const SceneStiffness>;
-    using SharedPlan = std::shared_ptr<const ScenePlan>;
-    using SharedSampler = std::shared_ptr<const Sampler>;
-    using SharedStages = std::shared_ptr<const std::vector<Scene>>;
-    // Null stiffness, plan and stages are computed.
-    Scene(Study study, SharedSampler sampler, std::shared_ptr<const Drivetrain> drivetrain,
-          SharedStiffness stiffness, SharedPlan plan, SharedStages stages, int most_recorded);
+    void set_max_meshes();
 
     Study study_;
-    SharedSampler sampler_;
-    std::shared_ptr<const Drivetrain> drivetrain_;
-    SharedStiffness stiffness_;
-    SharedPlan plan_;
-    SharedStages stages_;
+    std::shared_ptr<const Sampler> sampler_;
+    std::shared_ptr<const GearboxPlan> gearbox_;
+    std::shared_ptr<const ScenePlan> plan_;
     signals::SpanLayout span_;
-    double nominal_mesh_frequency_Hz_;
     FeaturePlan features_;
-    int signal_meshes_;
-    int most_recorded_;
-    int max_meshes_;
+    int signal_meshes_ = 0;
+    int most_recorded_ = std::numeric_limits<int>::max();
+    int max_meshes_ = 0;
 };
-
-// Mesh stiffness while a faulty tooth engages, and the gear pairs in which it engages.
-
-// First gear pair in which the faulty tooth engages, for each of its stiffness curves.
-std::vector<int> faulty_pairs(const Scene& scene);
-
-// Stiffness, N/m, of the gear pair `since` mesh periods after its faulty tooth started to engage;
-// outside its engagement, that of the healthy pair.
-double faulty_total(const Scene& scene, int pair, const stiffness::FaultyMesh& mesh, double since);
-
-// Loaded static transmission error of a gear pair, m: approach of its gears along the line of
-// action at a phase of the mesh period under the nominal load.
-double loaded_approach(const Scene& scene, int pair, double phase);
 
 }  // namespace gearpod::mc

@@ -15,7 +15,6 @@
 #include "mc/plan/drivetrain.hpp"
 #include "mc/plan/scene_error.hpp"
 #include "mc/plan/stepping.hpp"
-#include "mc/study/fluctuations.hpp"
 #include "mc/study/gears.hpp"
 #include "mc/study/other_sources.hpp"
 #include "mc/study/schema/sizes.hpp"
@@ -82,49 +81,49 @@ SceneGrid choose_grid(const Study& study, const Stepping& stepping, int samples,
 namespace {
 
 // Highest fluctuation frequency of a gearbox (sine or noise band), in cycles per mesh period.
-double highest_frequency(const Study& study, const Drivetrain& drivetrain,
-                         const InstanceInputs& in) {
+double highest_frequency(const GearboxPlan& gearbox, const InstanceInputs& in) {
     const FluctuationInstance& f = in.fluctuations;
-    const double period_s = dynamics::mesh_period_s(gearbox_inputs(study, drivetrain, in));
-    const double turns = drivetrain.input_turns_per_mesh();
+    const auto& [torque, speed, gravity] = *gearbox.excitation;
+    const double period_s = dynamics::mesh_period_s(gearbox.inputs(in));
+    const double turns = gearbox.drivetrain->input_turns_per_mesh();
     double result = 0.0;
-    if (torque_has_sine(study)) {
+    if (torque && torque->sine) {
         result = std::max(f.torque_order * turns, f.torque_Hz * period_s);
     }
-    if (speed_has_sine(study)) {
+    if (speed && speed->sine) {
         result = std::max(result, f.speed_order * turns);
     }
-    if (torque_has_noise(study)) {
+    if (torque && torque->noise) {
         result = std::max(result, f.torque_noise_Hz * period_s);
     }
-    if (speed_has_noise(study)) {
+    if (speed && speed->noise) {
         result = std::max(result, f.speed_noise_Hz * period_s);
     }
     return result;
 }
 
 // The same, the maximum over the nominal gearbox and a pilot sample of the ensemble.
-double highest_frequency(const Study& study, const Sampler& sampler, const Drivetrain& drivetrain) {
-    double result = highest_frequency(study, drivetrain, nominal_inputs(study));
+double highest_frequency(const Study& study, const Sampler& sampler, const GearboxPlan& gearbox) {
+    double result = highest_frequency(gearbox, gearbox.nominal);
     constexpr std::uint64_t kPilot = 32;
     for (std::uint64_t i = 0; i < (study.random.empty() ? 0 : kPilot); ++i) {
         const InstanceInputs inputs = sampler.draw({Group::graded, i}).inputs;
-        result = std::max(result, highest_frequency(study, drivetrain, inputs));
+        result = std::max(result, highest_frequency(gearbox, inputs));
     }
     return result;
 }
 
-void check_kernels(const Study& study, const lockstep::IntegrationPlan& plan) {
+void check_kernels(const ExcitationModel& model, const lockstep::IntegrationPlan& plan) {
     lockstep::Excitation excitation;
-    if (speed_fluctuates(study)) {
+    if (model.speed) {
         excitation.speed.emplace();
     }
     if (lockstep::supports_excitation(plan, excitation)) {
         return;
     }
-    const std::string what = speed_fluctuates(study)    ? "a fluctuating speed"
-                             : torque_fluctuates(study) ? "a fluctuating torque"
-                                                        : "gravity";
+    const std::string what = model.speed    ? "a fluctuating speed"
+                             : model.torque ? "a fluctuating torque"
+                                            : "gravity";
     if (plan.precision != lockstep::Precision::double_precision) {
         throw SceneError("numerics.precision", what + " needs double precision",
                          "use precision = \"double\"");
@@ -148,9 +147,7 @@ void check_kernels(const Study& study, const lockstep::IntegrationPlan& plan) {
 }
 
 // A quasi-static gearbox has no time steps, only the encoders' samples.
-void check_samples(const Study& study, const Sampler& sampler, const Drivetrain& drivetrain,
-                   int samples) {
-    const double rate = highest_frequency(study, sampler, drivetrain);
+void check_samples(double rate, int samples) {
     if (samples < 2.0 * rate) {
         throw SceneError("sensor.encoder_sampling_Hz",
                          fmt::format("{} samples per mesh period are too few for the fastest "
@@ -163,18 +160,17 @@ void check_samples(const Study& study, const Sampler& sampler, const Drivetrain&
 }  // namespace
 
 void check_excitation_resolved(const Study& study, const Sampler& sampler,
-                               const Drivetrain& drivetrain,
-                               const lockstep::IntegrationPlan& plan) {
-    if (!has_variable_excitation(study)) {
+                               const GearboxPlan& gearbox, const lockstep::IntegrationPlan& plan) {
+    if (!gearbox.excitation) {
         return;
     }
     if (study.effects.quasi_static()) {
-        check_samples(study, sampler, drivetrain, plan.grid.samples);
+        check_samples(highest_frequency(study, sampler, gearbox), plan.grid.samples);
         return;
     }
-    check_kernels(study, plan);
+    check_kernels(*gearbox.excitation, plan);
     constexpr double kStepsPerPeriod = 20.0;
-    const double needed = kStepsPerPeriod * highest_frequency(study, sampler, drivetrain);
+    const double needed = kStepsPerPeriod * highest_frequency(study, sampler, gearbox);
     const auto steps = static_cast<double>(plan.grid.steps.size());
     if (steps < needed) {
         throw SceneError(
@@ -218,14 +214,15 @@ using std::numbers::pi;
 
 class PlanBuilder {
   public:
-    PlanBuilder(const Study& study, const Sampler& sampler, const Drivetrain& drivetrain,
-                const SceneStiffness& stiffness)
-        : study_(study), sampler_(sampler), drivetrain_(drivetrain), stiffness_(stiffness) {}
+    PlanBuilder(const Study& study, const Sampler& sampler, const GearboxPlan& gearbox)
+        : study_(study),
+          sampler_(sampler),
+          gearbox_(gearbox),
+          drivetrain_(*gearbox.drivetrain),
+          stiffness_(*gearbox.stiffness) {}
 
     ScenePlan make() && {
-        const double mesh_frequency_rad_s =
-            drivetrain_.mesh_frequency_rad_s(nominal_inputs(study_).speed_rad_s);
-        const Sampling sampling = choose_sampling(study_, mesh_frequency_rad_s / (2.0 * pi));
+        const Sampling sampling = choose_sampling(study_, gearbox_.mesh_frequency_Hz);
         plan_.te_samples = sampling.te_samples;
         check_shaft_orders(study_, drivetrain_, sampling.samples);
         begin_plan(sampling.samples);
@@ -233,7 +230,7 @@ class PlanBuilder {
                                        stiffness_.transitions(), [this] { return pilot(); });
         plan_.calibration = chosen.calibration;
         plan_.integration = complete_plan(std::move(chosen.grid));
-        check_excitation_resolved(study_, sampler_, drivetrain_, plan_.integration);
+        check_excitation_resolved(study_, sampler_, gearbox_, plan_.integration);
         return std::move(plan_);
     }
 
@@ -241,17 +238,15 @@ class PlanBuilder {
     // Sets everything in the integration plan but the grid.
     void begin_plan(int samples) {
         lockstep::IntegrationPlan& integration = plan_.integration;
-        integration.layout = gearbox_layout(study_);
+        integration.layout = gearbox_.bodies.layout;
         // A quasi-static gearbox is computed at the samples only.
         plan_.stepping.steps = samples;
         if (!study_.effects.quasi_static()) {
             integration.mode_inertia = lockstep::mode_inertia(
-                dynamics::assemble(integration.layout,
-                                   gearbox_inputs(study_, drivetrain_, nominal_inputs(study_)),
+                dynamics::assemble(integration.layout, gearbox_.inputs(gearbox_.nominal),
                                    stiffness_.mean_pairs()),
                 2.0 * pi * study_.numerics.mass_scaling_Hz);
-            plan_.stepping = choose_stepping(study_, sampler_, drivetrain_, integration.layout,
-                                             stiffness_.stiffest_pairs(), integration.mode_inertia);
+            plan_.stepping = choose_stepping(study_, sampler_, gearbox_, integration.mode_inertia);
             integration.low_pass_rad_s = 2.0 * pi * study_.sensor.low_pass_Hz;
         }
         integration.integrator = plan_.stepping.integrator;
@@ -295,7 +290,7 @@ class PlanBuilder {
     // mesh phases.
     lockstep::MeshError first_errors() const {
         const MeshErrors& e = study_.errors;
-        return study_.gearbox.kind == GearboxKind::fixed_shaft
+        return gearbox_.kind == GearboxKind::fixed_shaft
                    ? lockstep::MeshError{e.mesh_m, e.mesh_phase_rad}
                    : lockstep::MeshError{e.sun_planet_m, e.sun_planet_phase_rad};
     }
@@ -314,9 +309,9 @@ class PlanBuilder {
         for (int lane = 0; lane < lockstep::kPilotLanes; ++lane) {
             const InstanceInputs inputs =
                 lane == 0
-                    ? nominal_inputs(study_)
+                    ? gearbox_.nominal
                     : sampler_.draw({Group::graded, static_cast<std::uint64_t>(lane - 1)}).inputs;
-            pilot.inputs.push_back(gearbox_inputs(study_, drivetrain_, inputs));
+            pilot.inputs.push_back(gearbox_.inputs(inputs));
             const double largest = sizes.empty() ? 0.0 : sizes.back();
             for (int curve = 0; curve < fault.curves(); ++curve) {
                 pilot.faults.curve[static_cast<std::size_t>(curve)].push_back(
@@ -338,6 +333,7 @@ class PlanBuilder {
 
     const Study& study_;
     const Sampler& sampler_;
+    const GearboxPlan& gearbox_;
     const Drivetrain& drivetrain_;
     const SceneStiffness& stiffness_;
     ScenePlan plan_;
@@ -345,9 +341,8 @@ class PlanBuilder {
 
 }  // namespace
 
-ScenePlan make_plan(const Study& study, const Sampler& sampler, const Drivetrain& drivetrain,
-                    const SceneStiffness& stiffness) {
-    return PlanBuilder(study, sampler, drivetrain, stiffness).make();
+ScenePlan make_plan(const Study& study, const Sampler& sampler, const GearboxPlan& gearbox) {
+    return PlanBuilder(study, sampler, gearbox).make();
 }
 
 }  // namespace gearpod::mc

@@ -38,7 +38,7 @@ SceneGrid choose_grid(const Study& study, const Stepping& stepping, int samples,
 // Throws SceneError if kernels are missing, or if steps or samples are too coarse for a
 // fluctuation.
 void check_excitation_resolved(const Study& study, const Sampler& sampler,
-                               const Drivetrain& drivetrain, const lockstep::IntegrationPlan& plan);
+                               const GearboxPlan& gearbox, const lockstep::IntegrationPlan& plan);
 
 // Throws SceneError if a tone of a shaft, or the impulses of a bearing, are not below half the
 // sampling rate.
@@ -57,7 +57,6 @@ struct ScenePlan {
 };
 
 // Throws SceneError.
-ScenePlan make_plan(const Study& study, const Sampler& sampler, const Drivetrain& drivetrain,
-                    const SceneStiffness& stiffness);
+ScenePlan make_plan(const Study& study, const Sampler& sampler, const GearboxPlan& gearbox);
 
 }  // namespace gearpod::mc

@@ -9,7 +9,6 @@
 #include "dynamics/gearbox_matrices.hpp"
 #include "lockstep/integrators/facts.hpp"
 #include "lockstep/steps/stability.hpp"
-#include "mc/plan/drivetrain.hpp"
 #include "mc/plan/feature_needs.hpp"
 #include "mc/plan/scene_error.hpp"
 #include "signals/spectra/fourier_transform.hpp"
@@ -37,17 +36,16 @@ int samples_at_least(double rate_Hz, double mesh_frequency_Hz, const char* key) 
 // Requirements on the number of steps per mesh period.
 class StepNeeds {
   public:
-    StepNeeds(const Study& study, const Sampler& sampler, const Drivetrain& drivetrain,
-              const dynamics::GearboxLayout& layout, const std::vector<double>& stiffest_N_m,
+    StepNeeds(const Study& study, const Sampler& sampler, const GearboxPlan& gearbox,
               const lockstep::ModeInertia& mode_inertia)
         : study_(study),
           sampler_(sampler),
-          drivetrain_(drivetrain),
-          layout_(layout),
-          stiffest_(stiffest_N_m),
+          gearbox_(gearbox),
+          layout_(gearbox.bodies.layout),
+          stiffest_(gearbox.stiffness->stiffest_pairs()),
           mode_inertia_(mode_inertia),
           low_pass_rad_s_(2.0 * pi * study.sensor.low_pass_Hz) {
-        gearboxes_.push_back(gearbox_inputs(study, drivetrain, nominal_inputs(study)));
+        gearboxes_.push_back(gearbox.inputs(gearbox.nominal));
         // A pilot sample of the ensemble, the same for every run of the study, represents the other
         // gearboxes.
         constexpr std::uint64_t kPilot = 32;
@@ -111,7 +109,7 @@ class StepNeeds {
         }
     }
     dynamics::GearboxInputs graded(std::uint64_t i) const {
-        return gearbox_inputs(study_, drivetrain_, sampler_.draw({Group::graded, i}).inputs);
+        return gearbox_.inputs(sampler_.draw({Group::graded, i}).inputs);
     }
     dynamics::GearboxMatrices system(const dynamics::GearboxInputs& gearbox) const {
         return lockstep::with_mode_inertia(dynamics::assemble(layout_, gearbox, stiffest_),
@@ -138,9 +136,9 @@ class StepNeeds {
 
     const Study& study_;
     const Sampler& sampler_;
-    const Drivetrain& drivetrain_;
+    const GearboxPlan& gearbox_;
     const dynamics::GearboxLayout& layout_;
-    const std::vector<double>& stiffest_;
+    const std::vector<double> stiffest_;  // of every gear pair, which bounds an explicit step
     const lockstep::ModeInertia& mode_inertia_;
     double low_pass_rad_s_;
     std::vector<dynamics::GearboxInputs> gearboxes_;  // pilot sample, the nominal one first
@@ -274,11 +272,9 @@ Sampling choose_sampling(const Study& study, double mesh_frequency_Hz) {
     return result;
 }
 
-Stepping choose_stepping(const Study& study, const Sampler& sampler, const Drivetrain& drivetrain,
-                         const dynamics::GearboxLayout& layout,
-                         const std::vector<double>& stiffest_N_m,
+Stepping choose_stepping(const Study& study, const Sampler& sampler, const GearboxPlan& gearbox,
                          const lockstep::ModeInertia& mode_inertia) {
-    const StepNeeds needs(study, sampler, drivetrain, layout, stiffest_N_m, mode_inertia);
+    const StepNeeds needs(study, sampler, gearbox, mode_inertia);
     const lockstep::Integrator integrator = integrator_of(study, needs);
     const int given = study.numerics.steps_per_mesh;
     Stepping stepping = is_explicit(integrator)
@@ -305,13 +301,6 @@ int choose_max_meshes(const Study& study, double decay_meshes) {
     return given > 0 ? given
                      : static_cast<int>(std::isfinite(decay) ? std::clamp(decay, kFewest, kMost)
                                                              : kFewest);
-}
-
-dynamics::GearboxInputs gearbox_inputs(const Study& study, const Drivetrain& drivetrain,
-                                       const InstanceInputs& instance) {
-    dynamics::GearboxInputs inputs = body_inputs(study, instance);
-    drivetrain.set(instance, inputs);
-    return inputs;
 }
 
 }  // namespace gearpod::mc

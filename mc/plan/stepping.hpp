@@ -1,11 +1,9 @@
 // Numbers of samples and steps per mesh period of a study, and its integrator.
 #pragma once
 
-#include <vector>
-
 #include "lockstep/plan/integrator.hpp"
 #include "lockstep/plan/mode_inertia.hpp"
-#include "mc/plan/drivetrain.hpp"
+#include "mc/plan/gearbox_plan.hpp"
 #include "mc/plan/sampling.hpp"
 
 namespace gearpod::mc {
@@ -36,11 +34,8 @@ struct Stepping {
     // Number of steps per mesh period with which lockstep::kUsualExplicit is stable, used or not.
     double explicit_steps = 0.0;
 };
-// `stiffest_N_m`: largest stiffness of every gear pair, which bounds an explicit step.
 // `mode_inertia`: additional inertia of the nominal gearbox. Throws SceneError.
-Stepping choose_stepping(const Study& study, const Sampler& sampler, const Drivetrain& drivetrain,
-                         const dynamics::GearboxLayout& layout,
-                         const std::vector<double>& stiffest_N_m,
+Stepping choose_stepping(const Study& study, const Sampler& sampler, const GearboxPlan& gearbox,
                          const lockstep::ModeInertia& mode_inertia);
 
 // Relative change at which an orbit counts as converged: the study's value, or the smallest that
@@ -49,9 +44,5 @@ double convergence_tolerance(const Study& study);
 
 // Largest number of mesh periods within which a gearbox must converge.
 int choose_max_meshes(const Study& study, double decay_meshes);
-
-// Inputs of one gearbox with speed, load and bodies.
-dynamics::GearboxInputs gearbox_inputs(const Study& study, const Drivetrain& drivetrain,
-                                       const InstanceInputs& instance);
 
 }  // namespace gearpod::mc

@@ -526,7 +526,7 @@ Json passage_json(const Scene& scene, int curve, int pair, std::vector<double> s
         const auto mesh = scene.fault().mesh(curve, size);
         Json values = Json::array();
         for (int i = -kStiffnessPoints / 4; i <= last; ++i) {
-            values.push_back(faulty_total(scene, pair, *mesh, since(i)));
+            values.push_back(faulty_total(scene.pairs(), pair, *mesh, since(i)));
         }
         json["faulty"].push_back({{"size", size}, {"stiffness", values}});
     }
@@ -539,7 +539,7 @@ Json stiffness_json(const Scene& scene) {
         json["mesh"].push_back(static_cast<double>(i) / kStiffnessPoints);
     }
     json["pairs"] = healthy_curves(scene);
-    const std::vector<int> pairs = faulty_pairs(scene);
+    const std::vector<int> pairs = faulty_pairs(scene.fault());
     const std::vector<double> sizes = fault_sizes(scene.study());
     for (int curve = 0; curve < scene.fault().curves() && !sizes.empty(); ++curve) {
         json["passages"].push_back(

@@ -134,10 +134,10 @@ TileSolution solve_coupled(const Scene& scene, std::span<const Realization> real
     for (const StageSpan& stage : span.stages) {
         std::vector<Realization> gearboxes;
         for (const Realization& record : realizations) {
-            gearboxes.push_back(
-                stage_gearbox(scene, stage.stage, record, faulty_stage == stage.stage));
+            gearboxes.push_back(stage_gearbox(scene.gearbox(), scene.gearbox().stages[stage.stage],
+                                              record, faulty_stage == stage.stage));
         }
-        tasks.push_back(std::make_unique<StageTask>(scene.stages()[stage.stage],
+        tasks.push_back(std::make_unique<StageTask>(*scene.gearbox().stages[stage.stage].plan,
                                                     std::move(gearboxes), stage.meshes));
         StageTask& task = *tasks.back();
         lockstep::CoupledStage& added = stages.emplace_back(task.inputs.stage(
@@ -150,7 +150,7 @@ TileSolution solve_coupled(const Scene& scene, std::span<const Realization> real
     const double processor_start = thread_processor_s();
     const std::size_t lanes = realizations.size();
     std::vector<lockstep::TileResult> results =
-        run_coupled(static_cast<int>(lanes), stages, coupling_shafts(scene, span, lanes),
+        run_coupled(static_cast<int>(lanes), stages, coupling_shafts(scene.gearbox(), span, lanes),
                     convergence_of(scene));
     solved.integration_s = lap(start);
     solved.integration_cpu_s = thread_processor_s() - processor_start;

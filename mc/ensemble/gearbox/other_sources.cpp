@@ -62,13 +62,13 @@ void add_vibration(const std::vector<double>& vibration, double factor, double s
 void add_stage_vibration(const Scene& scene, std::size_t stage, const Realization& realization,
                          const Realization& gearbox, const std::vector<double>& vibration,
                          double factor, std::vector<double>& samples) {
-    Philox engine = record_stream(
-        scene.draw().seed, realization.id,
-        with_suffix(StreamPurpose::stage_start, scene.study().sensor.stages[stage].name));
+    Philox engine =
+        record_stream(scene.draw().seed, realization.id,
+                      with_suffix(StreamPurpose::stage_start, scene.gearbox().stages[stage].name));
     const double start =
         boost::random::uniform_01<double>()(engine) * static_cast<double>(vibration.size());
-    const double step =
-        sample_s(scene, realization.inputs) / sample_s(scene.stages()[stage], gearbox.inputs);
+    const double step = sample_s(scene, realization.inputs) /
+                        sample_s(*scene.gearbox().stages[stage].plan, gearbox.inputs);
     add_vibration(vibration, factor, start, step, samples);
 }
 
@@ -77,7 +77,8 @@ void add_coupled_stages(const Scene& scene, const CoupledSpan& span, const LaneS
                         std::vector<double>& samples) {
     for (std::size_t i = 0; i < record.coupled.size(); ++i) {
         const StageSpan& stage = span.stages[i];
-        const double per_mesh = scene.stages()[stage.stage].samples_per_mesh();
+        const StagePlan& source = scene.gearbox().stages[stage.stage];
+        const double per_mesh = source.plan->samples_per_mesh();
         std::vector<double> vibration = record.coupled[i];
         if (!std::ranges::all_of(vibration, [](double value) { return std::isfinite(value); })) {
             std::ranges::fill(samples, std::numeric_limits<double>::quiet_NaN());
@@ -92,8 +93,7 @@ void add_coupled_stages(const Scene& scene, const CoupledSpan& span, const LaneS
             vibration[k] *= weight;
             vibration[vibration.size() - 1 - k] *= weight;
         }
-        add_vibration(vibration, scene.study().sensor.stages[stage.stage].gain,
-                      -stage.start / stage.period * per_mesh,
+        add_vibration(vibration, source.gain, -stage.start / stage.period * per_mesh,
                       per_mesh / stage.period / scene.samples_per_mesh(), samples);
     }
 }
@@ -130,7 +130,7 @@ struct StageRecord {
 
 // Samples become NaN if the stage's gearbox fails.
 void add_stage(const Scene& scene, std::size_t stage, std::span<const StageRecord> records) {
-    const Scene& own = scene.stages()[stage];
+    const Scene& own = *scene.gearbox().stages[stage].plan;
     const SensorPaths path = sensor_paths(own);
     const auto lanes = static_cast<std::size_t>(own.study().numerics.lanes);
     for (std::size_t first = 0; first < records.size(); first += lanes) {
@@ -209,14 +209,16 @@ void add_background(const Scene& scene, std::span<const Realization> realization
         add_bearings(scene, realizations[i], SourceRole::background, samples[i]);
         add_coupled_stages(scene, span, records[i], samples[i]);
     }
-    for (std::size_t stage = 0; stage < scene.stages().size(); ++stage) {
-        if (sensor.stages[stage].coupled()) {
+    const std::vector<StagePlan>& stages = scene.gearbox().stages;
+    for (std::size_t stage = 0; stage < stages.size(); ++stage) {
+        if (stages[stage].shaft) {
             continue;
         }
         std::vector<StageRecord> next;
         for (std::size_t i = 0; i < records.size(); ++i) {
-            next.push_back({&realizations[i], stage_gearbox(scene, stage, realizations[i]),
-                            sensor.stages[stage].gain, &samples[i]});
+            next.push_back({&realizations[i],
+                            stage_gearbox(scene.gearbox(), stages[stage], realizations[i]),
+                            stages[stage].gain, &samples[i]});
         }
         add_stage(scene, stage, next);
     }
@@ -246,21 +248,23 @@ std::vector<LaneSignals> with_other_fault(const Scene& scene,
         samples.emplace_back(records[i].sensor.size(), 0.0);
         add_bearings(scene, realizations[i], SourceRole::other_fault, samples[i]);
     }
-    const std::vector<NeighbourStage>& stages = scene.study().sensor.stages;
+    const std::vector<StagePlan>& stages = scene.gearbox().stages;
     for (std::size_t stage = 0; stage < stages.size(); ++stage) {
         if (stages[stage].role != SourceRole::other_fault) {
             continue;
         }
-        if (stages[stage].coupled()) {
+        if (stages[stage].shaft) {
             add_coupled_fault(scene, stage, realizations, records, samples);
             continue;
         }
         std::vector<StageRecord> next;  // the faulty stage in place of the healthy one
         for (std::size_t i = 0; i < records.size(); ++i) {
             const double gain = stages[stage].gain;
-            next.push_back({&realizations[i], stage_gearbox(scene, stage, realizations[i], true),
+            next.push_back({&realizations[i],
+                            stage_gearbox(scene.gearbox(), stages[stage], realizations[i], true),
                             gain, &samples[i]});
-            next.push_back({&realizations[i], stage_gearbox(scene, stage, realizations[i]), -gain,
+            next.push_back({&realizations[i],
+                            stage_gearbox(scene.gearbox(), stages[stage], realizations[i]), -gain,
                             &samples[i]});
         }
         add_stage(scene, stage, next);

@@ -232,7 +232,7 @@ void print_step_forecast(const Scene& scene, const PeakMemory& memory) {
         fmt::format("the number of gearboxes and time steps and the time of one mesh period alone; "
                     "{}signals, features and analysis take more. Raise --seconds to compute some "
                     "gearboxes instead",
-                    scene.stages().empty() ? "" : "neighbouring stages, "));
+                    scene.gearbox().stages.empty() ? "" : "neighbouring stages, "));
     print_entry("threads", std::to_string(threads));
     if (study.effects.quasi_static()) {
         print_entry("gearboxes", "not forecast: a quasi-static study integrates nothing");

@@ -9,7 +9,6 @@
 #include <numbers>
 #include <vector>
 
-#include "mc/ensemble/coupling/neighbour_stages.hpp"
 #include "mc/ensemble/gearbox/other_sources.hpp"
 #include "mc/plan/drivetrain.hpp"
 #include "mc/plan/instance_inputs.hpp"
@@ -300,18 +299,15 @@ std::string other_speed_text(const NeighbourStage& stage, const Scene& own) {
 }
 
 // Describes what the shaft of a stage does, with the frequency of its twist.
-std::string shaft_text(const Scene& scene, std::size_t stage) {
-    const NeighbourStage& own = scene.study().sensor.stages[stage];
-    return own.coupled()
+std::string shaft_text(const std::optional<StageShaft>& shaft) {
+    return shaft
                ? fmt::format(
                      "the shaft twists by {:.3g} N m/rad: both gearboxes would turn against "
                      "each other at {:.3g} Hz with a damping ratio of {:g}; it sets the "
                      "torque of the stage{}",
-                     own.shaft_stiffness_N_m_rad, shaft_mode(scene, stage).frequency_Hz,
-                     own.shaft_damping_ratio,
-                     is_mirrored(scene, stage)
-                         ? "; its study is mirrored, since it lets the other side drive"
-                         : "")
+                     shaft->stiffness_N_m_rad, shaft->frequency_Hz, shaft->damping_ratio,
+                     shaft->mirrored ? "; its study is mirrored, since it lets the other side drive"
+                                     : "")
                : "the shaft transmits no vibration (no shaft_stiffness_N_m_rad)";
 }
 
@@ -342,7 +338,7 @@ void print_bearing_responses(const Sensor& sensor) {
 
 void print_stage(const Scene& scene, std::size_t number) {
     const NeighbourStage& stage = scene.study().sensor.stages[number];
-    const Scene& own = scene.stages()[number];
+    const Scene& own = *scene.gearbox().stages[number].plan;
     print_entry(
         "neighbouring stage",
         fmt::format(
@@ -350,7 +346,7 @@ void print_stage(const Scene& scene, std::size_t number) {
             own.study().title, member_name(*stage.stage_shaft), member_name(*stage.shaft),
             stage.of.empty() ? "" : fmt::format(" of \"{}\"", stage.of),
             other_speed_text(stage, own), std::abs(own.nominal_mesh_frequency_Hz()), stage.gain,
-            shaft_text(scene, number),
+            shaft_text(scene.gearbox().stages[number].shaft),
             stage.role == SourceRole::other_fault ? "; its fault is that of other_fault records"
             : stage.study->fault.kind != nullptr  ? "; its fault is left out"
                                                   : ""));
@@ -453,7 +449,7 @@ void print_sensors(const Scene& scene) {
     for (const Bearing& bearing : study.sensor.bearings) {
         print_bearing(scene, bearing);
     }
-    for (std::size_t i = 0; i < scene.stages().size(); ++i) {
+    for (std::size_t i = 0; i < scene.gearbox().stages.size(); ++i) {
         print_stage(scene, i);
     }
 }

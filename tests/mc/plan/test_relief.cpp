@@ -55,7 +55,7 @@ TEST_CASE("The springs of relieved teeth carry the force at the loaded approach"
                 const lockstep::Step& at = plan.grid.steps[step];
                 const double phase = at.phase + plan.grid.stage_nodes[0] * at.length;
                 for (int pair = 0; pair < plan.nodes.pairs; ++pair) {
-                    const double d = mc::loaded_approach(scene, pair, phase);
+                    const double d = mc::loaded_approach(*scene.gearbox().stiffness, pair, phase);
                     double force = 0;
                     for (int contact = 0; contact < plan.nodes.contacts(); ++contact) {
                         const double gap = lockstep::tooth_gap(

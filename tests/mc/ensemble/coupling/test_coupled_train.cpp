@@ -10,6 +10,7 @@
 #include "mc/ensemble/coupling/neighbour_stages.hpp"
 #include "mc/ensemble/coupling/record_positions.hpp"
 #include "mc/ensemble/gearbox/simulation.hpp"
+#include "mc/plan/stage_plan.hpp"
 #include "tests/mc/ensemble/gearbox/stage_files.hpp"
 #include "tests/mc/study_file.hpp"
 
@@ -100,7 +101,7 @@ TEST_CASE("Natural frequencies of a train are those of its equations", "[coupled
     test::replace_in(path, "[sensor]", "[effects]\nmotion = \"torsional\"\n\n[sensor]");
     const mc::Scene scene =
         scene_with(path, shaft(kStiffness_N_m_rad), {"effects.motion=\"torsional\""});
-    const TorsionalTrain first(scene), second(scene.stages()[0]);
+    const TorsionalTrain first(scene), second(*scene.gearbox().stages[0].plan);
     constexpr int n = TorsionalTrain::kDegrees;
     Eigen::MatrixXd mass = Eigen::MatrixXd::Zero(2 * n, 2 * n), stiffness = mass;
     mass.topLeftCorner(n, n) = first.mass;
@@ -112,7 +113,7 @@ TEST_CASE("Natural frequencies of a train are those of its equations", "[coupled
     twist(n + 2) = -1.0 / (0.5 * 0.004 * 13 * std::cos(std::numbers::pi / 9));  // sun's base circle
     stiffness += kStiffness_N_m_rad * twist * twist.transpose();
     const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> modes(stiffness, mass);
-    const std::vector<double> frequencies = mc::train_frequencies_Hz(scene);
+    const std::vector<double> frequencies = mc::train_frequencies_Hz(scene.gearbox());
     REQUIRE(frequencies.size() == 2 * n);
     CHECK(frequencies[0] < 1e-3 * frequencies[1]);  // the train turns freely
     for (std::size_t i = 1; i < frequencies.size(); ++i) {
@@ -121,8 +122,8 @@ TEST_CASE("Natural frequencies of a train are those of its equations", "[coupled
     }
     // A soft shaft twists at the frequency of two rigid gearboxes.
     const mc::Scene soft = scene_with(path, shaft(10.0), {"effects.motion=\"torsional\""});
-    CHECK(mc::train_frequencies_Hz(soft)[1] ==
-          Approx(mc::shaft_mode(soft, 0).frequency_Hz).epsilon(1e-3));
+    CHECK(mc::train_frequencies_Hz(soft.gearbox())[1] ==
+          Approx(soft.gearbox().stages[0].shaft->frequency_Hz).epsilon(1e-3));
 }
 
 TEST_CASE("An elastic shaft bears the same torque at both ends", "[coupled-train]") {
@@ -130,12 +131,13 @@ TEST_CASE("An elastic shaft bears the same torque at both ends", "[coupled-train
     const mc::Scene scene = scene_with(stage_file(folder, "stage.toml"), shaft(2e4));
     mc::Realization gearbox = scene.sampler().draw({mc::Group::threshold, 1});
     gearbox.inputs.torque_N_m *= 0.83;
-    const mc::Realization stage = mc::stage_gearbox(scene, 0, gearbox);
+    const mc::Realization stage =
+        mc::stage_gearbox(scene.gearbox(), scene.gearbox().stages[0], gearbox);
     // Ring fixed: the carrier bears 1 + 35/13 of the sun's torque.
-    const double here = mc::shaft_torque_N_m(scene, mc::Member::carrier, gearbox.inputs);
+    const double here = mc::shaft_torque_N_m(scene.gearbox(), mc::Member::carrier, gearbox.inputs);
     CHECK(here == Approx(-0.83 * 200.0 * 48 / 13).epsilon(1e-12));
-    CHECK(mc::shaft_torque_N_m(scene.stages()[0], mc::Member::sun, stage.inputs) ==
-          Approx(-here).epsilon(1e-12));
+    CHECK(mc::shaft_torque_N_m(scene.gearbox().stages[0].plan->gearbox(), mc::Member::sun,
+                               stage.inputs) == Approx(-here).epsilon(1e-12));
     CHECK(stage.inputs.torque_N_m == Approx(-here).epsilon(1e-12));
 }
 

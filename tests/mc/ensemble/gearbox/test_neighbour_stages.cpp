@@ -65,14 +65,15 @@ TEST_CASE("The sensor picks up the stage's own signal, at the stage's time, time
     const mc::Realization gearbox = scene.sampler().draw(id);
     const std::vector<double> with = sensor_signal(scene, gearbox),
                               without = sensor_signal(alone, gearbox);
-    const mc::Realization neighbour = mc::stage_gearbox(scene, 0, gearbox);
+    const mc::Realization neighbour =
+        mc::stage_gearbox(scene.gearbox(), scene.gearbox().stages[0], gearbox);
     CHECK(neighbour.inputs.fault_size == 0.0);
-    const std::vector<double> own = sensor_signal(scene.stages()[0], neighbour);
+    const std::vector<double> own = sensor_signal(*scene.gearbox().stages[0].plan, neighbour);
     // Mesh frequencies: 35 Hz here, 60 / 48 * 13 / 60 * 35 Hz there.
-    const double step =
-        mc::sample_s(scene, gearbox.inputs) / mc::sample_s(scene.stages()[0], neighbour.inputs);
+    const double step = mc::sample_s(scene, gearbox.inputs) /
+                        mc::sample_s(*scene.gearbox().stages[0].plan, neighbour.inputs);
     CHECK(step == Approx((1.0 / (35.0 * scene.samples_per_mesh())) *
-                         (35.0 * 13 / 48 * scene.stages()[0].samples_per_mesh()))
+                         (35.0 * 13 / 48 * scene.gearbox().stages[0].plan->samples_per_mesh()))
                       .epsilon(1e-9));
     mc::Philox engine = mc::record_stream(scene.draw().seed, id,
                                           mc::with_suffix(mc::StreamPurpose::stage_start, "slow"));
@@ -97,20 +98,23 @@ TEST_CASE("A stage's gearbox has the torque and the speed of the gearbox next to
     const Folder folder;
     const mc::Scene scene(small_study(stage_file(folder, "stage.toml"), ""));
     mc::Realization gearbox = scene.sampler().draw({mc::Group::threshold, 1});
-    const mc::Realization usual = mc::stage_gearbox(scene, 0, gearbox);
+    const mc::Realization usual =
+        mc::stage_gearbox(scene.gearbox(), scene.gearbox().stages[0], gearbox);
     gearbox.inputs.torque_N_m *= 0.9;
     gearbox.inputs.speed_rad_s *= 1.1;
-    const mc::Realization other = mc::stage_gearbox(scene, 0, gearbox);
+    const mc::Realization other =
+        mc::stage_gearbox(scene.gearbox(), scene.gearbox().stages[0], gearbox);
     CHECK(other.inputs.torque_N_m == Approx(0.9 * usual.inputs.torque_N_m).epsilon(1e-12));
     CHECK(other.inputs.speed_rad_s == Approx(1.1 * usual.inputs.speed_rad_s).epsilon(1e-12));
-    CHECK(mc::stage_gearbox(scene, 0, gearbox, true).inputs.fault_size == Approx(0.4));
+    CHECK(mc::stage_gearbox(scene.gearbox(), scene.gearbox().stages[0], gearbox, true)
+              .inputs.fault_size == Approx(0.4));
 }
 
 TEST_CASE("The common shaft sets the speed of a stage, and the sensor is that of the study") {
     const Folder folder;
     const std::string path = stage_file(folder, "fast.toml", 66.0);
     const mc::Scene scene(small_study(path, ""));
-    const mc::Study& own = scene.stages()[0].study();
+    const mc::Study& own = scene.gearbox().stages[0].plan->study();
     CHECK(mc::nominal_inputs(own).speed_rad_s ==
           Approx(13.0 / 48.0 * mc::nominal_inputs(scene.study()).speed_rad_s).epsilon(1e-6));
     const auto text =

@@ -1,0 +1,243 @@
+#include "mc/plan/gearbox_plan.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <utility>
+#include <variant>
+
+#include "mc/plan/scene.hpp"
+#include "mc/study/fluctuations.hpp"
+#include "mc/study/gears.hpp"
+#include "mc/study/housing.hpp"
+
+namespace gearpod::mc {
+namespace {
+
+dynamics::PlanetaryLayout planetary_layout(const Study& study) {
+    dynamics::PlanetaryLayout result;
+    const Gearbox& g = study.gearbox;
+    result.planets = g.planets;
+    result.pressure_angle_rad = g.pressure_angle_rad;
+    result.helix_angle_rad = g.helix_angle_rad;
+    result.positions_rad = g.planet_positions_rad;
+    result.fixed = central_member(study.operation.fixed);
+    result.motion = study.effects.torsional() ? dynamics::Motion::torsional
+                                              : dynamics::Motion::translational_torsional;
+    result.inertial_terms = study.effects.inertial_terms;
+    result.mesh_damping = study.effects.mesh_damping;
+    result.bearing_sources = !housing_bearings(study).empty();
+    if (has_gears(study)) {
+        result.carrier_radius_m = centre_distance_m(study);
+        if (working_shifts(study).centre_distance_m) {
+            result.sun_working_angle_rad = working_angle_rad(study, MeshKind::sun_planet);
+            result.ring_working_angle_rad = working_angle_rad(study, MeshKind::ring_planet);
+        }
+    }
+    return result;
+}
+
+dynamics::FixedShaftLayout fixed_shaft_layout(const Study& study) {
+    dynamics::FixedShaftLayout result;
+    result.base_radius_m[dynamics::pinion] = gear_of(study, Member::pinion).base_radius();
+    result.base_radius_m[dynamics::gear] = gear_of(study, Member::gear).base_radius();
+    result.mesh_damping = study.effects.mesh_damping;
+    result.sensor = study.sensor.position == Member::gear ? dynamics::gear : dynamics::pinion;
+    return result;
+}
+
+dynamics::PlanetaryInputs planetary_inputs(const InstanceInputs& in) {
+    constexpr std::pair<dynamics::Body, Member> kBodies[] = {{dynamics::sun, Member::sun},
+                                                             {dynamics::planet, Member::planet},
+                                                             {dynamics::ring, Member::ring},
+                                                             {dynamics::carrier, Member::carrier}};
+    dynamics::PlanetaryInputs out;
+    for (const auto& [body, member] : kBodies) {
+        const BodyInstance& b = in.bodies[member];
+        out.mass_kg[body] = b.mass_kg;
+        out.inertia_over_r2_kg[body] = b.inertia_over_r2_kg;
+        out.bearing_stiffness_N_m[body] = b.bearing_stiffness_N_m;
+        out.bearing_damping_N_s_m[body] = b.bearing_damping_N_s_m;
+    }
+    std::ranges::copy(in.planets, out.planet_deviations);
+    out.support_stiffness_N_m = in.support_stiffness_N_m;
+    out.support_damping_N_s_m = in.support_damping_N_s_m;
+    return out;
+}
+
+dynamics::FixedShaftInputs fixed_shaft_inputs(const InstanceInputs& in) {
+    using namespace dynamics;
+    FixedShaftInputs out;
+    for (const auto& [which, member] :
+         {std::pair{pinion, Member::pinion}, std::pair{gear, Member::gear}}) {
+        const BodyInstance& b = in.bodies[member];
+        out.mass_kg[which] = b.mass_kg;
+        out.inertia_kg_m2[which] = b.inertia_kg_m2;
+        out.bearing_stiffness_N_m[which] = b.bearing_stiffness_N_m;
+        out.bearing_damping_N_s_m[which] = b.bearing_damping_N_s_m;
+    }
+    const FixedShaftInstance& f = in.fixed_shaft;
+    out.coupling_stiffness_N_m_rad[pinion] = f.motor_coupling_stiffness_N_m_rad;
+    out.coupling_stiffness_N_m_rad[gear] = f.load_coupling_stiffness_N_m_rad;
+    out.coupling_damping_N_m_s_rad[pinion] = f.motor_coupling_damping_N_m_s_rad;
+    out.coupling_damping_N_m_s_rad[gear] = f.load_coupling_damping_N_m_s_rad;
+    out.motor_inertia_kg_m2 = f.motor_inertia_kg_m2;
+    out.load_inertia_kg_m2 = f.load_inertia_kg_m2;
+    return out;
+}
+
+// Tooth of planet n that its ring side counts as 0. This tooth meshes with the ring half a planet
+// turn after its mesh with the sun (lockstep::planet_fault_pattern).
+int first_on_ring(const lockstep::PairSet& pairs, int n, int teeth) {
+    const int ring_pair = pairs.pairs() / 2 + n;
+    const double half_turn = 0.5 * (teeth + (pairs.reversed ? 1 : -1));
+    const long later = std::lround(pairs.pitch_phase(n) + half_turn - pairs.pitch_phase(ring_pair));
+    return static_cast<int>((teeth - later % teeth) % teeth);
+}
+
+// Sets the engagement of a side by the first pair in which it meets its mate.
+void set_engagement(const lockstep::PairSet& pairs, std::span<const lockstep::PairTeeth> teeth,
+                    ToothSide& side) {
+    for (std::size_t p = 0; p < teeth.size(); ++p) {
+        for (const int which : {0, 1}) {
+            if (static_cast<std::size_t>(teeth[p].gear[which]) == side.gear) {
+                const int pair = static_cast<int>(p);
+                const stiffness::MeshStiffness& mesh = pairs.curve(pair);
+                const double ratio = mesh.slice().contact_ratio();
+                const bool outwards = (which == teeth[p].driver) != pairs.reversed;
+                const double middle = 0.5 * (mesh.path_begin() + mesh.path_end());
+                const double since = pairs.reversed ? mesh.contact_ratio() - middle : middle;
+                side.middle = since - (pairs.pitch_phase(pair) - pairs.start[p]);
+                side.outwards = outwards ? ratio : -ratio;
+                return;
+            }
+        }
+    }
+}
+
+// Adds bodies with their sides to a model of tooth errors.
+class ToothErrorBuilder {
+  public:
+    ToothErrorBuilder(const Study& study, const GearboxPlan& gearbox)
+        : study_(study), gearbox_(gearbox) {}
+
+    ToothErrorModel make() && {
+        const auto* planetary = dynamic_cast<const PlanetaryDrivetrain*>(gearbox_.drivetrain.get());
+        if (planetary == nullptr) {
+            model_.pairs = lockstep::fixed_shaft_teeth();
+            add(Member::pinion);
+            add_side(MeshKind::pinion_gear, 0);
+            add(Member::gear);
+            add_side(MeshKind::pinion_gear, 0);
+            return std::move(model_);
+        }
+        model_.pairs =
+            lockstep::planetary_teeth(gearbox_.pairs(), planetary->train(), planetary->sense());
+        add(Member::sun);
+        add_side(MeshKind::sun_planet, 0);
+        add(Member::ring);
+        add_side(MeshKind::ring_planet, 0);
+        for (int n = 0; n < gearbox_.planets; ++n) {
+            const int teeth = add(Member::planet).teeth;
+            add_side(MeshKind::sun_planet, 0, n);
+            add_side(MeshKind::ring_planet, first_on_ring(gearbox_.pairs(), n, teeth), n);
+        }
+        return std::move(model_);
+    }
+
+  private:
+    ToothedBody& add(Member member) {
+        return model_.bodies.emplace_back(member, gearbox_.teeth[member],
+                                          gearbox_.stiffness->tooth_scales()[member],
+                                          std::vector<ToothSide>());
+    }
+
+    // Adds a side to the last body, which is number `which` of its member.
+    void add_side(MeshKind mesh, int first_tooth, int which = 0) {
+        ToothedBody& body = model_.bodies.back();
+        const bool is_first = body.sides.empty();
+        ToothSide& side = body.sides.emplace_back();
+        side.gear = sides_++;
+        side.first_tooth = first_tooth;
+        side.direction = is_first != gearbox_.pairs().reversed ? 1 : -1;
+        side.working_angle_rad = working_angle_rad(study_, mesh);
+        set_engagement(gearbox_.pairs(), model_.pairs, side);
+        const MemberValues& given = study_.gearbox.bodies[body.member];
+        const std::vector<double>& all = is_first ? given.index_m : given.ring_side_index_m;
+        if (!all.empty()) {
+            const auto begin = all.begin() + static_cast<std::ptrdiff_t>(which * body.teeth);
+            side.measured_m.assign(begin, begin + body.teeth);
+        }
+    }
+
+    const Study& study_;
+    const GearboxPlan& gearbox_;
+    ToothErrorModel model_;
+    std::size_t sides_ = 0;
+};
+
+std::optional<ExcitationModel> excitation_model(const Study& study) {
+    if (!has_variable_excitation(study)) {
+        return std::nullopt;
+    }
+    ExcitationModel model;
+    if (torque_fluctuates(study)) {
+        model.torque = {torque_has_sine(study), torque_has_noise(study)};
+    }
+    if (speed_fluctuates(study)) {
+        model.speed = {speed_has_sine(study), speed_has_noise(study)};
+    }
+    if (study.effects.gravity) {
+        model.gravity_direction_rad = study.effects.gravity_direction_rad;
+    }
+    return model;
+}
+
+}  // namespace
+
+BodyModel::BodyModel(const Study& study)
+    : layout(study.gearbox.kind == GearboxKind::fixed_shaft
+                 ? dynamics::GearboxLayout(fixed_shaft_layout(study))
+                 : planetary_layout(study)),
+      has_backlash(study.effects.separation == Separation::two_sided) {}
+
+dynamics::GearboxInputs BodyModel::inputs(const InstanceInputs& instance) const {
+    dynamics::GearboxInputs all = std::holds_alternative<dynamics::FixedShaftLayout>(layout)
+                                      ? dynamics::GearboxInputs(fixed_shaft_inputs(instance))
+                                      : planetary_inputs(instance);
+    std::visit(
+        [&](auto& inputs) {
+            inputs.mesh_damping = instance.mesh_damping;
+            if (has_backlash) {
+                inputs.backlash_m = instance.backlash_m;
+            }
+        },
+        all);
+    return all;
+}
+
+GearboxPlan::GearboxPlan(const Study& study)
+    : kind(study.gearbox.kind),
+      planets(study.gearbox.planets),
+      nominal(nominal_inputs(study)),
+      bodies(study),
+      drivetrain(make_drivetrain(study)),
+      mesh_frequency_Hz(drivetrain->mesh_frequency_rad_s(nominal.speed_rad_s) /
+                        (2.0 * std::numbers::pi)),
+      stiffness(std::make_shared<const SceneStiffness>(study, *drivetrain)),
+      excitation(excitation_model(study)) {
+    for (const Member member : kAllMembers) {
+        teeth[member] = teeth_of(study, member).value_or(0);
+    }
+    if (has_tooth_errors(study)) {
+        tooth_errors = ToothErrorBuilder(study, *this).make();
+    }
+}
+
+dynamics::GearboxInputs GearboxPlan::inputs(const InstanceInputs& instance) const {
+    dynamics::GearboxInputs all = bodies.inputs(instance);
+    drivetrain->set(instance, all);
+    return all;
+}
+
+}  // namespace gearpod::mc
