@@ -45,17 +45,17 @@ struct LivesOutputs {
 
 // Evaluates the rows and writes the requested outputs. Returns kBadInput after printing a problem,
 // or if the results are withheld.
-int write_outputs(const Study& study, const Results& frame, const RowSource& rows,
+int write_outputs(const CampaignPlan& plan, const Results& frame, const RowSource& rows,
                   const LivesOutputs& outputs) {
-    const Campaign campaign = campaign_of(study, frame, rows);
-    const LifeMonitor monitor(study, campaign);
+    const Campaign campaign = campaign_of(plan, frame, rows);
+    const LifeMonitor monitor(plan, campaign);
     if (!outputs.json.empty() || !outputs.html.empty() || !outputs.figures.empty() ||
         !outputs.evidence.empty()) {
         auto json = lives_json(monitor, outputs.shows_withheld);
         if (!outputs.evidence.empty()) {
             json["evidence"] = evidence_json(analysis::EvidenceKind::lives,
                                              lives_report(monitor, outputs.shows_withheld),
-                                             monitor.study().features.use, outputs.results, &frame);
+                                             plan.features, outputs.results, &frame);
             if (!write_evidence(outputs.evidence, json,
                                 {{"the results file", outputs.results},
                                  {"--json", outputs.json},
@@ -69,7 +69,7 @@ int write_outputs(const Study& study, const Results& frame, const RowSource& row
         }
         write_report_page(json_text(json), outputs.html, outputs.figures);
     }
-    const std::string withheld = outputs.shows_withheld ? "" : why_withheld(study, campaign);
+    const std::string withheld = outputs.shows_withheld ? "" : why_withheld(plan, campaign);
     if (!outputs.prints_text && !withheld.empty()) {
         fmt::print(stderr, "{}\n", withheld);
     }
@@ -86,12 +86,12 @@ int write_outputs(const Study& study, const Results& frame, const RowSource& row
 }
 
 // Rank 0's part of the run, after the checks. Returns the exit code.
-int run_lives_on_leader(const LivesOptions& options, const LifeTiles& tiles,
+int run_lives_on_leader(const LivesOptions& options, const Study& study, const LifeTiles& tiles,
                         double interpolation_error, const Ranks& ranks, Checkpoint& checkpoint,
                         const Interruption& interruption) {
     const RunOptions& run = options.run;
-    const Study& study = tiles.scene().study();
-    const BatchPlan plan = lives_plan(study);
+    const CampaignPlan& campaign = tiles.plan().campaign;
+    const BatchPlan plan = lives_plan(campaign);
     Progress progress(static_cast<long>(plan.rows()), run.quiet, checkpoint.rows_done(),
                       run.progress == "json" ? Progress::Form::json : Progress::Form::text);
     const EnsembleOutcome outcome = run_lives(tiles, plan,
@@ -110,14 +110,14 @@ int run_lives_on_leader(const LivesOptions& options, const LifeTiles& tiles,
                 frame.provenance.push_back(entry);
             }
             frame.provenance.emplace_back("state", "complete");
-            store_run_costs(tiles.scene(), interpolation_error, outcome, frame);
+            store_run_costs(tiles.plan(), interpolation_error, outcome, frame);
             const StoredRows rows(checkpoint, plan, outcome.batches);
             const std::string path = results_path(run);
             write_results(path, frame, rows);
             int code = count_rows(rows, 1).failed() > 0 ? kSomeFailed : kDone;
             if (run.prints_results) {
                 const int written = write_outputs(
-                    study, frame, rows,
+                    campaign, frame, rows,
                     {options.json, options.html, "", options.shows_withheld, !run.quiet});
                 code = written == kDone ? code : written;
                 if (!run.quiet && options.json != "-") {
@@ -139,21 +139,18 @@ int run_lives_on_leader(const LivesOptions& options, const LifeTiles& tiles,
     return kResumable;
 }
 
-// Completes the scene of lives: the numbers of torques and speeds at which gearboxes are
-// integrated. Returns the error of signals in between. A study without possible lives loses its
-// scene and gets all problems.
-double prepare_lives(const RunOptions& run, StudyScene& made) {
+// Chooses the numbers of torques and speeds at which gearboxes are integrated. A study without
+// possible lives loses its scene and gets all problems.
+std::optional<InterpolationChoice> prepare_lives(const RunOptions& run, StudyScene& made) {
     const auto refuse = [&](const SceneError& error) {
         made.problems.push_back({run.study.path, 0, error.key(), error.what(), error.remedy()});
     };
-    for (const SceneError& error : superposition_problems(*made.scene)) {
+    for (const SceneError& error : made.scene->life_problems()) {
         refuse(error);
     }
     if (made.problems.empty()) {
         try {
-            const InterpolationChoice choice = choose_interpolation(*made.scene);
-            made.scene = std::make_unique<const Scene>(made.scene->with(choice.life));
-            return choice.error;
+            return choose_interpolation(*made.scene);
         } catch (const SceneError& error) {
             refuse(error);
         } catch (const std::exception& error) {
@@ -161,36 +158,19 @@ double prepare_lives(const RunOptions& run, StudyScene& made) {
         }
     }
     made.scene.reset();
-    return 0.0;
+    return {};
 }
 
 std::unique_ptr<Checkpoint> lives_checkpoint(const RunOptions& run, const Study& study) {
     try {
         return open_checkpoint(
-            study, row_shape(lives_frame(study)), lives_plan(study), results_path(run),
+            study, row_shape(lives_frame(study)), lives_plan(make_campaign_plan(study)),
+            results_path(run),
             {.resume = run.resume, .force = run.force, .quiet = run.quiet, .check = check_lives});
     } catch (const std::exception& error) {
         fmt::print(stderr, "{}\n", error.what());
     }
     return nullptr;
-}
-
-// Prints the study's keys that `lives` ignores, because they concern single records.
-void print_omitted(const RunOptions& run, const Study& study) {
-    std::vector<std::string> keys;
-    if (study.numerics.verify) {
-        keys.emplace_back("numerics.verify");
-    }
-    if (study.ensemble.until.half_width) {
-        keys.emplace_back("ensemble.until");
-    }
-    if (!study.detection.uncertain_inputs.empty()) {
-        keys.emplace_back("detection.uncertain_inputs");
-    }
-    if (!keys.empty()) {
-        fmt::print(stderr, "{}: `lives` ignores keys that only `run` uses: {}\n", run.study.path,
-                   fmt::join(keys, ", "));
-    }
 }
 
 int lives_command(const LivesOptions& options) {
@@ -226,15 +206,21 @@ int lives_study(const LivesOptions& options, const Ranks& ranks) {
     std::optional<std::chrono::seconds> limit;
     const bool good_limit = check_time_limit(run, limit);
     const Interruption interruption(limit);
-    double interpolation_error = 0.0;
+    std::optional<InterpolationChoice> choice;
     const StudyScene made =
         load_scene_on_all_ranks(ranks, run.study, interruption, [&](StudyScene& scene) {
-            if (ranks.leads()) {
-                print_omitted(run, scene.scene->study());
+            const auto ignored = keys_without_effect_on_lives(scene.scene->study());
+            if (ranks.leads() && !ignored.empty()) {
+                fmt::print(stderr, "{}: `lives` ignores keys that only `run` uses: {}\n",
+                           run.study.path, fmt::join(ignored, ", "));
             }
-            interpolation_error = prepare_lives(run, scene);
+            choice = prepare_lives(run, scene);
         });
-    const auto tiles = made ? std::make_unique<LifeTiles>(*made.scene) : nullptr;
+    const auto tiles = made ? std::make_unique<LifeTiles>(*made.scene, choice->plan) : nullptr;
+    // Results state the numbers of torques and speeds.
+    const auto study = made ? std::optional(with_loads(made.scene->study(), choice->plan.torques,
+                                                       choice->plan.speeds))
+                            : std::nullopt;
     std::unique_ptr<Checkpoint> checkpoint;
     if (ranks.leads()) {
         const bool good_outputs = can_write_json_and_page(
@@ -242,7 +228,7 @@ int lives_study(const LivesOptions& options, const Ranks& ranks) {
             {{"the study", run.study.path}, {"--out", results_path(run)}}, run.force);
         const bool good_out = check_output(run), good_progress = check_progress(run);
         if (tiles && good_limit && good_outputs && good_out && good_progress) {
-            checkpoint = lives_checkpoint(run, made.scene->study());
+            checkpoint = lives_checkpoint(run, *study);
         }
     }
     const std::string refusal =
@@ -255,12 +241,12 @@ int lives_study(const LivesOptions& options, const Ranks& ranks) {
         MemoryRows nothing(0);
         Progress silent(1, true);
         run_lives(
-            *tiles, lives_plan(made.scene->study()),
+            *tiles, lives_plan(tiles->plan().campaign),
             {.ranks = ranks, .store = nothing, .progress = silent, .interruption = &interruption});
         return std::stoi(ranks.from_leader(""));
     }
-    const int code =
-        run_lives_on_leader(options, *tiles, interpolation_error, ranks, *checkpoint, interruption);
+    const int code = run_lives_on_leader(options, *study, *tiles, choice->error, ranks, *checkpoint,
+                                         interruption);
     ranks.from_leader(std::to_string(code));
     return code;
 }
@@ -277,9 +263,7 @@ int report_lives(const ReportOptions& options) {
     }
     const Results frame = read_frame(options.results);
     const FileRows rows(options.results, frame);
-    check_lives(options.results, frame, rows);
-    const auto study = read_study_text(frame.provenance_value("study"), options.results).study;
-    return write_outputs(*study, frame, rows,
+    return write_outputs(check_lives(options.results, frame, rows), frame, rows,
                          {.json = options.json,
                           .html = options.html,
                           .figures = options.figures,

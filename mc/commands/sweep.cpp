@@ -122,7 +122,7 @@ PointState point_state(const RunOptions& run, bool lives) {
         if (are_lives != lives || !why_not_extendable(old, path, study, Part{}).empty()) {
             return PointState::nothing;  // the run will print why it does not overwrite the file
         }
-        const BatchPlan plan = lives ? lives_plan(study) : plan_of(run, study);
+        const BatchPlan plan = lives ? lives_plan(make_campaign_plan(study)) : plan_of(run, study);
         const bool enough = FileRows(path, old).rows() >= plan.rows() ||
                             old.provenance_value("state") == "ended by ensemble.until";
         return enough ? PointState::all : PointState::some;

@@ -17,14 +17,14 @@ namespace {
 constexpr double kNoNumber = std::numeric_limits<double>::quiet_NaN();
 
 // Columns that follow those of the random inputs.
-struct OwnColumn {
+struct LifeColumn {
     const char *name, *unit;
 };
-constexpr std::array<OwnColumn, 5> kOwnColumns{{{"end_h", "h"},
-                                                {"records", ""},
-                                                {"interpolation_first", ""},
-                                                {"interpolation_last", ""},
-                                                {"interpolation_load", ""}}};
+constexpr std::array<LifeColumn, 5> kLifeColumns{{{"end_h", "h"},
+                                                  {"records", ""},
+                                                  {"interpolation_first", ""},
+                                                  {"interpolation_last", ""},
+                                                  {"interpolation_load", ""}}};
 
 // Columns after the features, one value per record.
 struct RecordColumn {
@@ -39,9 +39,8 @@ constexpr std::array<RecordColumn, 5> kRecordColumns{{{"crack_depth", "m", &Life
 
 }  // namespace
 
-BatchPlan lives_plan(const Study& study) {
-    return {study.ensemble.threshold_instances + study.life.healthy_lives,
-            study.ensemble.instances};
+BatchPlan lives_plan(const CampaignPlan& plan) {
+    return {plan.threshold_lives + plan.counting_lives, plan.cracked_lives};
 }
 
 Results lives_frame(const Study& study) {
@@ -50,7 +49,7 @@ Results lives_frame(const Study& study) {
     frame.variants.clear();
     frame.contact_loss.clear();  // superposed records have no contact loss ratio
     frame.integration.clear();
-    for (const OwnColumn& column : kOwnColumns) {
+    for (const LifeColumn& column : kLifeColumns) {
         frame.parameters.push_back({column.name, column.unit, {}});
     }
     for (const RecordColumn& column : kRecordColumns) {
@@ -65,13 +64,15 @@ Results lives_frame(const Study& study) {
     return frame;
 }
 
-void check_lives(const std::string& path, const Results& frame, const RowSource& rows) {
+CampaignPlan check_lives(const std::string& path, const Results& frame, const RowSource& rows) {
     const auto study = read_study_text(frame.provenance_value("study"), path).study;
     if (!study || !study->life.interval_h) {
         throw std::runtime_error(path + ": its study cannot be read, or has no [life]");
     }
+    CampaignPlan plan = make_campaign_plan(*study);
     check_against(path, frame, rows,
-                  ExpectedResults{lives_frame(*study), lives_plan(*study), "lives", true});
+                  ExpectedResults{lives_frame(*study), lives_plan(plan), "lives", true});
+    return plan;
 }
 
 bool measures_interpolation(const GearboxId& id) {
@@ -79,17 +80,18 @@ bool measures_interpolation(const GearboxId& id) {
     return id.group == Group::graded && id.index < kMeasuredLives;
 }
 
-void add_life(const Study& study, const Realization& gearbox, const GearboxLife& life,
+void add_life(const CampaignPlan& plan, const Realization& gearbox, const GearboxLife& life,
               const InterpolationErrors& errors, BatchRows& rows) {
     const auto& records = life.history.records;
     rows.status.push_back(static_cast<int>(life.status));
-    append_random_inputs(study, gearbox, 1.0, rows.values);
+    rows.values.insert(rows.values.end(), gearbox.random_values.begin(),
+                       gearbox.random_values.end());
+    rows.values.insert(rows.values.end(), plan.noise_weights, 1.0);
     rows.values.insert(rows.values.end(), {life.history.end_hours.value_or(kNoNumber),
                                            static_cast<double>(records.size()), errors.first,
                                            errors.last, errors.load});
-    const std::size_t missing_records =
-        static_cast<std::size_t>(study.life.records) - records.size();
-    for (std::size_t f = 0; f < study.features.use.size(); ++f) {
+    const std::size_t missing_records = static_cast<std::size_t>(plan.records) - records.size();
+    for (std::size_t f = 0; f < plan.features.size(); ++f) {
         if (life.status == Status::ok) {
             rows.values.insert(rows.values.end(), life.values[f].begin(), life.values[f].end());
         } else {
@@ -105,23 +107,23 @@ void add_life(const Study& study, const Realization& gearbox, const GearboxLife&
     }
 }
 
-LifeRow life_of_row(const Study& study, const Results& frame, const ResultRow& row) {
+LifeRow life_of_row(const CampaignPlan& plan, const Results& frame, const ResultRow& row) {
     const RowShape shape = row_shape(frame);
     const double* values = row.values;
-    const double* own = values + shape.parameters - kOwnColumns.size();
-    if (!(own[1] >= 0.0 && own[1] <= static_cast<double>(shape.levels))) {
+    const double* columns = values + shape.parameters - kLifeColumns.size();
+    if (!(columns[1] >= 0.0 && columns[1] <= static_cast<double>(shape.levels))) {
         throw std::runtime_error("/instances/records contains an invalid number");
     }
     LifeRow result;
-    result.interpolation = {own[2], own[3], own[4]};
+    result.interpolation = {columns[2], columns[3], columns[4]};
     GearboxLife& life = result.life;
     life.status = static_cast<Status>(row.status);
     LifeHistory& history = life.history;
-    if (!std::isnan(own[0])) {
-        history.end_hours = own[0];
+    if (!std::isnan(columns[0])) {
+        history.end_hours = columns[0];
     }
-    history.records.resize(static_cast<std::size_t>(own[1]));
-    const std::size_t features = study.features.use.size();
+    history.records.resize(static_cast<std::size_t>(columns[1]));
+    const std::size_t features = plan.features.size();
     for (std::size_t r = 0; r < history.records.size(); ++r) {
         history.records[r].hours = frame.noise_levels[r];
         for (std::size_t c = 0; c < kRecordColumns.size(); ++c) {
@@ -129,7 +131,7 @@ LifeRow life_of_row(const Study& study, const Results& frame, const ResultRow& r
         }
     }
     history.first_cracked = row.group == static_cast<int>(Group::graded)
-                                ? static_cast<std::size_t>(study.monitoring.baseline_records)
+                                ? static_cast<std::size_t>(plan.baseline_records)
                                 : history.records.size();
     for (std::size_t f = 0; life.status == Status::ok && f < features; ++f) {
         const double* first = values + shape.value_of(f, 0);
@@ -176,7 +178,7 @@ BatchRows life_rows(const LifeTiles& tiles, const Batch& batch, Seconds& seconds
         const auto lives = tiles.run(part, batch.group == Group::graded, costs,
                                      std::span(errors).first(measured_count));
         for (std::size_t lane = 0; lane < part.size(); ++lane) {
-            add_life(tiles.scene().study(), part[lane], lives[lane], errors[lane], rows);
+            add_life(tiles.plan().campaign, part[lane], lives[lane], errors[lane], rows);
         }
     }
     seconds.integration += costs.gearboxes;
@@ -197,9 +199,9 @@ EnsembleOutcome run_lives(const LifeTiles& tiles, const BatchPlan& plan, const E
                        [&]() -> BatchComputers { return [compute] { return compute; }; });
 }
 
-void store_run_costs(const Scene& scene, double interpolation_error, const EnsembleOutcome& outcome,
-                     Results& frame) {
-    frame.provenance.emplace_back(kRecordText, record_text(scene));
+void store_run_costs(const LifePlan& plan, double interpolation_error,
+                     const EnsembleOutcome& outcome, Results& frame) {
+    frame.provenance.emplace_back(kRecordText, plan.record);
     if (!std::isnan(interpolation_error)) {
         frame.provenance.emplace_back(kInterpolationError, fmt::format("{}", interpolation_error));
     }
@@ -211,11 +213,11 @@ void store_run_costs(const Scene& scene, double interpolation_error, const Ensem
     frame.provenance.emplace_back(kRecordCount, std::to_string(work.records));
 }
 
-Campaign campaign_of(const Study& study, const Results& frame, const RowSource& rows) {
+Campaign campaign_of(const CampaignPlan& plan, const Results& frame, const RowSource& rows) {
     Campaign campaign;
-    const auto threshold_lives = static_cast<std::size_t>(study.ensemble.threshold_instances);
+    const auto threshold_lives = static_cast<std::size_t>(plan.threshold_lives);
     for_each_row(rows, [&](const ResultRow& row) {
-        LifeRow read = life_of_row(study, frame, row);
+        LifeRow read = life_of_row(plan, frame, row);
         campaign.interpolation.take(read.interpolation);
         campaign.failed += read.life.status == Status::ok ? 0 : 1;
         auto& lives = row.group == static_cast<int>(Group::graded) ? campaign.cracked
@@ -235,9 +237,9 @@ Campaign campaign_of(const Study& study, const Results& frame, const RowSource& 
 }
 
 Campaign run_campaign(const Scene& scene) {
-    const Study& study = scene.study();
     const LifeTiles tiles(scene);
-    const BatchPlan plan = lives_plan(study);
+    const CampaignPlan& campaign = tiles.plan().campaign;
+    const BatchPlan plan = lives_plan(campaign);
     MemoryRows store(plan.batches());
     const Ranks alone;
     Progress silent(1, true);
@@ -246,9 +248,9 @@ Campaign run_campaign(const Scene& scene) {
     if (!outcome.failure.empty()) {
         throw std::runtime_error(outcome.failure);
     }
-    Results frame = lives_frame(study);
-    store_run_costs(scene, std::numeric_limits<double>::quiet_NaN(), outcome, frame);
-    return campaign_of(study, frame, StoredRows(store, plan, outcome.batches));
+    Results frame = lives_frame(scene.study());
+    store_run_costs(tiles.plan(), std::numeric_limits<double>::quiet_NaN(), outcome, frame);
+    return campaign_of(campaign, frame, StoredRows(store, plan, outcome.batches));
 }
 
 }  // namespace gearpod::mc

@@ -13,19 +13,20 @@ namespace gearpod::mc {
 // Batches of lives. The threshold group contains the healthy lives: first
 // ensemble.threshold_instances that determine the thresholds, then life.healthy_lives that count
 // false alarms. Cracks grow in the test group.
-BatchPlan lives_plan(const Study& study);
+BatchPlan lives_plan(const CampaignPlan& plan);
 
 // Results of kind kLivesKind without rows; the columns are empty.
 Results lives_frame(const Study& study);
 
-// Checks the rows. Throws std::runtime_error as check_results() does.
-void check_lives(const std::string& path, const Results& frame, const RowSource& rows);
+// Checks the rows. Returns the plan by which they were computed. Throws std::runtime_error as
+// check_results() does.
+CampaignPlan check_lives(const std::string& path, const Results& frame, const RowSource& rows);
 
 // True if the interpolation errors of a gearbox are measured.
 bool measures_interpolation(const GearboxId& id);
 
 // Appends the row of a gearbox's life.
-void add_life(const Study& study, const Realization& gearbox, const GearboxLife& life,
+void add_life(const CampaignPlan& plan, const Realization& gearbox, const GearboxLife& life,
               const InterpolationErrors& errors, BatchRows& rows);
 
 // Life in a row of such a frame.
@@ -33,7 +34,7 @@ struct LifeRow {
     GearboxLife life;
     InterpolationErrors interpolation;
 };
-LifeRow life_of_row(const Study& study, const Results& frame, const ResultRow& row);
+LifeRow life_of_row(const CampaignPlan& plan, const Results& frame, const ResultRow& row);
 
 // Simulates the lives of many gearboxes.
 
@@ -45,7 +46,7 @@ struct Campaign {
     LifeCosts costs;
     InterpolationErrors interpolation;  // maximum over the first eight gearboxes with a crack
     long failed = 0;
-    std::string record;  // result of record_text()
+    std::string record;  // LifePlan::record
 };
 
 // Runs run_batches() for lives; rows as in lives_frame(), batches as in lives_plan(). The result
@@ -53,11 +54,11 @@ struct Campaign {
 EnsembleOutcome run_lives(const LifeTiles& tiles, const BatchPlan& plan, const EnsembleRun& run);
 // Stores the description of a record, the error between the integrated loads and the cost of the
 // rows in the frame.
-void store_run_costs(const Scene& scene, double interpolation_error, const EnsembleOutcome& outcome,
-                     Results& frame);
+void store_run_costs(const LifePlan& plan, double interpolation_error,
+                     const EnsembleOutcome& outcome, Results& frame);
 
 // Reads a campaign from finished rows; the costs are those of the run that wrote them.
-Campaign campaign_of(const Study& study, const Results& frame, const RowSource& rows);
+Campaign campaign_of(const CampaignPlan& plan, const Results& frame, const RowSource& rows);
 
 // Simulates all lives in memory and in this process, with the torques and speeds of the study.
 Campaign run_campaign(const Scene& scene);

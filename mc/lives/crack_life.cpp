@@ -5,47 +5,32 @@
 #include <cmath>
 #include <numbers>
 
-#include "mc/study/faults/crack.hpp"
-#include "mc/study/gears.hpp"
 #include "mc/study/random/philox.hpp"
 #include "stiffness/growth/crack_growth.hpp"
 
 namespace gearpod::mc {
 namespace {
 
-stiffness::RootCrack root_crack(const Scene& scene) {
-    const Study& study = scene.study();
-    const FaultPlace place = fault_places(study.fault).front();
-    return {scene.meshes()[place.mesh].geometry.value(),
-            profile_of(study),
-            place.gear,
-            crack_angle_rad(study),
-            study.gearbox.face_width_m.value(),
-            crack_law(study)};
-}
-
 // Piecewise linear interpolation; the end segments are extrapolated.
-double interpolated(const std::vector<double>& at, const std::vector<double>& values, double x) {
-    const auto above = std::upper_bound(at.begin() + 1, at.end() - 1, x);
-    const auto i = static_cast<std::size_t>(above - at.begin());
-    const double share = (x - at[i - 1]) / (at[i] - at[i - 1]);
+double interpolated(const std::vector<double>& xs, const std::vector<double>& values, double x) {
+    const auto above = std::upper_bound(xs.begin() + 1, xs.end() - 1, x);
+    const auto i = static_cast<std::size_t>(above - xs.begin());
+    const double share = (x - xs[i - 1]) / (xs[i] - xs[i - 1]);
     return values[i - 1] + share * (values[i] - values[i - 1]);
 }
 
 }  // namespace
 
-CrackLife::CrackLife(const Scene& scene)
-    : scene_(scene), distributions_(scene.study()), crack_(root_crack(scene)) {}
+CrackLife::CrackLife(const LifePlan& plan)
+    : plan_(plan),
+      crack_(plan.tooth.geometry, plan.tooth.profile, plan.tooth.gear, plan.tooth.angle_rad,
+             plan.tooth.face_width_m, plan.tooth.law) {}
 
 double CrackLife::cycles_per_hour(const InstanceInputs& inputs) const {
-    const Study& study = scene_.study();
-    const Member member = *study.fault.member;
-    // A tooth of a central gear meets every planet in turn.
-    const int meetings = member == Member::sun ? study.gearbox.planets : 1;
     const double meshes_a_second =
-        std::abs(scene_.drivetrain().mesh_frequency_rad_s(inputs.speed_rad_s)) /
+        std::abs(plan_.drivetrain->mesh_frequency_rad_s(inputs.speed_rad_s)) /
         (2.0 * std::numbers::pi);
-    return 3600.0 * meshes_a_second * meetings / teeth_of(study, member).value();
+    return 3600.0 * meshes_a_second * plan_.tooth.meetings / plan_.tooth.teeth;
 }
 
 double CrackLife::range_per_force(double depth_m) const {
@@ -55,30 +40,29 @@ double CrackLife::range_per_force(double depth_m) const {
 LifeHistory CrackLife::history(const Realization& gearbox, bool cracked) const {
     const GearboxId& id = gearbox.id;
     const InstanceInputs& inputs = gearbox.inputs;
-    const Study& study = scene_.study();
-    const Life& life = study.life;
+    const CampaignPlan& campaign = plan_.campaign;
     LifeHistory history;
-    Philox engine = gearbox_stream(scene_.draw().seed, id, StreamPurpose::life_records);
+    Philox engine = gearbox_stream(campaign.seed, id, StreamPurpose::life_records);
     boost::random::normal_distribution<double> unit;
-    for (int i = 0; i < life.records; ++i) {
+    for (int i = 0; i < campaign.records; ++i) {
         LifeRecord record;
-        record.hours = i * *life.interval_h;
-        record.torque = distributions_.torque.factor(unit(engine));
-        record.gain = distributions_.gain.factor(unit(engine));
-        record.noise = distributions_.noise.factor(unit(engine));
+        record.hours = i * campaign.interval_h;
+        record.torque = plan_.distributions.torque.factor(unit(engine));
+        record.gain = plan_.distributions.gain.factor(unit(engine));
+        record.noise = plan_.distributions.noise.factor(unit(engine));
         history.records.push_back(record);
     }
-    if (distributions_.speed.varies()) {
-        Philox speeds = gearbox_stream(scene_.draw().seed, id, StreamPurpose::life_speeds);
+    if (plan_.distributions.speed.varies()) {
+        Philox speeds = gearbox_stream(campaign.seed, id, StreamPurpose::life_speeds);
         boost::random::normal_distribution<double> of_speed;
         for (LifeRecord& record : history.records) {
-            record.speed = distributions_.speed.factor(of_speed(speeds));
+            record.speed = plan_.distributions.speed.factor(of_speed(speeds));
         }
     }
     history.first_cracked = history.records.size();
     if (cracked) {
-        history.first_cracked = static_cast<std::size_t>(study.monitoring.baseline_records);
-        life.curve_h.empty() ? grow(inputs, history) : follow_curve(inputs, history);
+        history.first_cracked = static_cast<std::size_t>(campaign.baseline_records);
+        std::visit([&](const auto& growth) { grow(growth, inputs, history); }, plan_.growth);
     }
     return history;
 }
@@ -86,22 +70,22 @@ LifeHistory CrackLife::history(const Realization& gearbox, bool cracked) const {
 double CrackLife::force_N(const InstanceInputs& inputs, const LifeRecord& record) const {
     InstanceInputs loaded = inputs;
     loaded.torque_N_m *= record.torque;
-    return scene_.drivetrain().mesh_force_N(loaded);
+    return plan_.drivetrain->mesh_force_N(loaded);
 }
 
 bool CrackLife::breaks(const InstanceInputs& inputs, const LifeRecord& record) const {
-    const auto& toughness = scene_.study().life.fracture_toughness_Pa_m05;
+    const auto& toughness = plan_.fracture_toughness_Pa_m05;
     return toughness && force_N(inputs, record) * range_per_force(record.depth_m) >= *toughness;
 }
 
-void CrackLife::grow(const InstanceInputs& inputs, LifeHistory& history) const {
-    const Life& life = scene_.study().life;
+void CrackLife::grow(const ParisStart& paris, const InstanceInputs& inputs,
+                     LifeHistory& history) const {
+    const double interval_h = plan_.campaign.interval_h, last_m = plan_.campaign.last_m;
     const stiffness::ParisGrowth growth(
         stiffness::paris_law_mm_MPa(inputs.paris_factor, inputs.paris_exponent),
-        [&](double depth) { return range_per_force(depth); }, *life.first_depth_m,
-        *life.last_depth_m);
-    const double whole = growth.damage_to(*life.last_depth_m);
-    const double cycles = cycles_per_hour(inputs) * *life.interval_h;
+        [&](double depth) { return range_per_force(depth); }, paris.first_m, last_m);
+    const double whole = growth.damage_to(last_m);
+    const double cycles = cycles_per_hour(inputs) * interval_h;
     double damage = 0.0;
     for (std::size_t i = history.first_cracked; i < history.records.size(); ++i) {
         LifeRecord& record = history.records[i];
@@ -113,7 +97,7 @@ void CrackLife::grow(const InstanceInputs& inputs, LifeHistory& history) const {
         }
         const double more = growth.damage_of(force_N(inputs, record), cycles * record.speed);
         if (damage + more >= whole) {
-            history.end_hours = record.hours + *life.interval_h * (whole - damage) / more;
+            history.end_hours = record.hours + interval_h * (whole - damage) / more;
             history.records.resize(i + 1);
             return;
         }
@@ -121,15 +105,15 @@ void CrackLife::grow(const InstanceInputs& inputs, LifeHistory& history) const {
     }
 }
 
-void CrackLife::follow_curve(const InstanceInputs& inputs, LifeHistory& history) const {
-    const Life& life = scene_.study().life;
+void CrackLife::grow(const DepthCurve& curve, const InstanceInputs& inputs,
+                     LifeHistory& history) const {
+    const double last_m = plan_.campaign.last_m;
     if (history.first_cracked >= history.records.size()) {
         return;
     }
     const double begin_h = history.records[history.first_cracked].hours;
     const double end_h =
-        begin_h +
-        interpolated(life.curve_depth_m, life.curve_h, *life.last_depth_m) / inputs.curve_pace;
+        begin_h + interpolated(curve.depth_m, curve.hours, last_m) / inputs.curve_pace;
     for (std::size_t i = history.first_cracked; i < history.records.size(); ++i) {
         LifeRecord& record = history.records[i];
         if (record.hours >= end_h) {
@@ -137,16 +121,16 @@ void CrackLife::follow_curve(const InstanceInputs& inputs, LifeHistory& history)
             history.records.resize(i);
             return;
         }
-        record.depth_m = std::min(*life.last_depth_m,
-                                  interpolated(life.curve_h, life.curve_depth_m,
-                                               (record.hours - begin_h) * inputs.curve_pace));
+        record.depth_m = std::min(
+            last_m,
+            interpolated(curve.hours, curve.depth_m, (record.hours - begin_h) * inputs.curve_pace));
         if (breaks(inputs, record)) {
             history.end_hours = record.hours;
             history.records.resize(i);
             return;
         }
     }
-    if (history.records.back().hours + *life.interval_h >= end_h) {
+    if (history.records.back().hours + plan_.campaign.interval_h >= end_h) {
         history.end_hours = end_h;
     }
 }

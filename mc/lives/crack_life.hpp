@@ -4,8 +4,7 @@
 #include <optional>
 #include <vector>
 
-#include "mc/lives/record_distributions.hpp"
-#include "mc/plan/scene.hpp"
+#include "mc/plan/life_plan.hpp"
 #include "stiffness/growth/crack_growth.hpp"
 
 namespace gearpod::mc {
@@ -24,12 +23,13 @@ struct LifeHistory {
     std::optional<double> end_hours;  // time of tooth failure; empty if the tooth survives
 };
 
-// Crack growth at the root of the study's faulty tooth by Paris' law, or along the study's curve.
-// The torque and speed of a record act until the next record. The force is the static mesh force,
-// shared evenly by the planets. The study must have a life.
+// Crack growth at the root of the faulty tooth by Paris' law or along a curve. The torque and speed
+// of a record act until the next record. The force is the static mesh force, shared evenly by the
+// planets.
 class CrackLife {
   public:
-    explicit CrackLife(const Scene& scene);
+    // The plan must outlive the object.
+    explicit CrackLife(const LifePlan& plan);
 
     // Load cycles of the faulty tooth per hour, on the side of its crack.
     double cycles_per_hour(const InstanceInputs& inputs) const;
@@ -43,13 +43,12 @@ class CrackLife {
 
   private:
     // Both end the history when the tooth fails.
-    void grow(const InstanceInputs& inputs, LifeHistory& history) const;
-    void follow_curve(const InstanceInputs& inputs, LifeHistory& history) const;
+    void grow(const ParisStart& growth, const InstanceInputs& inputs, LifeHistory& history) const;
+    void grow(const DepthCurve& curve, const InstanceInputs& inputs, LifeHistory& history) const;
     bool breaks(const InstanceInputs& inputs, const LifeRecord& record) const;
     double force_N(const InstanceInputs& inputs, const LifeRecord& record) const;
 
-    const Scene& scene_;
-    const RecordDistributions distributions_;
+    const LifePlan& plan_;
     stiffness::RootCrack crack_;
 };
 

@@ -19,17 +19,6 @@ double rms_apart(std::span<const double> signal, std::span<const double> a, doub
     return std::sqrt(sum / static_cast<double>(signal.size()));
 }
 
-// Step of depth in which the crack begins to grow.
-int first_measured_step(const Life& life) {
-    constexpr double kRounding = 1e-9;
-    const double steps = crack_begin_m(life) / *life.last_depth_m * life.depth_steps;
-    return std::min(static_cast<int>(steps + kRounding), life.depth_steps - 1);
-}
-
-double middle_m(int step, const Life& life) {
-    return *life.last_depth_m * (step + 0.5) / life.depth_steps;
-}
-
 }  // namespace
 
 void InterpolationErrors::take(const InterpolationErrors& other) {
@@ -38,34 +27,25 @@ void InterpolationErrors::take(const InterpolationErrors& other) {
     load = std::fmax(load, other.load);
 }
 
-double first_interpolated_m(const Life& life) {
-    return middle_m(first_measured_step(life), life);
-}
-
-double last_interpolated_m(const Life& life) {
-    return middle_m(life.depth_steps - 1, life);
-}
-
 void LifeTiles::InterpolationCheck::between_depths(int step, const SignalsByLoad& healthy,
                                                    const SignalsByLoad& low,
                                                    const SignalsByLoad& high) {
-    const Life& life = tiles_.scene_.study().life;
-    const bool first = step == first_measured_step(life), last = step + 1 == life.depth_steps;
+    const CampaignPlan& campaign = tiles_.plan_.campaign;
+    const bool first = step == campaign.first_step, last = step + 1 == campaign.depth_steps;
     if (errors_.empty() || !(first || last)) {
         return;
     }
-    const HealthySolution::Signals middle =
-        solution_.with_fault(last ? last_interpolated_m(life) : first_interpolated_m(life));
+    const HealthySolution::Signals middle = solution_.with_fault(campaign.middle_m(step));
     for (std::size_t lane = 0; lane < errors_.size(); ++lane) {
         const auto& none = healthy[lane][0].sensor;
-        const auto& at = middle.lane[lane].sensor;
+        const auto& between = middle.lane[lane].sensor;
         const auto &below = low[lane][0].sensor, &above = high[lane][0].sensor;
-        if (at.empty() || none.empty() || below.empty() || above.empty()) {
+        if (between.empty() || none.empty() || below.empty() || above.empty()) {
             errors_[lane] = {};
             continue;
         }
         const double error =
-            rms_apart(at, below, 0.5, above, 0.5) / rms_apart(at, none, 1.0, none, 0.0);
+            rms_apart(between, below, 0.5, above, 0.5) / rms_apart(between, none, 1.0, none, 0.0);
         if (first) {
             errors_[lane].first = error;
         }
@@ -77,8 +57,8 @@ void LifeTiles::InterpolationCheck::between_depths(int step, const SignalsByLoad
 
 void LifeTiles::InterpolationCheck::between_loads(const SignalsByLoad& healthy) {
     if (errors_.empty() || tiles_.gap_count() == 0) {
-        for (InterpolationErrors& one : errors_) {
-            one.load = 0.0;
+        for (InterpolationErrors& errors : errors_) {
+            errors.load = 0.0;
         }
         return;
     }
@@ -93,22 +73,23 @@ void LifeTiles::InterpolationCheck::at_load(const Load& load, const SignalsByLoa
     const HealthySolution there = tiles_.healthy_solution(gearboxes_, load);
     const std::vector<double> load_weights = tiles_.load_weights(load);
     for (std::size_t lane = 0; lane < errors_.size(); ++lane) {
-        const auto& at = there.healthy().lane[lane].sensor;
-        const bool failed =
-            at.empty() || std::ranges::any_of(healthy[lane], [](const LaneSignals& one) {
-                return one.sensor.empty();
-            });
+        const auto& integrated = there.healthy().lane[lane].sensor;
+        const bool failed = integrated.empty() ||
+                            std::ranges::any_of(healthy[lane], [](const LaneSignals& signals) {
+                                return signals.sensor.empty();
+                            });
         if (failed) {
             continue;
         }
-        std::vector<double> superposed(at.size(), 0.0);
+        std::vector<double> superposed(integrated.size(), 0.0);
         for (std::size_t l = 0; l < load_weights.size(); ++l) {
             for (std::size_t i = 0; i < superposed.size() && load_weights[l] != 0.0; ++i) {
                 superposed[i] += load_weights[l] * healthy[lane][l].sensor[i];
             }
         }
-        errors_[lane].load = std::fmax(errors_[lane].load, rms_apart(at, superposed, 1.0, at, 0.0) /
-                                                               rms_apart(at, at, 0.0, at, 0.0));
+        errors_[lane].load = std::fmax(errors_[lane].load,
+                                       rms_apart(integrated, superposed, 1.0, integrated, 0.0) /
+                                           rms_apart(integrated, integrated, 0.0, integrated, 0.0));
     }
 }
 
@@ -134,13 +115,13 @@ class Pilots {
     }
 
     // Healthy signals of all pilots; empty for those that failed.
-    const std::vector<Samples>& at(const LifeTiles::Load& load) {
+    const std::vector<Samples>& signals(const LifeTiles::Load& load) {
         const std::pair key(load.torque, load.speed);
         const auto known = signals_.find(key);
         if (known != signals_.end()) {
             return known->second;
         }
-        const bool own = load.torque == 1.0 && load.speed == 1.0;
+        const bool nominal = load.torque == 1.0 && load.speed == 1.0;
         std::vector<Samples> all;
         for (std::size_t first = 0; first < gearboxes_.size(); first += tiles_.lanes()) {
             const auto part =
@@ -148,11 +129,11 @@ class Pilots {
                     .subspan(first, std::min(tiles_.lanes(), gearboxes_.size() - first));
             const HealthySolution solution = tiles_.healthy_solution(part, load);
             const HealthySolution::Signals faulty =
-                own ? solution.with_fault(smallest_depth_m(tiles_.scene().study().life))
-                    : HealthySolution::Signals{};
+                nominal ? solution.with_fault(tiles_.plan().campaign.smallest_m)
+                        : HealthySolution::Signals{};
             for (std::size_t lane = 0; lane < part.size(); ++lane) {
                 all.push_back(solution.healthy().lane[lane].sensor);
-                if (own) {
+                if (nominal) {
                     changes_.push_back(change(all.back(), faulty.lane[lane].sensor));
                 }
             }
@@ -162,17 +143,17 @@ class Pilots {
 
     // Largest error along one axis, at the gearboxes' own value of the other.
     double error(const LoadAxis& axis, bool of_speed) {
-        at({});
+        signals({});
         const auto load = [&](double factor) {
             return of_speed ? LifeTiles::Load{1.0, factor} : LifeTiles::Load{factor, 1.0};
         };
         double largest = std::nan("");
         for (const double check : axis.checks()) {
             const std::vector<double> weights = axis.weights(check);
-            std::vector<Samples> misses = at(load(check));
+            std::vector<Samples> misses = signals(load(check));
             for (std::size_t node = 0; node < weights.size(); ++node) {
                 if (weights[node] != 0.0) {
-                    subtract(at(load(axis.factors()[node])), weights[node], misses);
+                    subtract(signals(load(axis.factors()[node])), weights[node], misses);
                 }
             }
             for (std::size_t g = 0; g < misses.size(); ++g) {
@@ -199,14 +180,14 @@ class Pilots {
     }
 
     // A pilot that failed at one load has no error.
-    static void subtract(const std::vector<Samples>& signals, double weight,
+    static void subtract(const std::vector<Samples>& node, double weight,
                          std::vector<Samples>& misses) {
         for (std::size_t g = 0; g < misses.size(); ++g) {
-            if (signals[g].empty()) {
+            if (node[g].empty()) {
                 misses[g].clear();
             }
             for (std::size_t i = 0; i < misses[g].size(); ++i) {
-                misses[g][i] -= weight * signals[g][i];
+                misses[g][i] -= weight * node[g][i];
             }
         }
     }
@@ -220,15 +201,13 @@ class Pilots {
 // Torques or speeds while their number is chosen.
 struct ChosenAxis {
     const RecordDistribution& distribution;
-    int evenly_spaced;
-    std::optional<int> nodes;
-    bool given;
+    LoadNumber number;
     bool of_speed;
     double error = 0.0;
 
-    LoadAxis axis() const { return {distribution, evenly_spaced, nodes}; }
+    LoadAxis axis() const { return {distribution, number}; }
     std::size_t count() const { return axis().factors().size(); }
-    int more() const { return nodes ? *nodes + 2 : kLeastNodes; }
+    int more() const { return number.nodes ? *number.nodes + 2 : kLeastNodes; }
     void measure(Pilots& pilots) {
         error = axis().interpolates() ? pilots.error(axis(), of_speed) : 0.0;
     }
@@ -237,14 +216,11 @@ struct ChosenAxis {
 }  // namespace
 
 InterpolationChoice choose_interpolation(const Scene& scene) {
-    const Life& life = scene.study().life;
-    const RecordDistributions distributions(scene.study());
     const LifeTiles tiles(scene);
-    InterpolationChoice best{life};
-    ChosenAxis axes[]{{distributions.torque, integrated_torques(life), life.polynomial_torques,
-                       gives_torques(life), false},
-                      {distributions.speed, integrated_speeds(life), life.polynomial_speeds,
-                       gives_speeds(life), true}};
+    const LifePlan& plan = tiles.plan();
+    InterpolationChoice best{plan};
+    ChosenAxis axes[]{{plan.distributions.torque, plan.torques, false},
+                      {plan.distributions.speed, plan.speeds, true}};
     if (!axes[0].axis().interpolates() && !axes[1].axis().interpolates()) {
         best.error = 0.0;
         return best;
@@ -257,24 +233,24 @@ InterpolationChoice choose_interpolation(const Scene& scene) {
         const double error = axes[0].error + axes[1].error;
         if (std::isnan(best.error) || error < best.error) {
             best.error = error;
-            best.life.polynomial_torques = axes[0].nodes;
-            best.life.polynomial_speeds = axes[1].nodes;
+            best.plan.torques = axes[0].number;
+            best.plan.speeds = axes[1].number;
         }
         // `!(>)` also ends the search if no pilot was integrated.
         ChosenAxis* next = nullptr;
         for (ChosenAxis& axis : axes) {
             const std::size_t others = axes[axis.of_speed ? 0 : 1].count();
-            const bool grows = axis.distribution.varies() && !axis.given &&
+            const bool grows = axis.distribution.varies() && !axis.number.given &&
                                axis.more() <= kMostNodes &&
                                static_cast<std::size_t>(axis.more()) * others <= kMostLoads;
             if (grows && (next == nullptr || axis.error > next->error)) {
                 next = &axis;
             }
         }
-        if (!(error > life.interpolation_tolerance) || next == nullptr) {
+        if (!(error > plan.interpolation_tolerance) || next == nullptr) {
             break;
         }
-        next->nodes = next->more();
+        next->number.nodes = next->more();
         next->measure(pilots);
     }
     best.loads = pilots.loads();

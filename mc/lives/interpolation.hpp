@@ -40,16 +40,8 @@ inline constexpr std::size_t kMostLoads = 34;
 // Number of pilots: the first gearboxes with a crack, whether or not the study has as many.
 inline constexpr std::uint64_t kInterpolationPilots = 8;
 
-// True if the study gives the number of torques or speeds, which is then not chosen.
-inline bool gives_torques(const Life& life) {
-    return life.given_torques || life.polynomial_torques || life.distinct_torques;
-}
-inline bool gives_speeds(const Life& life) {
-    return life.given_speeds || life.polynomial_speeds || life.distinct_speeds;
-}
-
 struct InterpolationChoice {
-    Life life;  // with the numbers of torques and speeds
+    LifePlan plan;  // with the numbers of torques and speeds
     // Sum of the errors along torque and speed, each the largest over the pilots: rms over the
     // span, relative to the change made by the smallest crack of interest at the gearbox's own
     // load. 0 if nothing is interpolated between loads; NaN if no pilot was integrated.
@@ -57,10 +49,9 @@ struct InterpolationChoice {
     int loads = 0;  // number of loads at which the pilots were integrated
 };
 
-// Raises the numbers that the study does not give from two until the error is at most
-// life.interpolation_tolerance; if that cannot be reached, the numbers of the least error are
-// taken. Depends on the study only. Throws SceneError if its records cannot be
-// superposed.
+// Raises the numbers that are not given from two until the error is at most the tolerance; if that
+// cannot be reached, the numbers of the least error are taken. Depends on the study only. Throws
+// SceneError if it has no lives.
 InterpolationChoice choose_interpolation(const Scene& scene);
 
 }  // namespace gearpod::mc

@@ -6,19 +6,15 @@
 
 #include "analysis/monitoring/baseline_deviations.hpp"
 #include "analysis/monitoring/monitor_performance.hpp"
-#include "mc/plan/feature_needs.hpp"
 
 namespace gearpod::mc {
 
 // A feature of all lives, or the combination of several features.
 class LifeMonitor::MonitoredDeviations {
   public:
-    MonitoredDeviations(const Study& study, const Campaign& campaign,
+    MonitoredDeviations(const CampaignPlan& plan, const Campaign& campaign,
                         std::vector<std::size_t> features)
-        : study_(study), features_(std::move(features)) {
-        for (const features::Feature* feature : used_features(study)) {
-            alarms_.push_back(feature->alarm);
-        }
+        : plan_(plan), features_(std::move(features)) {
         threshold_lives_ = healthy(campaign.threshold_lives);
         healthy_ = healthy(campaign.healthy);
         cracked_ = cracked(campaign.cracked);
@@ -27,13 +23,13 @@ class LifeMonitor::MonitoredDeviations {
     analysis::MonitorPerformance performance(const analysis::Detector& detector,
                                              double per_1000_h) const {
         return analysis::monitor_performance(detector, threshold_lives_, healthy_, cracked_,
-                                             per_1000_h, study_.detection.confidence);
+                                             per_1000_h, plan_.confidence);
     }
 
     FeatureQuantiles quantiles(const std::string& name) const {
         constexpr std::size_t kPlottedLives = 32;
         FeatureQuantiles result{name, {}, {}, {}, {}};
-        for (std::size_t r = 0; r < static_cast<std::size_t>(study_.life.records); ++r) {
+        for (std::size_t r = 0; r < static_cast<std::size_t>(plan_.records); ++r) {
             std::vector<double> all;
             for (const analysis::HealthyLife& life : healthy_) {
                 if (!std::isnan(life.values[r])) {
@@ -57,28 +53,29 @@ class LifeMonitor::MonitoredDeviations {
   private:
     std::vector<double> deviations(const GearboxLife& life) const {
         std::vector<double> torque;
-        if (study_.monitoring.torque_regression) {
+        if (plan_.torque_regression) {
             for (const LifeRecord& record : life.history.records) {
                 torque.push_back(record.torque);
             }
         }
-        const auto baseline = static_cast<std::size_t>(study_.monitoring.baseline_records);
+        const auto baseline = static_cast<std::size_t>(plan_.baseline_records);
         if (features_.size() == 1) {
             return analysis::baseline_deviations(life.values[features_[0]], torque, baseline,
-                                                 alarms_[features_[0]]);
+                                                 plan_.alarms[features_[0]]);
         }
-        return analysis::fused_deviations(life.values, torque, baseline, alarms_);
+        return analysis::fused_deviations(life.values, torque, baseline, plan_.alarms);
     }
 
     std::vector<analysis::HealthyLife> healthy(const std::vector<GearboxLife>& lives) const {
         std::vector<analysis::HealthyLife> all;
         for (const GearboxLife& life : lives) {
             if (life.status == Status::ok) {
-                analysis::HealthyLife one{deviations(life), 0.0};
-                one.hours = *study_.life.interval_h *
-                            static_cast<double>(std::ranges::count_if(
-                                one.values, [](double value) { return !std::isnan(value); }));
-                all.push_back(std::move(one));
+                analysis::HealthyLife healthy{deviations(life), 0.0};
+                healthy.hours =
+                    plan_.interval_h *
+                    static_cast<double>(std::ranges::count_if(
+                        healthy.values, [](double value) { return !std::isnan(value); }));
+                all.push_back(std::move(healthy));
             }
         }
         return all;
@@ -90,22 +87,21 @@ class LifeMonitor::MonitoredDeviations {
             if (life.status != Status::ok) {
                 continue;
             }
-            analysis::CrackedLife one;
-            one.values = deviations(life);
+            analysis::CrackedLife cracked;
+            cracked.values = deviations(life);
             for (const LifeRecord& record : life.history.records) {
-                one.hours.push_back(record.hours);
-                one.sizes.push_back(record.depth_m);
+                cracked.hours.push_back(record.hours);
+                cracked.sizes.push_back(record.depth_m);
             }
-            one.first = life.history.first_cracked;
-            one.end_hours = life.history.end_hours;
-            all.push_back(std::move(one));
+            cracked.first = life.history.first_cracked;
+            cracked.end_hours = life.history.end_hours;
+            all.push_back(std::move(cracked));
         }
         return all;
     }
 
-    const Study& study_;
+    const CampaignPlan& plan_;
     const std::vector<std::size_t> features_;
-    std::vector<analysis::Alarm> alarms_;
     std::vector<analysis::HealthyLife> threshold_lives_, healthy_;
     std::vector<analysis::CrackedLife> cracked_;
 };
@@ -121,22 +117,22 @@ bool ranks_before(const MonitoredFeature& a, const MonitoredFeature& b) {
                : analysis::ranks_before(a.performance, b.performance);
 }
 
-LifeMonitor::LifeMonitor(const Study& study, const Campaign& campaign)
-    : study_(study), campaign_(campaign) {
-    std::vector<std::size_t> all(study.features.use.size());
+LifeMonitor::LifeMonitor(const CampaignPlan& plan, const Campaign& campaign)
+    : plan_(plan), campaign_(campaign) {
+    std::vector<std::size_t> all(plan.features.size());
     std::iota(all.begin(), all.end(), std::size_t{0});
     for (const std::size_t f : all) {
-        monitored_.push_back({study.features.use[f], MonitoredDeviations(study, campaign, {f})});
+        monitored_.push_back({plan.features[f], MonitoredDeviations(plan, campaign, {f})});
     }
-    if (all.size() > 1 && study.monitoring.baseline_records > 0) {
-        monitored_.push_back({"fused", MonitoredDeviations(study, campaign, all)});
+    if (all.size() > 1 && plan.baseline_records > 0) {
+        monitored_.push_back({"fused", MonitoredDeviations(plan, campaign, all)});
     }
-    const double rate = study.monitoring.false_alarms_per_1000_h;
-    for (const NamedDeviations& one : monitored_) {
-        for (const std::string& text : study.monitoring.detectors) {
+    const double rate = plan.false_alarms_per_1000_h;
+    for (const NamedDeviations& monitored : monitored_) {
+        for (const std::string& text : plan.detectors) {
             results_.push_back(
-                {one.name, text,
-                 one.deviations_of.performance(*analysis::parse_detector(text), rate)});
+                {monitored.name, text,
+                 monitored.deviations_of.performance(*analysis::parse_detector(text), rate)});
             results_.back().unranked = analysis::why_unranked(results_.back().performance, rate);
         }
     }
@@ -164,15 +160,15 @@ LifeMonitor::~LifeMonitor() = default;
 
 std::vector<TradeOff> LifeMonitor::trade_offs() const {
     std::vector<TradeOff> all;
-    for (const NamedDeviations& one : monitored_) {
+    for (const NamedDeviations& monitored : monitored_) {
         const auto best = std::ranges::find_if(results_, [&](const MonitoredFeature& candidate) {
-            return candidate.feature == one.name && candidate.best_of_feature;
+            return candidate.feature == monitored.name && candidate.best_of_feature;
         });
-        TradeOff trade{one.name, best->detector, {}};
+        TradeOff trade{monitored.name, best->detector, {}};
         for (const double factor : {0.25, 0.5, 1.0, 2.0, 5.0, 10.0, 20.0}) {
-            const double rate = factor * study_.monitoring.false_alarms_per_1000_h;
-            const auto performance =
-                one.deviations_of.performance(*analysis::parse_detector(best->detector), rate);
+            const double rate = factor * plan_.false_alarms_per_1000_h;
+            const auto performance = monitored.deviations_of.performance(
+                *analysis::parse_detector(best->detector), rate);
             if (!std::isnan(performance.threshold.value)) {
                 trade.points.push_back({rate, performance.false_alarms.per_1000_h,
                                         performance.share, performance.size_50.value,
@@ -186,8 +182,8 @@ std::vector<TradeOff> LifeMonitor::trade_offs() const {
 
 std::vector<FeatureQuantiles> LifeMonitor::feature_quantiles() const {
     std::vector<FeatureQuantiles> all;
-    for (const NamedDeviations& one : monitored_) {
-        all.push_back(one.deviations_of.quantiles(one.name));
+    for (const NamedDeviations& monitored : monitored_) {
+        all.push_back(monitored.deviations_of.quantiles(monitored.name));
     }
     return all;
 }

@@ -1,4 +1,4 @@
-// Applies the monitoring of a study to the lives of a campaign.
+// Applies the monitoring to the lives of a campaign.
 #pragma once
 
 #include <memory>
@@ -10,7 +10,7 @@
 
 namespace gearpod::mc {
 
-// Results of one feature of the study, or of all features ("fused"), with one detector.
+// Results of one feature, or of all features ("fused"), with one detector.
 struct MonitoredFeature {
     std::string feature, detector;
     analysis::MonitorPerformance performance;
@@ -21,7 +21,7 @@ struct MonitoredFeature {
 // True if `a` ranks before `b`; those without a rank come last.
 bool ranks_before(const MonitoredFeature& a, const MonitoredFeature& b);
 
-// Effect of the false-alarm rate on detection, for the detector that is best at the study's rate.
+// Effect of the false-alarm rate on detection, for the detector that is best at the stated rate.
 struct TradeOff {
     struct Point {
         double stated_per_1000_h, per_1000_h;  // target rate, and rate counted on other lives
@@ -39,14 +39,14 @@ struct FeatureQuantiles {
     std::vector<std::vector<double>> lives;
 };
 
-// Study and campaign must outlive the object.
+// Plan and campaign must outlive the object.
 class LifeMonitor {
   public:
-    LifeMonitor(const Study& study, const Campaign& campaign);
+    LifeMonitor(const CampaignPlan& plan, const Campaign& campaign);
     LifeMonitor(LifeMonitor&&) noexcept;
     ~LifeMonitor();
 
-    const Study& study() const { return study_; }
+    const CampaignPlan& plan() const { return plan_; }
     const Campaign& campaign() const { return campaign_; }
 
     // Results of every feature, and of all features together if there are several, with every
@@ -61,7 +61,7 @@ class LifeMonitor {
     class MonitoredDeviations;
     struct NamedDeviations;
 
-    const Study& study_;
+    const CampaignPlan& plan_;
     const Campaign& campaign_;
     std::vector<NamedDeviations> monitored_;
     std::vector<MonitoredFeature> results_;

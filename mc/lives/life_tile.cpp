@@ -2,16 +2,13 @@
 
 namespace gearpod::mc {
 
-LifeTiles::LifeTiles(const Scene& scene)
-    : scene_((check_superposable(scene), scene)),
-      distributions_(scene.study()),
-      torques_(distributions_.torque, integrated_torques(scene.study().life),
-               scene.study().life.polynomial_torques),
-      speeds_(distributions_.speed, integrated_speeds(scene.study().life),
-              scene.study().life.polynomial_speeds),
-      sampler_(study_of_gearboxes(scene.study())),
+LifeTiles::LifeTiles(const Scene& scene, LifePlan plan)
+    : scene_(scene),
+      plan_(std::move(plan)),
+      torques_(plan_.distributions.torque, plan_.torques),
+      speeds_(plan_.distributions.speed, plan_.speeds),
       path_(sensor_paths(scene)),
-      crack_(scene) {}
+      crack_(plan_) {}
 
 std::size_t LifeTiles::lanes() const {
     return static_cast<std::size_t>(scene_.study().numerics.lanes);
@@ -25,13 +22,9 @@ std::size_t LifeTiles::gap_count() const {
 }
 
 Realization LifeTiles::draw(const GearboxId& id) const {
-    Realization gearbox = sampler_.draw(id);
+    Realization gearbox = plan_.sampler->draw(id);
     gearbox.inputs.fault_size = 0.0;
     return gearbox;
-}
-
-double LifeTiles::depth(int step) const {
-    return *scene_.study().life.last_depth_m * step / scene_.study().life.depth_steps;
 }
 
 std::vector<LifeTiles::Load> LifeTiles::loads() const {
@@ -57,10 +50,10 @@ std::vector<double> LifeTiles::load_weights(const Load& load) const {
 HealthySolution LifeTiles::healthy_solution(std::span<const Realization> gearboxes,
                                             const Load& load) const {
     std::vector<Realization> all(gearboxes.begin(), gearboxes.end());
-    for (Realization& one : all) {
-        one.inputs.torque_N_m *= load.torque;
-        one.inputs.fixed_shaft.load_torque_N_m *= load.torque;
-        one.inputs.speed_rad_s *= load.speed;
+    for (Realization& gearbox : all) {
+        gearbox.inputs.torque_N_m *= load.torque;
+        gearbox.inputs.fixed_shaft.load_torque_N_m *= load.torque;
+        gearbox.inputs.speed_rad_s *= load.speed;
     }
     return {scene_, path_, std::move(all), static_cast<int>(lanes())};
 }

@@ -9,7 +9,7 @@
 
 #include "mc/ensemble/gearbox/healthy_solution.hpp"
 #include "mc/lives/crack_life.hpp"
-#include "mc/lives/record_distributions.hpp"
+#include "mc/lives/load_axis.hpp"
 #include "mc/lives/superposition.hpp"
 #include "mc/results/results_file.hpp"
 
@@ -35,9 +35,6 @@ struct InterpolationErrors {
     // Takes the maximum of both for each error.
     void take(const InterpolationErrors& other);
 };
-// Depths at which `first` and `last` are measured, m.
-double first_interpolated_m(const Life& life);
-double last_interpolated_m(const Life& life);
 
 // Processor time in seconds, spent per gearbox and per record.
 struct LifeCosts {
@@ -53,8 +50,10 @@ struct RecordTimes {
 
 class LifeTiles {
   public:
-    // Throws SceneError if the study's records cannot be superposed.
-    explicit LifeTiles(const Scene& scene);
+    // The scene must outlive the object. Without a plan, that of the scene is used; throws
+    // SceneError if it has none.
+    explicit LifeTiles(const Scene& scene) : LifeTiles(scene, scene.life()) {}
+    LifeTiles(const Scene& scene, LifePlan plan);
 
     // A gearbox without its fault. Inputs that vary by record are nominal.
     Realization draw(const GearboxId& id) const;
@@ -83,6 +82,7 @@ class LifeTiles {
     std::size_t gap_count() const;
 
     const Scene& scene() const { return scene_; }
+    const LifePlan& plan() const { return plan_; }
     // Number of gearboxes integrated in lockstep.
     std::size_t lanes() const;
 
@@ -91,15 +91,13 @@ class LifeTiles {
     class InterpolationCheck;
     using SignalsByLoad = std::vector<std::vector<LaneSignals>>;  // [lane][load]
     LaneSignals synthetic_signals(std::uint64_t number) const;
-    double depth(int step) const;
     // Integrated loads, and interpolation weights of each of them for another load.
     std::vector<Load> loads() const;
     std::vector<double> load_weights(const Load& load) const;
 
     const Scene& scene_;
-    const RecordDistributions distributions_;
+    const LifePlan plan_;
     const LoadAxis torques_, speeds_;
-    const Sampler sampler_;  // of study_of_gearboxes()
     const SensorPaths path_;
     const CrackLife crack_;
 };

@@ -29,7 +29,7 @@ class LifeTiles::Lane {
           inputs_(gearbox.inputs),
           features_(tiles.scene_.features().used),
           needs_(superposed_needs(features_)),
-          span_(record_span(tiles.scene_, inputs_.speed_rad_s)),
+          span_(tiles.plan_.record_span(inputs_.speed_rad_s)),
           record_(tiles.scene_, needs_.record, span_.turns * span_.recordings),
           change_(tiles.scene_, needs_.change, span_.turns * span_.recordings),
           reference_(tiles.scene_, needs_.baseline, span_.turns * span_.recordings),
@@ -54,29 +54,28 @@ class LifeTiles::Lane {
         if (!compares()) {
             return;
         }
-        const Study& study = tiles_.scene_.study();
-        const auto records = static_cast<double>(std::max(1, study.monitoring.baseline_records));
+        const LifePlan& plan = tiles_.plan_;
+        const auto records = static_cast<double>(std::max(1, plan.campaign.baseline_records));
         const double spans = static_cast<double>(span_.turns) * span_.recordings / span_.all_turns;
         noise_.sensor.resize(healthy.front().sensor.size());
         noise_.te_turn.assign(healthy.front().te_turn.size(), 0.0);
-        Philox engine =
-            gearbox_stream(tiles_.scene_.draw().seed, id_, StreamPurpose::reference_noise);
-        if (noise_by_density(study)) {
-            draw_unit_noise(tiles_.scene_, inputs_, NoiseEngines{engine, engine, engine},
+        Philox engine = gearbox_stream(plan.campaign.seed, id_, StreamPurpose::reference_noise);
+        if (noise_by_density(tiles_.scene_.study())) {
+            draw_unit_noise(tiles_.scene_, inputs_, NoiseEngines<Philox>{engine, engine, engine},
                             std::span(noise_.sensor));
         } else {
             signals::draw_normals(engine, std::span(noise_.sensor));
         }
-        const double sigma = inputs_.noise_m_s2 * study.sensor.noise_levels.front() /
+        const double sigma = inputs_.noise_m_s2 * plan.noise_level /
                              std::sqrt(std::max(1.0, records * spans)) *
-                             tiles_.distributions_.noise.rms();
+                             plan.distributions.noise.rms();
         for (double& value : noise_.sensor) {
             value *= sigma;
         }
         const auto normals = [&](StreamPurpose purpose) {
-            Philox own = gearbox_stream(tiles_.scene_.draw().seed, id_, purpose);
+            Philox stream = gearbox_stream(plan.campaign.seed, id_, purpose);
             std::vector<double> unit(static_cast<std::size_t>(records));
-            signals::draw_normals(own, std::span(unit));
+            signals::draw_normals(stream, std::span(unit));
             return unit;
         };
         const auto torques = normals(StreamPurpose::reference_torques),
@@ -84,8 +83,8 @@ class LifeTiles::Lane {
         pattern_.assign(healthy.size(), 0.0);
         for (std::size_t i = 0; i < torques.size(); ++i) {
             const auto load_weights =
-                tiles_.load_weights({tiles_.distributions_.torque.factor(torques[i]),
-                                     tiles_.distributions_.speed.factor(speeds[i])});
+                tiles_.load_weights({tiles_.plan_.distributions.torque.factor(torques[i]),
+                                     tiles_.plan_.distributions.speed.factor(speeds[i])});
             for (std::size_t t = 0; t < load_weights.size(); ++t) {
                 pattern_[t] += inputs_.gain * load_weights[t] / records;
             }
@@ -123,8 +122,8 @@ class LifeTiles::Lane {
                                              const std::vector<LaneSignals>& at_high) const {
         std::vector<const LaneSignals*> basis;
         for (const auto* all : {&healthy, &at_low, &at_high}) {
-            for (const LaneSignals& one : *all) {
-                basis.push_back(&one);
+            for (const LaneSignals& signals : *all) {
+                basis.push_back(&signals);
             }
         }
         if (compares()) {
@@ -156,10 +155,10 @@ class LifeTiles::Lane {
         std::vector<double> coefficients(parts, 0.0);
         const std::size_t n = load_weights.size();
         for (std::size_t t = 0; t < n; ++t) {
-            const double one = inputs_.gain * record.gain * load_weights[t];
-            coefficients[(low > 0.0 ? n : 0) + t] += (1.0 - depth_fraction) * one;
+            const double factor = inputs_.gain * record.gain * load_weights[t];
+            coefficients[(low > 0.0 ? n : 0) + t] += (1.0 - depth_fraction) * factor;
             if (depth_fraction > 0.0) {
-                coefficients[(low > 0.0 ? 2 * n : n) + t] += depth_fraction * one;
+                coefficients[(low > 0.0 ? 2 * n : n) + t] += depth_fraction * factor;
             }
         }
         return coefficients;
@@ -168,7 +167,7 @@ class LifeTiles::Lane {
     // Inputs of a record, with the noise of its sensor.
     InstanceInputs inputs_of(const LifeRecord& record) const {
         InstanceInputs inputs = inputs_;
-        if (tiles_.distributions_.sensor_noise_only) {
+        if (tiles_.plan_.distributions.sensor_noise_only) {
             const SensorNoise noise =
                 with_rms_factor(tiles_.scene_.study(), noise_of(inputs), record.noise);
             inputs.noise_m_s2 = noise.all_m_s2;
@@ -186,13 +185,13 @@ class LifeTiles::Lane {
                     std::size_t parts) {
         const LifeRecord& record = life_.history.records[r];
         std::vector<double> coefficients = coefficients_of(record, low, high, parts);
-        Realization own_record{record_id(id_, r, false), inputs_of(record)};
+        Realization realization{record_id(id_, r, false), inputs_of(record)};
         const std::vector<std::size_t> starts = starts_of(r);
-        LaneSignals own = fold_record(superposed, coefficients, starts);
-        for (double& value : own.te_turn) {
+        LaneSignals folded = fold_record(superposed, coefficients, starts);
+        for (double& value : folded.te_turn) {
             value /= inputs_.gain * record.gain;  // the gain belongs to the sensor only
         }
-        record_.load(own, own_record);
+        record_.load(folded, realization);
         features::FeatureInput input = record_.at(0), change, reference;
         LaneSignals changed, before;
         if (!needs_.baseline.empty()) {
@@ -203,7 +202,7 @@ class LifeTiles::Lane {
             for (double& value : before.te_turn) {
                 value /= inputs_.gain;
             }
-            reference_.load(before, own_record.inputs, no_noise(before));
+            reference_.load(before, realization.inputs, no_noise(before));
             reference = reference_.at(0);
             input.baseline = &reference;
         }
@@ -214,16 +213,16 @@ class LifeTiles::Lane {
             coefficients.back() = -1.0;
             changed = fold_record(superposed, coefficients, starts);
             if (uses_samples()) {
-                change_.load(changed, own_record.inputs,
+                change_.load(changed, realization.inputs,
                              noise_of_change(tiles_.scene_, changed, record_.noise(), {}));
             } else {
-                own_record.id = record_id(id_, r, true);
-                change_.load(changed, own_record);
+                realization.id = record_id(id_, r, true);
+                change_.load(changed, realization);
             }
             change = change_.at(0);
             input.change = &change;
         }
-        set_values(r, own_record.inputs, input);
+        set_values(r, realization.inputs, input);
     }
 
     // Noise of signals that already contain theirs.
@@ -248,18 +247,18 @@ class LifeTiles::Lane {
         }
         inputs.torque_N_m *= record.torque;
         inputs.speed_rad_s *= record.speed;
-        if (life_record_length(tiles_.scene_.study()).given()) {
+        if (tiles_.plan_.length.given()) {
             input.get<features::TeTurn>() = {};
         }
-        python_.add(tiles_.scene_.study().sensor.noise_levels.front(), inputs, input);
+        python_.add(tiles_.plan_.noise_level, inputs, input);
         const std::string work =
             fmt::format("{} gearbox {}, record {} of its life",
                         id_.group == Group::threshold ? "healthy" : "cracked", id_.index, r + 1);
-        const std::vector<double> own = python_.compute(work);
+        const std::vector<double> values = python_.compute(work);
         print_python_problems(python_.problems(), work);
         for (std::size_t f = 0, next = 0; f < features_.size(); ++f) {
             if (features_[f]->external) {
-                set_value(f, r, own[next++]);
+                set_value(f, r, values[next++]);
             }
         }
     }
@@ -278,7 +277,7 @@ class LifeTiles::Lane {
     std::vector<std::size_t> starts_of(std::size_t r) const {
         std::vector<std::size_t> starts;
         if (!span_.whole()) {
-            Philox engine = gearbox_stream(tiles_.scene_.draw().seed, record_id(id_, r, false),
+            Philox engine = gearbox_stream(tiles_.plan_.campaign.seed, record_id(id_, r, false),
                                            StreamPurpose::life_recording_starts);
             boost::random::uniform_int_distribution<std::size_t> turn(
                 0, static_cast<std::size_t>(span_.all_turns) - 1);
@@ -343,8 +342,8 @@ std::vector<GearboxLife> LifeTiles::run(std::span<const Realization> gearboxes, 
         sum += now - start;
         start = now;
     };
-    for (const Realization& one : gearboxes) {
-        lanes.emplace_back(*this, one, cracked);
+    for (const Realization& gearbox : gearboxes) {
+        lanes.emplace_back(*this, gearbox, cracked);
     }
     std::vector<HealthySolution> solutions;
     for (const Load& load : loads()) {
@@ -352,13 +351,13 @@ std::vector<GearboxLife> LifeTiles::run(std::span<const Realization> gearboxes, 
     }
     const auto at_depth = [&](double depth_m) {
         SignalsByLoad all(gearboxes.size());
-        for (const HealthySolution& one : solutions) {
-            HealthySolution::Signals solution =
-                depth_m > 0.0 ? one.with_fault(depth_m) : one.healthy();
+        for (const HealthySolution& solution : solutions) {
+            HealthySolution::Signals signals =
+                depth_m > 0.0 ? solution.with_fault(depth_m) : solution.healthy();
             for (std::size_t lane = 0; lane < gearboxes.size(); ++lane) {
-                all[lane].push_back(std::move(solution.lane[lane]));
-                if (solution.status[lane] != Status::ok && !lanes[lane].failed()) {
-                    lanes[lane].fail(solution.status[lane]);
+                all[lane].push_back(std::move(signals.lane[lane]));
+                if (signals.status[lane] != Status::ok && !lanes[lane].failed()) {
+                    lanes[lane].fail(signals.status[lane]);
                 }
             }
         }
@@ -370,8 +369,9 @@ std::vector<GearboxLife> LifeTiles::run(std::span<const Realization> gearboxes, 
     check.between_loads(healthy);
     lap(check_s);
     SignalsByLoad low = healthy;
-    for (int step = 0; step < (cracked ? scene_.study().life.depth_steps : 1); ++step) {
-        SignalsByLoad high = cracked ? at_depth(depth(step + 1)) : SignalsByLoad(gearboxes.size());
+    for (int step = 0; step < (cracked ? plan_.campaign.depth_steps : 1); ++step) {
+        SignalsByLoad high =
+            cracked ? at_depth(plan_.campaign.depth_m(step + 1)) : SignalsByLoad(gearboxes.size());
         lap(costs.gearboxes);
         if (cracked) {
             check.between_depths(step, healthy, low, high);
@@ -385,7 +385,8 @@ std::vector<GearboxLife> LifeTiles::run(std::span<const Realization> gearboxes, 
                 lanes[lane].compute_reference_pattern(healthy[lane]);
             }
             lap(costs.gearboxes);
-            lanes[lane].compute_records(depth(step), depth(step + 1), healthy[lane], low[lane],
+            lanes[lane].compute_records(plan_.campaign.depth_m(step),
+                                        plan_.campaign.depth_m(step + 1), healthy[lane], low[lane],
                                         high[lane]);
             lap(costs.records);
         }
@@ -408,7 +409,7 @@ LaneSignals LifeTiles::synthetic_signals(std::uint64_t number) const {
         return static_cast<std::size_t>(of_mesh) * static_cast<std::size_t>(meshes);
     };
     LaneSignals all;
-    Philox engine = gearbox_stream(scene_.draw().seed, {Group::graded, number},
+    Philox engine = gearbox_stream(plan_.campaign.seed, {Group::graded, number},
                                    StreamPurpose::forecast_signals);
     all.sensor.resize(samples(scene_.samples_per_mesh(), scene_.span_meshes()));
     signals::draw_normals(engine, std::span(all.sensor));
@@ -429,8 +430,9 @@ RecordTimes LifeTiles::time_records() const {
     };
     const double first_s = seconds([&] { lane.superpose(lane.basis_of(healthy, none, high)); });
     const double step_s = seconds([&] { lane.superpose(lane.basis_of(healthy, low, high)); });
-    const double all_s = seconds([&] { lane.compute_records(0.0, depth(1), healthy, none, high); });
-    return {step_s, std::max(0.0, all_s - first_s) / scene_.study().life.records};
+    const double all_s =
+        seconds([&] { lane.compute_records(0.0, plan_.campaign.depth_m(1), healthy, none, high); });
+    return {step_s, std::max(0.0, all_s - first_s) / plan_.campaign.records};
 }
 
 LifeHistory LifeTiles::history(const GearboxId& id) const {

@@ -34,11 +34,28 @@ Scene::Scene(const Study& study)
     features_ = make_feature_plan(study, span_);
     signal_meshes_ = mc::signal_meshes(study, features_, std::abs(nominal_mesh_frequency_Hz()));
     set_max_meshes();
+    plan_life();
 }
 
 void Scene::set_max_meshes() {
     max_meshes_ =
         study_.effects.quasi_static() ? 1 : choose_max_meshes(study_, plan_->stepping.decay_meshes);
+}
+
+void Scene::plan_life() {
+    life_problems_ = mc::life_problems(study_, features_, *gearbox_);
+    if (life_problems_.empty()) {
+        life_ = std::make_shared<const LifePlan>(make_life_plan(study_, *gearbox_));
+    } else {
+        life_ = nullptr;
+    }
+}
+
+const LifePlan& Scene::life() const {
+    if (!life_) {
+        throw life_problems_.front();
+    }
+    return *life_;
 }
 
 Scene Scene::with(const Numerics& numerics) const {
@@ -57,12 +74,6 @@ Scene Scene::with(const Numerics& numerics) const {
             make_plan(scene.study_, *scene.sampler_, *scene.gearbox_));
     }
     scene.set_max_meshes();
-    return scene;
-}
-
-Scene Scene::with(const Life& life) const {
-    Scene scene = *this;
-    scene.study_.life = life;
     return scene;
 }
 

@@ -10,6 +10,7 @@
 
 #include "mc/plan/feature_plan.hpp"
 #include "mc/plan/gearbox_plan.hpp"
+#include "mc/plan/life_plan.hpp"
 #include "mc/plan/sampling.hpp"
 #include "mc/plan/scene_error.hpp"
 #include "mc/plan/scene_plan.hpp"
@@ -29,13 +30,15 @@ class Scene {
     // stiffness_tolerance or face_slices; the plan is shared if only settle_tolerance differs.
     // Throws SceneError.
     Scene with(const Numerics& numerics) const;
-    // The same scene with another [life].
-    Scene with(const Life& life) const;
     // The same scene with at most this many recorded mesh periods, which the signal repeats. Used
     // to measure the cost of time integration.
     Scene recording_at_most(int meshes) const;
 
     const Study& study() const { return study_; }
+    // Reasons why the study has no lives whose records can be superposed; empty if it has.
+    const std::vector<SceneError>& life_problems() const { return life_problems_; }
+    // Throws the first of them.
+    const LifePlan& life() const;
     // Draws the gearboxes of the study.
     const Sampler& sampler() const { return *sampler_; }
     const DrawPlan& draw() const { return sampler_->draw_plan(); }
@@ -94,6 +97,7 @@ class Scene {
 
   private:
     void set_max_meshes();
+    void plan_life();
 
     Study study_;
     std::shared_ptr<const Sampler> sampler_;
@@ -104,6 +108,8 @@ class Scene {
     int signal_meshes_ = 0;
     int most_recorded_ = std::numeric_limits<int>::max();
     int max_meshes_ = 0;
+    std::vector<SceneError> life_problems_;
+    std::shared_ptr<const LifePlan> life_;  // null if there are problems
 };
 
 }  // namespace gearpod::mc

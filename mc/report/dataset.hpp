@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "mc/plan/gearbox_streams.hpp"
 #include "mc/report/tables.hpp"
 #include "mc/results/result_rows.hpp"
 

@@ -12,7 +12,6 @@
 #include "analysis/report/json_values.hpp"
 #include "analysis/report/wording.hpp"
 #include "mc/files/input/terminal_text.hpp"
-#include "mc/study/assumptions.hpp"
 
 namespace gearpod::mc {
 namespace {
@@ -22,9 +21,8 @@ using analysis::percent_text;
 using analysis::Section;
 
 // Formats a depth in mm: "2.31", or "> 4" if the probability is not reached at the last depth.
-std::string depth_text(double depth_m, const Study& study) {
-    return std::isinf(depth_m) ? "> " + number_text(1e3 * *study.life.last_depth_m)
-                               : number_text(1e3 * depth_m);
+std::string depth_text(double depth_m, const CampaignPlan& plan) {
+    return std::isinf(depth_m) ? "> " + number_text(1e3 * plan.last_m) : number_text(1e3 * depth_m);
 }
 
 std::string interval_text(const analysis::Interval& interval) {
@@ -50,26 +48,26 @@ std::string fixed_text(double share) {
 
 // "6.2 % of the signal and 8 % of what a crack of 2 mm changes"; "" if all records have the same
 // load.
-std::string load_error_text(const InterpolationErrors& off, const Life& life) {
+std::string load_error_text(const InterpolationErrors& off, const CampaignPlan& plan) {
     std::string text = off.load > 0.0 ? percent_text(off.load) + " of the signal" : "";
     if (off.change > 0.0) {
         text += fmt::format("{}{} of what a crack of {} mm changes", text.empty() ? "" : " and ",
-                            percent_text(off.change), number_text(1e3 * smallest_depth_m(life)));
+                            percent_text(off.change), number_text(1e3 * plan.smallest_m));
     }
     return text;
 }
 
-std::string interpolation_text(const Campaign& campaign, const Life& life) {
+std::string interpolation_text(const Campaign& campaign, const CampaignPlan& plan) {
     const InterpolationErrors& off = campaign.interpolation;
-    const std::string load = load_error_text(off, life);
+    const std::string load = load_error_text(off, plan);
     if (std::isnan(off.first)) {
         return "";  // none of the gearboxes used for the error estimate was integrated
     }
     return fmt::format(
         "Signals are interpolated between integrated ones. The error (rms) is {} of the crack's "
         "effect at {} mm and {} of it at {} mm{}.",
-        percent_text(off.first), number_text(1e3 * first_interpolated_m(life)),
-        percent_text(off.last), number_text(1e3 * last_interpolated_m(life)),
+        percent_text(off.first), number_text(1e3 * plan.middle_m(plan.first_step)),
+        percent_text(off.last), number_text(1e3 * plan.middle_m(plan.depth_steps - 1)),
         load.empty() ? "" : "; between the integrated torques and speeds it is " + load);
 }
 
@@ -89,12 +87,12 @@ std::string best_text(const LifeMonitor& monitor, const MonitoredFeature& best) 
             "h before; alarms at cracks below {} mm, which it does not show, count as false",
             number_text(a.warning_50), number_text(a.warning_90), number_text(1e3 * a.effect_size));
     }
-    const double stated = monitor.study().monitoring.false_alarms_per_1000_h;
+    const double stated = monitor.plan().false_alarms_per_1000_h;
     const analysis::FalseAlarms& alarms = a.false_alarms;
     const InterpolationErrors& off = monitor.campaign().interpolation;
     if (off.load > kMostInterpolationError || off.change > kMostInterpolationError) {
         text += ". Not reliable: signals between the integrated torques and speeds are off by " +
-                load_error_text(off, monitor.study().life);
+                load_error_text(off, monitor.plan());
     }
     return text +
            (std::isnan(alarms.per_1000_h)
@@ -108,14 +106,14 @@ std::string best_text(const LifeMonitor& monitor, const MonitoredFeature& best) 
 
 // The headline where no detector has a rank.
 std::string nothing_found_text(const LifeMonitor& monitor) {
-    const Study& study = monitor.study();
-    const double stated = study.monitoring.false_alarms_per_1000_h;
+    const CampaignPlan& plan = monitor.plan();
+    const double stated = plan.false_alarms_per_1000_h;
     const auto& results = monitor.results();
     if (ended_lives(monitor.campaign()) == 0) {
         return fmt::format(
             "No tooth fails within {} records, one every {} h, so no crack can be "
             "found before failure; raise life.records.",
-            study.life.records, number_text(*study.life.interval_h));
+            plan.records, number_text(plan.interval_h));
     }
     const auto without_threshold = std::ranges::count_if(
         results, [](const auto& one) { return std::isnan(one.performance.threshold.value); });
@@ -130,27 +128,26 @@ std::string nothing_found_text(const LifeMonitor& monitor) {
                                                      number_text(threshold.least_per_1000_h)
                                                : "")
                    : fmt::format("No threshold: {} needs more than {} records after the baseline.",
-                                 results.front().detector,
-                                 study.life.records - study.monitoring.baseline_records);
+                                 results.front().detector, plan.records - plan.baseline_records);
     }
     return "No detector finds more cracks than chance with at most the stated false alarms.";
 }
 
 Section headline(const LifeMonitor& monitor, bool shows_withheld) {
-    const Study& study = monitor.study();
+    const CampaignPlan& plan = monitor.plan();
     const Campaign& campaign = monitor.campaign();
     Section section{"headline", "", {}};
-    const std::string withheld = shows_withheld ? "" : why_withheld(study, campaign);
+    const std::string withheld = shows_withheld ? "" : why_withheld(plan, campaign);
     section.state("headline", !withheld.empty() ? withheld
                               : monitor.ranking().empty()
                                   ? nothing_found_text(monitor)
                                   : best_text(monitor, monitor.results()[monitor.ranking()[0]]));
-    section.state("interpolation", interpolation_text(campaign, study.life));
+    section.state("interpolation", interpolation_text(campaign, plan));
     section.state("failed",
                   campaign.failed > 0
                       ? fmt::format("{} gearboxes failed and are left out.", campaign.failed)
                       : "");
-    section.state("holds", assumptions(study, true));
+    section.state("holds", plan.assumptions);
     return section;
 }
 
@@ -184,10 +181,10 @@ std::string effect_text(const LifeMonitor& monitor) {
 }
 
 Section results_section(const LifeMonitor& monitor) {
-    const Study& study = monitor.study();
+    const CampaignPlan& plan = monitor.plan();
     Section section{"results", "Features and detectors", {}};
     analysis::Table table{"results", "", {"feature", "detector", "rank"}, {}};
-    for (std::string& column : life_result_columns(study)) {
+    for (std::string& column : life_result_columns(plan)) {
         table.columns.push_back(std::move(column));
     }
     std::map<std::string, std::vector<std::string>> unranked;
@@ -197,7 +194,7 @@ Section results_section(const LifeMonitor& monitor) {
         std::vector<std::string> row{
             one.feature, one.detector,
             one.unranked.empty() ? std::to_string(rank - monitor.ranking().begin() + 1) : "-"};
-        for (std::string& cell : life_result_cells(one.performance, study)) {
+        for (std::string& cell : life_result_cells(one.performance, plan)) {
             row.push_back(std::move(cell));
         }
         table.rows.push_back(std::move(row));
@@ -216,7 +213,7 @@ Section results_section(const LifeMonitor& monitor) {
                     "crack depth at which 50 % and 90 % of the cracks are found. w50, "
                     "w90: time from the alarm to failure that 50 % and 90 % of the cracks "
                     "found exceed.",
-                    percent_text(study.detection.confidence)));
+                    percent_text(plan.confidence)));
     section.state("effect", effect_text(monitor));
     for (std::size_t reason = 0; const auto& [text, names] : unranked) {
         section.state(fmt::format("unranked.{}", reason++),
@@ -226,7 +223,7 @@ Section results_section(const LifeMonitor& monitor) {
 }
 
 Section basis(const LifeMonitor& monitor) {
-    const Study& study = monitor.study();
+    const CampaignPlan& plan = monitor.plan();
     const Campaign& campaign = monitor.campaign();
     Section section{"basis", "Basis of the results", {}};
     section.state(
@@ -234,16 +231,15 @@ Section basis(const LifeMonitor& monitor) {
         fmt::format("{} cracks grow from {} to {} mm, with a record every {} h, the first "
                     "{} of which are the gearbox's baseline; {} teeth fail within {} "
                     "records.",
-                    campaign.cracked.size(), number_text(1e3 * crack_begin_m(study.life)),
-                    number_text(1e3 * *study.life.last_depth_m),
-                    number_text(*study.life.interval_h), study.monitoring.baseline_records,
-                    ended_lives(campaign), study.life.records));
+                    campaign.cracked.size(), number_text(1e3 * plan.begin_m),
+                    number_text(1e3 * plan.last_m), number_text(plan.interval_h),
+                    plan.baseline_records, ended_lives(campaign), plan.records));
     section.state(
         "basis.thresholds",
         fmt::format("Thresholds are set to {} false alarms in 1000 h on {} healthy lives; "
                     "{} other healthy lives count the false alarms.",
-                    number_text(study.monitoring.false_alarms_per_1000_h),
-                    campaign.threshold_lives.size(), campaign.healthy.size()));
+                    number_text(plan.false_alarms_per_1000_h), campaign.threshold_lives.size(),
+                    campaign.healthy.size()));
     section.state("basis.record", "A record: " + printable(campaign.record) + ".");
     const LifeCosts& costs = campaign.costs;
     // An earlier run may have computed all gearboxes.
@@ -262,7 +258,7 @@ Section basis(const LifeMonitor& monitor) {
 
 }  // namespace
 
-std::string why_withheld(const Study& study, const Campaign& campaign) {
+std::string why_withheld(const CampaignPlan& plan, const Campaign& campaign) {
     const InterpolationErrors& off = campaign.interpolation;
     return off.load > kMostInterpolationError || off.change > kMostInterpolationError
                ? fmt::format(
@@ -272,24 +268,24 @@ std::string why_withheld(const Study& study, const Campaign& campaign) {
                      "only some torques and speeds (life.distinct_torques and "
                      "life.distinct_speeds), or reduce the scatter of the records. --show-withheld "
                      "prints the results all the same.",
-                     load_error_text(off, study.life), percent_text(kMostInterpolationError))
+                     load_error_text(off, plan), percent_text(kMostInterpolationError))
                : "";
 }
 
-std::vector<std::string> life_result_columns(const Study& study) {
+std::vector<std::string> life_result_columns(const CampaignPlan& plan) {
     return {"threshold",
             "false alarms in 1000 h",
             "found",
             "by chance",
             "net",
             "a50, mm",
-            fmt::format("a90, mm ({} bound)", percent_text(study.detection.confidence)),
+            fmt::format("a90, mm ({} bound)", percent_text(plan.confidence)),
             "w50, h",
             "w90, h"};
 }
 
 std::vector<std::string> life_result_cells(const analysis::MonitorPerformance& a,
-                                           const Study& study) {
+                                           const CampaignPlan& plan) {
     const analysis::FalseAlarms& f = a.false_alarms;
     return {number_text(a.threshold.value),
             std::isnan(f.per_1000_h)
@@ -299,10 +295,10 @@ std::vector<std::string> life_result_cells(const analysis::MonitorPerformance& a
             share_text(a),
             fixed_text(a.share_by_chance),
             fixed_text(analysis::net_share(a)),
-            depth_text(a.size_50.value, study),
+            depth_text(a.size_50.value, plan),
             std::isnan(a.size_90.value) ? "-"
-                                        : depth_text(a.size_90.value, study) + " (" +
-                                              depth_text(a.size_90.bound, study) + ")",
+                                        : depth_text(a.size_90.value, plan) + " (" +
+                                              depth_text(a.size_90.bound, plan) + ")",
             number_text(a.warning_50),
             number_text(a.warning_90)};
 }
@@ -310,7 +306,7 @@ std::vector<std::string> life_result_cells(const analysis::MonitorPerformance& a
 analysis::Report lives_report(const LifeMonitor& monitor, bool shows_withheld) {
     analysis::Report report;
     report.add(headline(monitor, shows_withheld));
-    if (shows_withheld || why_withheld(monitor.study(), monitor.campaign()).empty()) {
+    if (shows_withheld || why_withheld(monitor.plan(), monitor.campaign()).empty()) {
         report.add(results_section(monitor));
     }
     report.add(basis(monitor));
@@ -390,7 +386,7 @@ nlohmann::json life_result_json(const MonitoredFeature& one) {
 }
 
 nlohmann::json lives_json(const LifeMonitor& monitor, bool shows_withheld) {
-    const Study& study = monitor.study();
+    const CampaignPlan& plan = monitor.plan();
     const Campaign& campaign = monitor.campaign();
     LifeJson watched = LifeJson::array(), lives = LifeJson::array();
     const InterpolationErrors& off = campaign.interpolation;
@@ -412,30 +408,30 @@ nlohmann::json lives_json(const LifeMonitor& monitor, bool shows_withheld) {
     }
     return {
         {"kind", "lives"},
-        {"title", study.title},
-        {"interval_h", *study.life.interval_h},
+        {"title", plan.title},
+        {"interval_h", plan.interval_h},
         {"record", printable(campaign.record)},
-        {"baseline_records", study.monitoring.baseline_records},
-        {"first_depth_m", crack_begin_m(study.life)},
-        {"last_depth_m", *study.life.last_depth_m},
+        {"baseline_records", plan.baseline_records},
+        {"first_depth_m", plan.begin_m},
+        {"last_depth_m", plan.last_m},
         {"healthy_lives",
          {{"setting", campaign.threshold_lives.size()}, {"counting", campaign.healthy.size()}}},
-        {"false_alarms_per_1000_h", study.monitoring.false_alarms_per_1000_h},
+        {"false_alarms_per_1000_h", plan.false_alarms_per_1000_h},
         {"failed", campaign.failed},
         {"interpolation",
-         {{"first_depth_m", first_interpolated_m(study.life)},
+         {{"first_depth_m", plan.middle_m(plan.first_step)},
           {"first", analysis::number(off.first)},
-          {"last_depth_m", last_interpolated_m(study.life)},
+          {"last_depth_m", plan.middle_m(plan.depth_steps - 1)},
           {"last", analysis::number(off.last)},
           {"load", analysis::number(off.load)},
-          {"smallest_depth_m", smallest_depth_m(study.life)},
+          {"smallest_depth_m", plan.smallest_m},
           {"change", analysis::number(off.change)}}},
         {"costs",
          {{"gearboxes", campaign.costs.gearbox_count},
           {"gearbox_s", campaign.costs.gearboxes},
           {"records", campaign.costs.record_count},
           {"record_s", campaign.costs.records}}},
-        {"withheld", analysis::text_or_null(shows_withheld ? "" : why_withheld(study, campaign))},
+        {"withheld", analysis::text_or_null(shows_withheld ? "" : why_withheld(plan, campaign))},
         {"findings", findings_json(lives_report(monitor, shows_withheld))},
         {"monitored", watched},
         {"ranking", monitor.ranking()},

@@ -15,15 +15,15 @@ namespace gearpod::mc {
 // share found, share that false alarms alone would find in lives of the same length, net share,
 // crack depth found with 50 % and with 90 % probability (with its bound), warning time of 50 % and
 // of 90 %.
-std::vector<std::string> life_result_columns(const Study& study);
+std::vector<std::string> life_result_columns(const CampaignPlan& plan);
 std::vector<std::string> life_result_cells(const analysis::MonitorPerformance& performance,
-                                           const Study& study);
+                                           const CampaignPlan& plan);
 
 // Largest interpolation error between torques and speeds, as a share of the signal and of the
 // change made by the smallest crack of interest, with which results are reported.
 inline constexpr double kMostInterpolationError = 0.1;
 // Reason why the results of a campaign are withheld: its interpolation error; or "".
-std::string why_withheld(const Study& study, const Campaign& campaign);
+std::string why_withheld(const CampaignPlan& plan, const Campaign& campaign);
 
 // Sections: headline, results and basis; without the results if they are withheld.
 // `shows_withheld`: reports them all the same.

@@ -114,7 +114,7 @@ struct Life {
     // Number of torques and speeds at which a gearbox is integrated if its records' values differ,
     // by default as many as interpolation_tolerance needs. Signals between them are interpolated.
     std::optional<int> given_torques, given_speeds;
-    // The same with nodes of one polynomial, which converges faster (record_distributions.hpp).
+    // The same with nodes of one polynomial, which converges faster (load_axis.hpp).
     std::optional<int> polynomial_torques, polynomial_speeds;
     // Instead of that: number of torques and speeds, equally frequent, that records have at all.
     std::optional<int> distinct_torques, distinct_speeds;
@@ -129,12 +129,6 @@ struct Life {
 
     bool operator==(const Life&) const = default;
 };
-inline int integrated_torques(const Life& life) {
-    return life.given_torques.value_or(2);
-}
-inline int integrated_speeds(const Life& life) {
-    return life.given_speeds.value_or(2);
-}
 // Smallest crack of interest.
 inline double smallest_depth_m(const Life& life) {
     EXPECTS(life.smallest_depth_m || life.last_depth_m);

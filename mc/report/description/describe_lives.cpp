@@ -21,8 +21,7 @@ namespace gearpod::mc {
 namespace {
 
 // Describes how records at other torques or speeds are computed.
-std::string load_text(const RecordDistribution& law, const std::optional<int>& evenly_spaced,
-                      const std::optional<int>& nodes, double tolerance) {
+std::string load_text(const RecordDistribution& law, const LoadNumber& number, double tolerance) {
     const char* const unit = law.given() ? "the study's value" : "the gearbox's value";
     if (const std::vector<double> distinct = law.distinct_factors(); distinct.size() > 1) {
         return fmt::format(
@@ -30,17 +29,16 @@ std::string load_text(const RecordDistribution& law, const std::optional<int>& e
             "times {}",
             law.text(), distinct.size(), fmt::join(distinct, ", "), unit);
     }
-    const LoadAxis axis(law, evenly_spaced.value_or(2), nodes);
+    const LoadAxis axis(law, number);
     return law.text() +
            (axis.factors().size() > 1
                 ? fmt::format(
                       "; records between are interpolated from solutions at {:.3g} times {}{}",
                       fmt::join(axis.factors(), ", "), unit,
-                      evenly_spaced || nodes
-                          ? ""
-                          : fmt::format(", or at more if the error is above {:g} "
-                                        "(life.interpolation_tolerance)",
-                                        tolerance))
+                      number.given ? ""
+                                   : fmt::format(", or at more if the error is above {:g} "
+                                                 "(life.interpolation_tolerance)",
+                                                 tolerance))
                 : "");
 }
 
@@ -79,20 +77,19 @@ void print_life(const Scene& scene) {
     }
     print_heading("lives");
     try {
-        check_superposable(scene);
-        print_entry("record", record_text(scene));
+        print_entry("record", scene.life().record);
     } catch (const SceneError& error) {
         print_entry("no lives",
                     fmt::format("{}: {}; {}", error.key(), error.what(), error.remedy()));
         return;
     }
     print_entry("random per gearbox", of_gearbox(study));
-    const RecordDistributions laws(study);
+    const LifePlan& plan = scene.life();
+    const RecordDistributions& laws = plan.distributions;
     print_entry("torque per record",
-                load_text(laws.torque, life.given_torques, life.polynomial_torques,
-                          life.interpolation_tolerance));
-    print_entry("speed per record", load_text(laws.speed, life.given_speeds, life.polynomial_speeds,
-                                              life.interpolation_tolerance));
+                load_text(laws.torque, plan.torques, plan.interpolation_tolerance));
+    print_entry("speed per record",
+                load_text(laws.speed, plan.speeds, plan.interpolation_tolerance));
     print_entry("gain per record", laws.gain.text());
     print_entry("noise per record", laws.noise.text());
     print_entry("crack growth", growth_text(study));
@@ -120,11 +117,10 @@ IntegratedMeshes meshes_of(const Scene& scene) {
 // Integration time of one tile of a batch, s.
 double tile_s(const LifeTiles& tiles, const IntegratedMeshes& meshes, double mesh_s, bool cracked,
               bool tested) {
-    const Life& life = tiles.scene().study().life;
     const auto loads = static_cast<double>(tiles.load_count());
     double integrated = loads * meshes.healthy;
     if (cracked) {
-        integrated += loads * life.depth_steps * meshes.depth;
+        integrated += loads * tiles.plan().campaign.depth_steps * meshes.depth;
     }
     if (tested) {
         integrated += 2.0 * meshes.depth + static_cast<double>(tiles.gap_count()) * meshes.healthy;
@@ -136,7 +132,7 @@ double tile_s(const LifeTiles& tiles, const IntegratedMeshes& meshes, double mes
 double mean_records(const LifeTiles& tiles) {
     constexpr std::uint64_t kMost = 64;
     const auto count = std::clamp<std::uint64_t>(
-        static_cast<std::uint64_t>(tiles.scene().study().ensemble.instances), 1, kMost);
+        static_cast<std::uint64_t>(tiles.plan().campaign.cracked_lives), 1, kMost);
     double sum = 0.0;
     for (std::uint64_t i = 0; i < count; ++i) {
         sum += static_cast<double>(tiles.history({Group::graded, i}).records.size());
@@ -160,9 +156,9 @@ double tile_bytes(const LifeTiles& tiles) {
            record_bytes(scene);
 }
 
-double file_bytes(const Study& study) {
-    const RowShape shape = row_shape(lives_frame(study));
-    return 8.0 * static_cast<double>(lives_plan(study).rows()) *
+double file_bytes(const LifeTiles& tiles) {
+    const RowShape shape = row_shape(lives_frame(tiles.scene().study()));
+    return 8.0 * static_cast<double>(lives_plan(tiles.plan().campaign).rows()) *
            static_cast<double>(shape.values() + 1);
 }
 
@@ -176,28 +172,26 @@ std::string bytes_text(double bytes) {
 }
 
 // Numbers of torques and speeds with the most loads that may be chosen.
-Life most_loads(const Study& study) {
-    Life life = study.life;
-    const RecordDistributions distributions(study);
-    if (distributions.speed.varies() && !gives_speeds(life)) {
-        life.polynomial_speeds = kMostNodes;
-    } else if (distributions.torque.varies() && !gives_torques(life)) {
-        life.polynomial_torques = kMostNodes;
+LifePlan with_most_loads(LifePlan plan) {
+    if (plan.distributions.speed.varies() && !plan.speeds.given) {
+        plan.speeds.nodes = kMostNodes;
+    } else if (plan.distributions.torque.varies() && !plan.torques.given) {
+        plan.torques.nodes = kMostNodes;
     }
-    return life;
+    return plan;
 }
 
 }  // namespace
 
 LivesForecast forecast_lives(const LifeTiles& tiles, int threads, double setup_s, int pilot_loads) {
     const Scene& scene = tiles.scene();
-    const Study& study = scene.study();
-    const BatchPlan plan = lives_plan(study);
+    const CampaignPlan& campaign = tiles.plan().campaign;
+    const BatchPlan plan = lives_plan(campaign);
     LivesForecast all;
     all.threads = std::max(1, std::min(threads, static_cast<int>(plan.batches())));
     all.setup_s = setup_s;
     const IntegratedMeshes meshes = meshes_of(scene);
-    const double mesh_s = study.effects.quasi_static() ? 0.0 : mesh_period_s(scene);
+    const double mesh_s = scene.study().effects.quasi_static() ? 0.0 : mesh_period_s(scene);
     const RecordTimes trial = tiles.time_records();
     const double cracked_records = mean_records(tiles);
     std::vector<double> busy_s(static_cast<std::size_t>(all.threads), 0.0);
@@ -205,19 +199,19 @@ LivesForecast forecast_lives(const LifeTiles& tiles, int threads, double setup_s
     for (std::size_t b = 0; b < plan.batches(); ++b) {
         const Batch batch = plan.batch(b);
         const bool cracked = batch.group == Group::graded;
-        const double records = cracked ? cracked_records : study.life.records;
+        const double records = cracked ? cracked_records : campaign.records;
         double batch_s = 0.0;
         for (std::size_t first = 0; first < batch.gearboxes; first += tiles.lanes()) {
             const bool tested = measures_interpolation({batch.group, batch.first_index + first});
             batch_s += tile_s(tiles, meshes, mesh_s, cracked, tested);
         }
         integrating_s += batch_s;
-        const double own_s =
+        const double tile_records_s =
             static_cast<double>(batch.gearboxes) *
-            (records * trial.record_s + (cracked ? study.life.depth_steps : 1) * trial.step_s);
+            (records * trial.record_s + (cracked ? campaign.depth_steps : 1) * trial.step_s);
         record_count += static_cast<double>(batch.gearboxes) * records;
-        records_s += own_s;
-        *std::ranges::min_element(busy_s) += batch_s + own_s;
+        records_s += tile_records_s;
+        *std::ranges::min_element(busy_s) += batch_s + tile_records_s;
     }
     const double pilot_tiles =
         std::ceil(static_cast<double>(kInterpolationPilots) / static_cast<double>(tiles.lanes()));
@@ -230,20 +224,20 @@ LivesForecast forecast_lives(const LifeTiles& tiles, int threads, double setup_s
     all.gearbox_s = integrating_s / static_cast<double>(std::max<std::size_t>(1, plan.rows()));
     all.record_s = records_s / std::max(1.0, record_count);
     all.integration_s = std::ranges::max(busy_s);
-    all.file_bytes = file_bytes(study);
+    all.file_bytes = file_bytes(tiles);
     all.memory_bytes = peak_memory_bytes() + all.threads * tile_bytes(tiles) + all.file_bytes;
     return all;
 }
 
 void print_lives_forecast(const Scene& scene, double setup_s) {
     constexpr double kMostPilots_s = 5.0;
-    const Life& life = scene.study().life;
-    const RecordDistributions distributions(scene.study());
+    const LifePlan& plan = scene.life();
     // Torques and speeds that pilots examine.
     const auto interpolated = [](const RecordDistribution& one) {
         return one.varies() && one.distinct_factors().empty() ? 1 : 0;
     };
-    const int axes = interpolated(distributions.torque) + interpolated(distributions.speed);
+    const int axes =
+        interpolated(plan.distributions.torque) + interpolated(plan.distributions.speed);
     const int threads = thread_count(scene.study());
     // One load and five more for each quantity that varies are integrated at least.
     const int least_loads = axes == 0 ? 0 : 1 + 5 * axes;
@@ -251,17 +245,16 @@ void print_lives_forecast(const Scene& scene, double setup_s) {
     std::string loads, most;
     if (axes > 0 && all.pilots_s <= kMostPilots_s) {
         const InterpolationChoice choice = choose_interpolation(scene);
-        const Scene chosen = scene.with(choice.life);
-        const LifeTiles tiles(chosen);
+        const LifeTiles tiles(scene, choice.plan);
         all = forecast_lives(tiles, threads, setup_s, choice.loads);
         loads = fmt::format("{}; pilots are off by {:.2g} of what a crack of {:g} mm changes",
-                            tiles.load_count(), choice.error, 1e3 * smallest_depth_m(life));
-    } else if (const Life largest = most_loads(scene.study()); axes > 0 && largest == life) {
+                            tiles.load_count(), choice.error, 1e3 * plan.campaign.smallest_m);
+    } else if (const LifePlan most_loads = with_most_loads(plan);
+               axes > 0 && most_loads.torques == plan.torques && most_loads.speeds == plan.speeds) {
         loads = fmt::format("{}; pilots measure the error when the run starts",
                             LifeTiles(scene).load_count());
     } else if (axes > 0) {
-        const Scene chosen = scene.with(largest);
-        const LifeTiles tiles(chosen);
+        const LifeTiles tiles(scene, most_loads);
         const LivesForecast upper =
             forecast_lives(tiles, threads, setup_s, static_cast<int>(kMostLoads));
         loads = fmt::format("at least {}, at most {}: chosen when the run starts",

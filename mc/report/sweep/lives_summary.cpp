@@ -41,12 +41,11 @@ const MonitoredFeature* best_at(const LivesPoint& point) {
 LivesPoint summarise_life_point(const SweepPoint& point, const std::string& results) {
     const Results frame = read_frame(results);
     const FileRows rows(results, frame);
-    check_lives(results, frame, rows);
     LivesPoint summary;
+    summary.plan = check_lives(results, frame, rows);
     summary.point = point;
     summary.results = results;
-    summary.study = read_study_text(frame.provenance_value("study"), results).study.value();
-    const Campaign campaign = campaign_of(summary.study, frame, rows);
+    const Campaign campaign = campaign_of(summary.plan, frame, rows);
     summary.cracked = campaign.cracked.size();
     for (const GearboxLife& life : campaign.cracked) {
         summary.tooth_failed.push_back(life.status != Status::ok ? -1
@@ -56,10 +55,10 @@ LivesPoint summarise_life_point(const SweepPoint& point, const std::string& resu
     summary.failed = campaign.failed;
     summary.record = campaign.record;
     summary.interpolation = campaign.interpolation;
-    const LifeMonitor monitor(summary.study, campaign);
+    const LifeMonitor monitor(summary.plan, campaign);
     summary.monitored = monitor.results();
     summary.ranking = monitor.ranking();
-    if (const std::string withheld = why_withheld(summary.study, campaign); !withheld.empty()) {
+    if (const std::string withheld = why_withheld(summary.plan, campaign); !withheld.empty()) {
         summary.ranking.clear();
         for (MonitoredFeature& one : summary.monitored) {
             one.unranked = withheld;
@@ -76,7 +75,7 @@ std::optional<LivesScore> score_of(const std::vector<LivesPoint>& points,
     double net = 0.0, deep_90 = 0.0, deep_50 = 0.0;
     bool ranked = false;
     for (const LivesPoint& point : points) {
-        const double last = *point.study.life.last_depth_m;
+        const double last = point.plan.last_m;
         const MonitoredFeature* here = find_life_result(point, one);
         const bool counts = here != nullptr && here->unranked.empty();
         ranked = ranked || counts;
@@ -125,18 +124,18 @@ std::vector<int> life_outcomes(const LivesPoint& point, const MonitoredFeature& 
 // pooled test for other gearboxes.
 double p_of_equal_shares(const LivesPoint& a, const MonitoredFeature& at_a, const LivesPoint& b,
                          const MonitoredFeature& at_b) {
-    if (a.study.ensemble.seed != b.study.ensemble.seed) {
+    if (a.plan.seed != b.plan.seed) {
         return analysis::pooled_p_value(at_a.performance.found, at_a.performance.ended,
                                         at_b.performance.found, at_b.performance.ended);
     }
-    const std::vector<int> one = life_outcomes(a, at_a), two = life_outcomes(b, at_b);
+    const std::vector<int> first = life_outcomes(a, at_a), second = life_outcomes(b, at_b);
     analysis::PairedCounts counts;
-    for (std::size_t i = 0; i < std::min(one.size(), two.size()); ++i) {
-        if (one[i] >= 0 && two[i] >= 0) {
+    for (std::size_t i = 0; i < std::min(first.size(), second.size()); ++i) {
+        if (first[i] >= 0 && second[i] >= 0) {
             long analysis::PairedCounts::*const which[] = {
                 &analysis::PairedCounts::neither, &analysis::PairedCounts::only_b,
                 &analysis::PairedCounts::only_a, &analysis::PairedCounts::both};
-            ++(counts.*which[2 * one[i] + two[i]]);
+            ++(counts.*which[2 * first[i] + second[i]]);
         }
     }
     return analysis::mcnemar_p_value(counts);
@@ -213,7 +212,7 @@ std::string lives_differences_text(const LivesSweep& sweep) {
     }
     const auto best = std::ranges::max_element(known, {}, &KnownShare::share);
     const double pairs = 0.5 * static_cast<double>(known.size() * (known.size() - 1));
-    const double confidence = best->point->study.detection.confidence;
+    const double confidence = best->point->plan.confidence;
     std::size_t smaller = 0;
     std::vector<std::string> within;
     for (auto one = known.begin(); one != known.end(); ++one) {
@@ -240,7 +239,7 @@ std::string lives_differences_text(const LivesSweep& sweep) {
 std::vector<std::string> lives_row(const LivesPoint& point, const MonitoredFeature& one) {
     const MonitoredFeature* here = find_life_result(point, one);
     return life_result_cells(here == nullptr ? analysis::MonitorPerformance{} : here->performance,
-                             point.study);
+                             point.plan);
 }
 
 analysis::Table lives_table(const LivesSweep& sweep, const std::string& key,
@@ -257,7 +256,7 @@ void append(std::vector<std::string>& row, std::vector<std::string> cells) {
 
 analysis::Table best_table(const LivesSweep& sweep) {
     analysis::Table table = lives_table(sweep, "points", "By " + best_text(sweep), {});
-    append(table.columns, life_result_columns(sweep.points.front().study));
+    append(table.columns, life_result_columns(sweep.points.front().plan));
     append(table.columns, {"best at this point", "lives", "failed"});
     for (const LivesPoint& point : sweep.points) {
         std::vector<std::string> row = point.point.labels;
@@ -272,7 +271,7 @@ analysis::Table best_table(const LivesSweep& sweep) {
 analysis::Table all_features_table(const LivesSweep& sweep) {
     analysis::Table table = lives_table(sweep, "features", "Features, each with its best detector",
                                         {"feature", "detector"});
-    append(table.columns, life_result_columns(sweep.points.front().study));
+    append(table.columns, life_result_columns(sweep.points.front().plan));
     table.detail = true;
     for (const LivesPoint& point : sweep.points) {
         for (const MonitoredFeature& one : sweep.order) {
@@ -349,9 +348,9 @@ nlohmann::json lives_sweep_json(const LivesSweep& sweep) {
                  {"values", Json::object()},
                  {"lives", point.cracked},
                  {"failed", point.failed},
-                 {"confidence", point.study.detection.confidence},
-                 {"false_alarms_per_1000_h", point.study.monitoring.false_alarms_per_1000_h},
-                 {"last_depth_m", *point.study.life.last_depth_m},
+                 {"confidence", point.plan.confidence},
+                 {"false_alarms_per_1000_h", point.plan.false_alarms_per_1000_h},
+                 {"last_depth_m", point.plan.last_m},
                  {"record", printable(point.record)},
                  {"interpolation",
                   {{"first", analysis::number(off.first)},

@@ -12,7 +12,7 @@
 namespace gearpod::mc {
 
 struct LivesPoint : PointResults {
-    Study study;
+    CampaignPlan plan;
     std::size_t cracked = 0;
     // One entry for each gearbox with a crack: 1 if the tooth fails within the records, 0 if not,
     // -1 if its features have no values.

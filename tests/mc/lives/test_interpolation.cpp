@@ -45,7 +45,7 @@ TEST_CASE("Leja nodes are nested, and the fourth lies where x (1 - x^2) is large
 
 TEST_CASE("A polynomial axis reproduces polynomials and continues them as a line") {
     const mc::RecordDistribution law(life_study(), mc::RecordQuantity::speed, 0.02);
-    const mc::LoadAxis axis(law, 2, 5);
+    const mc::LoadAxis axis(law, {2, 5});
     REQUIRE(axis.factors().size() == 5);
     CHECK(axis.factors().front() == Approx(std::exp(-0.05)));
     CHECK(axis.factors().back() == Approx(std::exp(0.05)));
@@ -63,7 +63,7 @@ TEST_CASE("A polynomial axis reproduces polynomials and continues them as a line
     const auto resonance = [](double x) { return 1.0 / std::hypot(1.0 - x * x, 2.0 * 0.03 * x); };
     double last = 1e9;
     for (const int nodes : {5, 9, 13, 17}) {
-        const mc::LoadAxis finer(law, 2, nodes);
+        const mc::LoadAxis finer(law, {2, nodes});
         double worst = 0.0;
         for (const double check : finer.checks()) {
             worst = std::fmax(worst,
@@ -79,8 +79,8 @@ TEST_CASE("Numbers of torques and speeds are raised until the tolerance is kept"
     const auto choice = mc::choose_interpolation(scene);
     CHECK(choice.error <= 0.5);
     // A gearbox that keeps contact is linear in its torque.
-    CHECK_FALSE(choice.life.polynomial_torques);
-    REQUIRE(choice.life.polynomial_speeds);
+    CHECK_FALSE(choice.plan.torques.nodes);
+    REQUIRE(choice.plan.speeds.nodes);
     // Where no number keeps the tolerance, that of the least error is taken.
     const auto least =
         mc::choose_interpolation(mc::Scene(varying({"life.interpolation_tolerance=0.001"})));
@@ -90,13 +90,14 @@ TEST_CASE("Numbers of torques and speeds are raised until the tolerance is kept"
     // Numbers that are given stay.
     const auto given = mc::choose_interpolation(
         mc::Scene(varying({"life.linear_torques=2", "life.linear_speeds=3"})));
-    CHECK(given.life == varying({"life.linear_torques=2", "life.linear_speeds=3"}).life);
+    CHECK(given.plan.torques == mc::LoadNumber{2, std::nullopt, true});
+    CHECK(given.plan.speeds == mc::LoadNumber{3, std::nullopt, true});
     CHECK(given.error > 0.1);
     CHECK(mc::choose_interpolation(mc::Scene(life_study())).error == 0.0);
     // Without the key, a tenth of the crack's change is accepted.
     const auto by_default = mc::choose_interpolation(
         mc::Scene(life_study({"life.speed_scatter=0.005", "ensemble.instances=8"})));
-    CHECK(by_default.life.polynomial_speeds > 2);
+    CHECK(by_default.plan.speeds.nodes > 2);
     CHECK(by_default.error <= 0.1);
 }
 
@@ -126,7 +127,7 @@ TEST_CASE(
         CHECK(std::ranges::find(factors, factor) != factors.end());
         CHECK(count == Approx(10000).margin(450));  // 5 standard deviations
     }
-    const mc::LoadAxis axis(law, 2, std::nullopt);
+    const mc::LoadAxis axis(law, {});
     CHECK(axis.factors() == factors);
     for (std::size_t i = 0; i < factors.size(); ++i) {
         std::vector<double> one(factors.size(), 0.0);
@@ -167,8 +168,8 @@ TEST_CASE("Records at random loads are off by no more than stated in 95 % of 200
     };
     CHECK(error_of({"numerics.lanes=1"}) == error_of({}));
     const mc::RecordDistributions laws(study);
-    const mc::LoadAxis torques(laws.torque, 2, choice.life.polynomial_torques),
-        speeds(laws.speed, 2, choice.life.polynomial_speeds);
+    const mc::LoadAxis torques(laws.torque, choice.plan.torques),
+        speeds(laws.speed, choice.plan.speeds);
     const mc::LifeTiles tiles(scene);
     std::mt19937_64 engine(46);
     std::normal_distribution<double> normal;

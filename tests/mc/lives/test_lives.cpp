@@ -57,7 +57,7 @@ TEST_CASE("A record equals its gearbox integrated at that depth and torque") {
 
 TEST_CASE("A tooth breaks at the time given by Paris' integral") {
     const mc::Scene scene(life_study({"life.records=400"}));
-    const mc::CrackLife crack(scene);
+    const mc::CrackLife crack(scene.life());
     const mc::Realization gearbox = scene.sampler().draw({mc::Group::graded, 0});
     const mc::InstanceInputs& inputs = gearbox.inputs;
     // Carrier speed 8.87 rpm, 81 ring teeth, 31 planet teeth.
@@ -87,7 +87,7 @@ TEST_CASE("A tooth breaks at the time given by Paris' integral") {
     const double toughness = 1e-6 * force * crack.range_per_force(2e-3);
     const mc::Scene brittle_scene(life_study(
         {"life.records=400", "life.fracture_toughness_MPa_m05=" + std::to_string(toughness)}));
-    const auto brittle = mc::CrackLife(brittle_scene).history(gearbox, true);
+    const auto brittle = mc::CrackLife(brittle_scene.life()).history(gearbox, true);
     REQUIRE(brittle.end_hours);
     CHECK(*brittle.end_hours < *history.end_hours);
     CHECK(brittle.records.back().depth_m < 2e-3);
@@ -119,7 +119,7 @@ TEST_CASE("A life of one record with a population threshold equals the snapshot 
     }
     const mc::Scene scene(shipped_study("planet-crack-ideal.toml", one));
     const auto campaign = mc::run_campaign(scene);
-    const mc::LifeMonitor monitor(scene.study(), campaign);
+    const mc::LifeMonitor monitor(scene.life().campaign, campaign);
     const auto& monitored = monitor.results();
     for (std::size_t f = 0; f < 4; ++f) {
         INFO(monitored[f].feature);

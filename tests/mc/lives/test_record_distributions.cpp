@@ -7,7 +7,7 @@
 #include <cmath>
 
 #include "mc/lives/life_tile.hpp"
-#include "mc/lives/record_distributions.hpp"
+#include "mc/lives/load_axis.hpp"
 #include "tests/mc/lives/life_example.hpp"
 #include "tests/mc/program.hpp"
 
@@ -25,9 +25,7 @@ TEST_CASE("A lognormal law per record is equivalent to the scatter key") {
     const mc::GearboxId id{mc::Group::graded, 2};
     const auto history = [&](const std::string& more) {
         const mc::Scene scene(life_study({more}));
-        const mc::CrackLife crack(scene);
-        const mc::Sampler sampler(mc::study_of_gearboxes(scene.study()));
-        return crack.history(sampler.draw(id), true);
+        return mc::CrackLife(scene.life()).history(scene.life().sampler->draw(id), true);
     };
     // For a standard deviation of 0.1 of the logarithm, cv^2 = exp(0.01) - 1.
     const std::string cv = fmt::format("{:.17g}", std::sqrt(std::expm1(0.01)));
@@ -44,8 +42,8 @@ TEST_CASE("A lognormal law per record is equivalent to the scatter key") {
 TEST_CASE("Records follow the law given by [random], not centred on a value of the gearbox") {
     const mc::Study study = life_study({kTorque, "life.records=4000"});
     const mc::Scene scene(study);
-    const mc::CrackLife crack(scene);
-    const mc::Sampler sampler(mc::study_of_gearboxes(study));
+    const mc::CrackLife crack(scene.life());
+    const mc::Sampler& sampler = *scene.life().sampler;
     for (const std::uint64_t index : {0, 1}) {
         const mc::Realization gearbox = sampler.draw({mc::Group::threshold, index});
         const mc::InstanceInputs& inputs = gearbox.inputs;

@@ -40,7 +40,7 @@ TEST_CASE("A recording of all turns, or of twice as many, equals the whole span"
             CHECK(life.values[f][0] == Approx(whole.values[f][0]).epsilon(1e-9));
         }
     }
-    CHECK(mc::record_text(plain).find("each of the 31 teeth with all 81 mating teeth") !=
+    CHECK(plain.life().record.find("each of the 31 teeth with all 81 mating teeth") !=
           std::string::npos);
 }
 
@@ -63,14 +63,14 @@ TEST_CASE("Short recordings cover a part of the turns, and many of them all") {
     CHECK(few > 1e-4);
     CHECK(some < 0.6 * few);  // a quarter, within the scatter of 20 records
     const mc::Scene scene(quiet_study({"life.records=8", "life.record_turns=4"}));
-    CHECK(mc::record_text(scene).find("10 turns of 31 mesh periods") == 0);
-    CHECK(mc::record_text(scene).find("each of the 31 teeth with 10 of its 81 mating teeth") !=
+    CHECK(scene.life().record.find("10 turns of 31 mesh periods") == 0);
+    CHECK(scene.life().record.find("each of the 31 teeth with 10 of its 81 mating teeth") !=
           std::string::npos);
     // Same duration in seconds, at 8.87 rpm.
     const double seconds = 4.0 * 60.0 / 8.87 + 1e-6;
     const mc::Scene timed(
         quiet_study({"life.records=8", "life.record_s=" + std::to_string(seconds)}));
-    CHECK(mc::record_text(timed) == mc::record_text(scene));
+    CHECK(timed.life().record == scene.life().record);
 }
 
 TEST_CASE("Noise of a record decreases with the root of its duration") {
@@ -160,7 +160,7 @@ TEST_CASE("A crack follows the given curve at its gearbox's rate") {
     all.insert(all.end(), curve.begin(), curve.end());
     const mc::Scene scene(shipped_study("planet-crack-ideal.toml", all));
     const mc::Realization gearbox = scene.sampler().draw({mc::Group::graded, 0});
-    const auto history = mc::CrackLife(scene).history(gearbox, true);
+    const auto history = mc::CrackLife(scene.life()).history(gearbox, true);
     // Twice the rate: 25 h to 2 mm, 50 h to 4 mm, after six records of 5 h each.
     REQUIRE(history.end_hours);
     CHECK(*history.end_hours == Approx(30.0 + 50.0));

@@ -1,0 +1,180 @@
+// Lives of gearboxes that are measured repeatedly while a crack grows: their records, the loads at
+// which they are integrated, the crack growth and the monitoring.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "analysis/detection/detection.hpp"
+#include "mc/plan/feature_needs.hpp"
+#include "mc/plan/gearbox_plan.hpp"
+#include "mc/plan/sampling.hpp"
+#include "mc/plan/scene_error.hpp"
+#include "mc/study/study.hpp"
+#include "stiffness/teeth/fracture_mechanics.hpp"
+
+namespace gearpod::mc {
+
+// Distribution of the torque, speed, gain or noise of records, as a factor on the value of the
+// gearbox. It is given by a scatter key of [life] (a lognormal distribution) or in [random] with
+// per = "record". In both cases, a record has one standard normal number per quantity, which the
+// distribution converts to a factor.
+class RecordDistribution {
+  public:
+    // `scatter`: rms of the factor's logarithm, used if [random] has no distribution of the
+    // quantity. `distinct`: number of equally frequent factors, each that of the mean normal number
+    // of its part; the spread of these numbers is restored to 1.
+    RecordDistribution(const Study& study, RecordQuantity quantity, double scatter,
+                       std::optional<int> distinct = {});
+
+    bool varies() const { return input_.has_value() || scatter_ > 0.0; }
+    // True if the distribution is given in [random].
+    bool given() const { return input_.has_value(); }
+    // Factor for a standard normal number; monotonically increasing.
+    double factor(double unit) const;
+    // Root mean square of the factor (numerically, or an upper approximation for lognormal
+    // factors).
+    double rms() const;
+    // Ascending factors at which a gearbox is integrated, between which records are interpolated.
+    // They belong to `count` (two or more) evenly spaced normal numbers from -1.5 to 1.5; {1} if
+    // the quantity is constant.
+    std::vector<double> integrated_factors(int count) const;
+    // All factors that occur, ascending; empty if they are not limited to a number.
+    std::vector<double> distinct_factors() const;
+    // Factors halfway (in the normal number) between neighbouring ones of these.
+    std::vector<double> factors_between(int count) const;
+    // For example "scatters by 2 % (rms) about the gearbox's" or "lognormal, ...".
+    std::string text() const;
+
+  private:
+    double factor_of(double unit) const;
+
+    double scatter_;
+    std::vector<double> distinct_;  // normal numbers
+    std::optional<RandomInput> input_;
+    double nominal_ = 1.0;  // in the unit of the distribution
+};
+
+struct RecordDistributions {
+    explicit RecordDistributions(const Study& study);
+
+    RecordDistribution torque, speed, gain, noise;
+    bool sensor_noise_only;  // false if it applies to the encoders as well
+};
+
+// Number of torques or speeds at which a gearbox is integrated. Signals of other records are
+// interpolated between them.
+struct LoadNumber {
+    int evenly_spaced = 2;     // quantiles, with linear interpolation between them
+    std::optional<int> nodes;  // of one polynomial instead
+    bool given = false;        // in the study; otherwise it is chosen (choose_interpolation)
+
+    bool operator==(const LoadNumber&) const = default;
+};
+
+// Length of a record in planet turns.
+struct RecordSpan {
+    int turns = 0;  // whole planet turns in each recording
+    // planet turns after which every tooth of a planet has met every ring tooth once
+    int all_turns = 0;
+    int recordings = 1;  // number of recordings averaged in a record
+
+    // True if every recording consists of complete spans.
+    bool whole() const { return turns % all_turns == 0; }
+};
+
+// What a results file of lives contains and how it is monitored.
+struct CampaignPlan {
+    std::string title;        // of the study
+    std::string assumptions;  // see assumptions()
+    std::vector<std::string> features;
+    std::vector<analysis::Alarm> alarms;  // by feature
+    std::uint64_t seed = 0;
+    std::size_t noise_weights = 0;  // number of columns for the weight of a record's noise: 0 or 1
+    // Healthy lives that set the thresholds, others that count false alarms, and lives with a
+    // crack.
+    long threshold_lives = 0, counting_lives = 0, cracked_lives = 0;
+    int records = 0, baseline_records = 0;
+    double interval_h = 0.0;  // between records
+    // Depth of the crack when it begins to grow, smallest one of interest, and depth at which a
+    // life ends.
+    double begin_m = 0.0, smallest_m = 0.0, last_m = 0.0;
+    // Number of depth steps from 0 to the last depth, and the one in which the crack begins to
+    // grow.
+    int depth_steps = 1, first_step = 0;
+    bool torque_regression = false;
+    std::vector<std::string> detectors;
+    double false_alarms_per_1000_h = 0.0;
+    double confidence = 0.0;
+
+    // Depth at the end of that number of steps, and at the middle of a step. The errors of
+    // interpolation between depths are measured at the middle of the first and the last step.
+    double depth_m(int steps) const { return last_m * steps / depth_steps; }
+    double middle_m(int step) const { return last_m * (step + 0.5) / depth_steps; }
+};
+// Precondition: the study has lives.
+CampaignPlan make_campaign_plan(const Study& study);
+
+// Growth of the crack: by Paris' law from a first depth, or along a curve of hours since the crack
+// started and its depth then.
+struct ParisStart {
+    double first_m;
+};
+struct DepthCurve {
+    std::vector<double> hours, depth_m;
+};
+
+// Tooth whose root cracks.
+struct CrackedTooth {
+    gears::MeshGeometry geometry;  // of a mesh with the tooth
+    int gear;                      // 1 or 2 of the mesh
+    stiffness::Profile profile;
+    double angle_rad, face_width_m;
+    stiffness::CrackLaw law;
+    int teeth;     // of the gear
+    int meetings;  // of the tooth with its mates in as many mesh periods as the gear has teeth
+};
+
+struct LifePlan {
+    CampaignPlan campaign;
+    // Records.
+    RecordDistributions distributions;
+    LoadNumber torques, speeds;
+    // Largest error of signals between them, relative to the change made by the smallest crack of
+    // interest.
+    double interpolation_tolerance;
+    double noise_level;
+    RecordLength length;  // if it is not the span
+    int recordings;       // averaged in a record
+    std::string record;   // its length and the tooth pairs in it, "26 turns of ..."
+    // Gearboxes.
+    std::shared_ptr<const Sampler> sampler;  // inputs that vary by record are nominal
+    std::shared_ptr<const Drivetrain> drivetrain;
+    // Crack.
+    CrackedTooth tooth;
+    std::variant<ParisStart, DepthCurve> growth;
+    std::optional<double> fracture_toughness_Pa_m05;
+
+    // Length of a record at this speed. Throws SceneError if recordings are too short.
+    RecordSpan record_span(double speed_rad_s) const;
+};
+
+// Precondition: life_problems() is empty.
+LifePlan make_life_plan(const Study& study, const GearboxPlan& gearbox);
+
+// All reasons why the study has no lives whose records can be superposed; empty if it has.
+std::vector<SceneError> life_problems(const Study& study, const FeaturePlan& features,
+                                      const GearboxPlan& gearbox);
+
+// Keys given in the study that have no effect on lives, because they concern single records.
+std::vector<std::string> keys_without_effect_on_lives(const Study& study);
+// Study of the gearboxes: inputs that vary by record keep their nominal values.
+Study study_of_gearboxes(const Study& study);
+// The study with these numbers of torques and speeds.
+Study with_loads(Study study, const LoadNumber& torques, const LoadNumber& speeds);
+
+}  // namespace gearpod::mc
