@@ -16,7 +16,6 @@
 #include "mc/plan/stage_plan.hpp"
 #include "mc/report/page.hpp"
 #include "mc/study/gears.hpp"
-#include "mc/study/other_sources.hpp"
 
 namespace gearpod::mc {
 namespace {
@@ -39,15 +38,16 @@ double rpm(double rad_s) {
 }
 
 struct Modes {
+    std::string_view speed_member;  // whose speed the study gives
     std::vector<double> frequencies_Hz;
     std::vector<SpeedFrequencies> speeds;
     std::vector<CriticalSpeed> critical;
     std::vector<double> train_Hz;  // with coupled stages; empty without
 };
 
-nlohmann::json json_of(const Study& study, const Modes& modes) {
+nlohmann::json json_of(const std::string& title, const Modes& modes) {
     nlohmann::json json{{"kind", "modes"},
-                        {"title", study.title},
+                        {"title", title},
                         {"frequencies_Hz", modes.frequencies_Hz},
                         {"train_frequencies_Hz", nullptr},
                         {"campbell", nullptr}};
@@ -57,21 +57,21 @@ nlohmann::json json_of(const Study& study, const Modes& modes) {
     if (modes.speeds.empty()) {
         return json;
     }
-    nlohmann::json campbell{{"member", member_name(speed_member(study))},
+    nlohmann::json campbell{{"member", modes.speed_member},
                             {"nominal_rpm", rpm(modes.speeds.back().speed_rad_s) / kHighestSpeed},
                             {"harmonics", kHarmonics},
                             {"speeds", nlohmann::json::array()},
                             {"critical_speeds", nlohmann::json::array()}};
-    for (const SpeedFrequencies& at : modes.speeds) {
-        campbell["speeds"].push_back({{"rpm", rpm(at.speed_rad_s)},
-                                      {"mesh_Hz", at.mesh_Hz},
-                                      {"frequencies_Hz", at.frequencies_Hz}});
+    for (const SpeedFrequencies& speed : modes.speeds) {
+        campbell["speeds"].push_back({{"rpm", rpm(speed.speed_rad_s)},
+                                      {"mesh_Hz", speed.mesh_Hz},
+                                      {"frequencies_Hz", speed.frequencies_Hz}});
     }
-    for (const CriticalSpeed& one : modes.critical) {
-        campbell["critical_speeds"].push_back({{"rpm", rpm(one.speed_rad_s)},
-                                               {"harmonic", one.harmonic},
-                                               {"frequency_Hz", one.frequency_Hz},
-                                               {"modes", one.modes}});
+    for (const CriticalSpeed& critical : modes.critical) {
+        campbell["critical_speeds"].push_back({{"rpm", rpm(critical.speed_rad_s)},
+                                               {"harmonic", critical.harmonic},
+                                               {"frequency_Hz", critical.frequency_Hz},
+                                               {"modes", critical.modes}});
     }
     json["campbell"] = std::move(campbell);
     return json;
@@ -92,7 +92,7 @@ void print_frequencies(const std::string& of, const std::vector<double>& frequen
     }
 }
 
-void print_critical_speeds(const Study& study, const Modes& modes) {
+void print_critical_speeds(const Modes& modes) {
     if (modes.speeds.empty()) {
         return;
     }
@@ -100,15 +100,16 @@ void print_critical_speeds(const Study& study, const Modes& modes) {
     fmt::print(
         "\nspeeds of the {} at which mesh harmonics 1 to {} meet a natural frequency,\n"
         "up to {:g} times the nominal {:.5g} rpm{}\n",
-        member_name(speed_member(study)), kHarmonics, kHighestSpeed, nominal_rpm,
+        modes.speed_member, kHarmonics, kHighestSpeed, nominal_rpm,
         modes.critical.empty() ? ": none" : "");
     if (!modes.critical.empty()) {
         fmt::print("{:>12}  {:>10}  {:>8}  {:>10}  {}\n", "rpm", "of nominal", "harmonic", "Hz",
                    "multiplicity");
     }
-    for (const CriticalSpeed& one : modes.critical) {
-        fmt::print("{:>12.5g}  {:>10.3f}  {:>8}  {:>10.1f}  {}\n", rpm(one.speed_rad_s),
-                   rpm(one.speed_rad_s) / nominal_rpm, one.harmonic, one.frequency_Hz, one.modes);
+    for (const CriticalSpeed& critical : modes.critical) {
+        fmt::print("{:>12.5g}  {:>10.3f}  {:>8}  {:>10.1f}  {}\n", rpm(critical.speed_rad_s),
+                   rpm(critical.speed_rad_s) / nominal_rpm, critical.harmonic,
+                   critical.frequency_Hz, critical.modes);
     }
 }
 
@@ -121,9 +122,11 @@ int modes_command(const ModesOptions& options) {
     }
     Modes modes;
     try {
-        modes.frequencies_Hz = natural_frequencies_Hz(*study);
-        modes.speeds = frequencies_over_speed(*study, kHighestSpeed, kSpeeds);
-        if (is_coupled(*study)) {
+        const ModalPlan plan = make_modal_plan(*study);
+        modes.speed_member = member_name(plan.speed_member);
+        modes.frequencies_Hz = natural_frequencies_Hz(plan);
+        modes.speeds = frequencies_over_speed(plan, kHighestSpeed, kSpeeds);
+        if (plan.coupled) {
             modes.train_Hz = train_frequencies_Hz(Scene(resolve_numerics(*study).study).gearbox());
         }
     } catch (const SceneError& error) {
@@ -131,7 +134,7 @@ int modes_command(const ModesOptions& options) {
         return kBadInput;
     }
     modes.critical = critical_speeds(modes.speeds, kHarmonics);
-    const nlohmann::json json = json_of(*study, modes);
+    const nlohmann::json json = json_of(study->title, modes);
     if (!options.html.empty() || !options.figures.empty()) {
         write_report_page(json.dump(), options.html, options.figures);
     }
@@ -143,12 +146,12 @@ int modes_command(const ModesOptions& options) {
             return kDone;
         }
     }
-    print_frequencies(is_coupled(*study) ? " of the gearbox alone" : "", modes.frequencies_Hz);
+    print_frequencies(modes.train_Hz.empty() ? "" : " of the gearbox alone", modes.frequencies_Hz);
     if (!modes.train_Hz.empty()) {
         fmt::print("\n");
         print_frequencies(" of the train with its elastic shafts", modes.train_Hz);
     }
-    print_critical_speeds(*study, modes);
+    print_critical_speeds(modes);
     if (!options.html.empty()) {
         fmt::print("\npage: {}\n", options.html);
     }

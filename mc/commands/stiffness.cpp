@@ -7,10 +7,8 @@
 #include "mc/commands/options/options.hpp"
 #include "mc/library/run/command_files.hpp"
 #include "mc/library/stiffness_modes.hpp"
-#include "mc/plan/scene.hpp"
 #include "mc/report/description/describe_gearbox.hpp"
 #include "mc/study/gears.hpp"
-#include "mc/study/schema/sizes.hpp"
 
 namespace gearpod::mc {
 namespace {
@@ -37,8 +35,8 @@ std::string csv_text(const std::vector<SignalColumn>& columns) {
     return text + "\n";
 }
 
-void print_te(const Scene& scene) {
-    for (const SceneMesh& mesh : scene.meshes()) {
+void print_te(const GearboxPlan& gearbox) {
+    for (const SceneMesh& mesh : gearbox.stiffness->meshes()) {
         const stiffness::LoadedMesh::Range te = mesh.loaded->range();
         fmt::print(
             "{:<11}: {:.6g} N, transmission error {:.4f} um mean,\n"
@@ -49,8 +47,8 @@ void print_te(const Scene& scene) {
     fmt::print("curves: --csv FILE, or --csv - for standard output\n");
 }
 
-void print_summary(const Scene& scene) {
-    for (const SceneMesh& mesh : scene.meshes()) {
+void print_summary(const GearboxPlan& gearbox) {
+    for (const SceneMesh& mesh : gearbox.stiffness->meshes()) {
         fmt::print(
             "{:<11}: contact ratio {},\n"
             "{:<11}  mean stiffness {:.4e} N/m,\n"
@@ -58,18 +56,18 @@ void print_summary(const Scene& scene) {
             mesh_name(mesh.members), contact_ratio_text(*mesh.stiffness), "",
             mean_total(*mesh.stiffness), "", mesh.stiffness->pitch_position());
     }
-    const std::vector<int> pairs = faulty_pairs(scene.fault());
+    const std::vector<int> pairs = faulty_pairs(gearbox.fault());
     if (!pairs.empty()) {
-        const Unit& unit = fault_size_key(scene.study()).unit;
+        const Key& size = gearbox.fault().size_key();
         std::string names;
         for (const int pair : pairs) {
             names += fmt::format("{}{} ({})", names.empty() ? "" : " and of ",
-                                 scene.drivetrain().pair_members(pair),
-                                 scene.drivetrain().pair_name(pair));
+                                 gearbox.drivetrain->pair_members(pair),
+                                 gearbox.drivetrain->pair_name(pair));
         }
         fmt::print("faulty tooth in the mesh of {}; largest possible {} {:.3f}{}\n", names,
-                   fault_size_key(scene.study()).stem(), scene.fault().largest_size() / unit.to_si,
-                   unit.suffix.empty() ? "" : " " + std::string(unit.name));
+                   size.stem(), gearbox.fault().largest_size() / size.unit.to_si,
+                   size.unit.suffix.empty() ? "" : " " + std::string(size.unit.name));
     }
     fmt::print("curves: --csv FILE, or --csv - for standard output\n");
 }
@@ -82,13 +80,14 @@ int stiffness_command(const StiffnessOptions& options) {
     if (!scene || !writable) {
         return kBadInput;
     }
+    const GearboxPlan& gearbox = scene->gearbox();
     if (options.csv.empty()) {
-        options.te ? print_te(*scene) : print_summary(*scene);
+        options.te ? print_te(gearbox) : print_summary(gearbox);
         return kDone;
     }
     const std::vector<SignalColumn> columns =
-        options.te ? transmission_error_columns(*scene, options.points)
-                   : stiffness_columns(*scene, options.points);
+        options.te ? transmission_error_columns(gearbox, options.points)
+                   : stiffness_columns(gearbox, options.points);
     return write_text_to(options.csv, csv_text(columns)) ? kDone : kBadInput;
 }
 

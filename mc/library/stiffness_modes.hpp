@@ -1,37 +1,36 @@
-// Curves of the gear pairs of a study over one mesh period, as columns of a table.
+// Curves of the gear pairs of a study over one mesh period, as columns of a table, and the natural
+// frequencies of its gearbox.
 #pragma once
 
 #include <vector>
 
 #include "mc/files/signal_file.hpp"
-#include "mc/plan/scene.hpp"
-#include "mc/study/study.hpp"
+#include "mc/plan/gearbox_plan.hpp"
+#include "mc/plan/modal_plan.hpp"
 
 namespace gearpod::mc {
 
 // The mesh phase at `points` evenly spaced values (mesh periods) and the mesh stiffness (N/m): a
 // column for each gear pair without a fault, and one for each faulty pair, fault size of the study
 // and mesh period of the faulty tooth's engagement, for example sp1_crack_3mm_period2.
-std::vector<SignalColumn> stiffness_columns(const Scene& scene, int points);
+std::vector<SignalColumn> stiffness_columns(const GearboxPlan& gearbox, int points);
 
 // The mesh phase and the loaded static transmission error (um) of each gear pair, without a fault.
-std::vector<SignalColumn> transmission_error_columns(const Scene& scene, int points);
-
-// Natural frequencies of the gearbox of a study.
+std::vector<SignalColumn> transmission_error_columns(const GearboxPlan& gearbox, int points);
 
 // Natural frequencies, Hz, ascending, one per degree of freedom: undamped, at rest, at the mean
-// mesh stiffness. The study may lack tooth numbers if its mesh stiffness is constant. Throws
-// SceneError (mc/plan/scene_error.hpp) if masses or inertias are missing.
-std::vector<double> natural_frequencies_Hz(const Study& study);
+// mesh stiffness.
+std::vector<double> natural_frequencies_Hz(const ModalPlan& plan);
 
-// Natural frequencies at one speed of speed_member(), in the frame that turns with the carrier.
+// Natural frequencies at one speed of ModalPlan::speed_member, in the frame that turns with the
+// carrier.
 struct SpeedFrequencies {
     double speed_rad_s = 0.0, mesh_Hz = 0.0;
     std::vector<double> frequencies_Hz;  // ascending, one per degree of freedom
 };
 // Natural frequencies from rest to `highest` times the nominal speed, at equal intervals. Empty
-// without tooth numbers. Throws like natural_frequencies_Hz().
-std::vector<SpeedFrequencies> frequencies_over_speed(const Study& study, double highest,
+// without tooth numbers.
+std::vector<SpeedFrequencies> frequencies_over_speed(const ModalPlan& plan, double highest,
                                                      int points);
 
 // Speed at which a mesh harmonic meets a natural frequency.

@@ -282,10 +282,12 @@ std::vector<int> pairs_of_member(const Fault& fault, int meshes, const lockstep:
 }  // namespace
 
 SceneFault::SceneFault(const Study& study, const std::vector<SceneMesh>& meshes,
-                       const lockstep::PairSet& pairs) {
+                       const lockstep::PairSet& pairs)
+    : size_key_(&fault_size_key(study)), sizes_(fault_sizes(study)) {
     if (study.fault.kind == nullptr) {
         return;
     }
+    kind_ = study.fault.kind->name();
     if (study.fault.kind->wears_flanks()) {
         worn_pairs_ = pairs_of_member(study.fault, static_cast<int>(meshes.size()), pairs);
         return;
@@ -311,6 +313,11 @@ std::shared_ptr<const stiffness::FaultyMesh> SceneFault::mesh(int curve, double 
     }
     const Law& law = laws_[static_cast<std::size_t>(curve)];
     return stiffness::faulty_mesh(*law.mesh, law.family->at(size));
+}
+
+std::string SceneFault::name(double size) const {
+    const Unit& unit = size_key_->unit;
+    return fmt::format("{}_{:g}{}", kind_, size / unit.to_si, unit.suffix);
 }
 
 double SceneFault::largest_size() const {

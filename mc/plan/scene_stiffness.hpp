@@ -3,6 +3,8 @@
 
 #include <memory>
 #include <optional>
+#include <string>
+#include <string_view>
 #include <vector>
 
 #include "gears/mesh_geometry.hpp"
@@ -11,6 +13,7 @@
 #include "lockstep/plan/stiffness_nodes.hpp"
 #include "mc/plan/drivetrain.hpp"
 #include "mc/study/gears.hpp"
+#include "mc/study/schema/schema.hpp"
 #include "stiffness/foundation/fillet_foundation.hpp"
 #include "stiffness/loaded_mesh.hpp"
 #include "stiffness/mesh_stiffness.hpp"
@@ -65,6 +68,11 @@ class SceneFault {
     const std::vector<int>& worn_pairs() const { return worn_pairs_; }
     // Mesh with the faulty tooth of that size; null if the size is 0 or there is no fault.
     std::shared_ptr<const stiffness::FaultyMesh> mesh(int curve, double size) const;
+    // Sizes at which curves are shown: the levels, or the edges, without 0. Ascending, SI.
+    const std::vector<double>& sizes() const { return sizes_; }
+    const Key& size_key() const { return *size_key_; }
+    // Name of the study's fault at a size: "crack_3mm", or "chip_0.1" for a pure number.
+    std::string name(double size) const;
     // Size at which the tooth transmits no load, or above which the fault model is undefined; 0 if
     // there is none.
     double largest_size() const;
@@ -76,6 +84,9 @@ class SceneFault {
         const stiffness::MeshStiffness* mesh;
         std::unique_ptr<const stiffness::ToothFaultFamily> family;
     };
+    std::string_view kind_;  // empty without a fault
+    const Key* size_key_;
+    std::vector<double> sizes_;
     std::vector<Law> laws_;
     std::vector<int> worn_pairs_;
     lockstep::FaultPattern pattern_;

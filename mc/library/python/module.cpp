@@ -123,15 +123,16 @@ py::list stiffness(mc::OpenStudy& study, int points, bool transmission_error) {
     }
     return list_of(unlocked([&] {
                        return transmission_error
-                                  ? mc::transmission_error_columns(study.scene(), points)
-                                  : mc::stiffness_columns(study.scene(), points);
+                                  ? mc::transmission_error_columns(study.scene().gearbox(), points)
+                                  : mc::stiffness_columns(study.scene().gearbox(), points);
                    }),
                    {points});
 }
 
 Doubles modes(const mc::OpenStudy& study) {
     try {
-        return array_of(unlocked([&] { return mc::natural_frequencies_Hz(study.study()); }));
+        return array_of(unlocked(
+            [&] { return mc::natural_frequencies_Hz(mc::make_modal_plan(study.study())); }));
     } catch (const mc::SceneError& error) {
         throw mc::BadInput(study.message(error));
     }

@@ -70,10 +70,10 @@ TEST_CASE("A recording in memory gives the features of its gearbox") {
 
 TEST_CASE("Stiffness columns start with the phase and have one value per point") {
     mc::OpenStudy study(kStudy);
-    const auto columns = mc::stiffness_columns(study.scene(), 4);
+    const auto columns = mc::stiffness_columns(study.scene().gearbox(), 4);
     CHECK(columns.front().values == std::vector<double>{0, 0.25, 0.5, 0.75});
     CHECK(columns.back().unit == "N/m");
-    CHECK(mc::transmission_error_columns(study.scene(), 2).size() == 9);
+    CHECK(mc::transmission_error_columns(study.scene().gearbox(), 2).size() == 9);
 }
 
 TEST_CASE("A table in memory is inspected like one of a file") {
