@@ -28,7 +28,9 @@ struct PositionRange {
 };
 
 inline PositionRange positions_within(std::span<const double> ascending, double begin, double end) {
-    EXPECTS(std::ranges::is_sorted(ascending));
+    // Nodes of neighbouring steps that coincide may differ by rounding.
+    EXPECTS(std::ranges::is_sorted(ascending,
+                                   [](double a, double b) { return a < b - kPositionTolerance; }));
     const auto low =
         std::lower_bound(ascending.begin(), ascending.end(), begin - kPositionTolerance);
     const auto high = std::upper_bound(low, ascending.end(), end + kPositionTolerance);
