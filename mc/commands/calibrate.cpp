@@ -48,9 +48,9 @@ void keep_healthy(RecordingList& list) {
 std::vector<HealthyRecord> measured_records(const CalibrateOptions& options,
                                             const RecordingList& list, const Scene& scene,
                                             Problems& problems) {
-    const auto measured =
-        measure_recordings(list, options.columns, scene, {}, {}, thread_count(scene.study()), [] {
-        }).recordings;
+    const auto measured = measure_recordings(list, options.columns, scene, {}, {},
+                                             thread_count(scene.ensemble()), [] {})
+                              .recordings;
     print_notes(list, measured);
     std::vector<HealthyRecord> records;
     for (std::size_t i = 0; i < measured.size(); ++i) {
@@ -102,7 +102,7 @@ class Command {
                                  "give --prior sensor.noise_m_s2=LOW:HIGH:log and the other "
                                  "priors"});
         }
-        return problems_.empty() ? calibrated(thread_count(scene->study())) : stop();
+        return problems_.empty() ? calibrated(thread_count(scene->ensemble())) : stop();
     }
 
   private:

@@ -24,7 +24,7 @@ bool check_study(const StudyOptions& study) {
     try {
         const StudyScene made = load_scene(study);
         if (made) {
-            warn_of_shortage(made.scene->study(), printable(study.path));
+            warn_of_shortage(made.scene->ensemble(), printable(study.path));
             fmt::print("{}: can be simulated\n", printable(study.path));
             return true;
         }

@@ -83,7 +83,7 @@ void print_false_alarms(const Study& study) {
         print_entry("in time", target);
     }
     print_entry("methods", analysis::threshold_methods_text(rate, confidence));
-    if (const std::string shortage = shortage_of(study); !shortage.empty()) {
+    if (const std::string shortage = shortage_of(EnsemblePlan(study)); !shortage.empty()) {
         print_paragraph(shortage);
         return;
     }
@@ -271,7 +271,7 @@ int describe_command(const DescribeOptions& options) {
     PeakMemory memory{.setup_bytes = peak_memory_bytes()};
     double before_bytes = std::numeric_limits<double>::infinity();  // before the forecast
     try {
-        const Deadline deadline(options.seconds * std::max(1, thread_count(*study)));
+        const Deadline deadline(options.seconds * std::max(1, thread_count(EnsemblePlan(*study))));
         const auto made = make_scene(options.study);
         if (!made) {
             print_problems(made.problems);

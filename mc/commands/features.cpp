@@ -364,7 +364,7 @@ int recordings_command(const FeaturesOptions& options) {
         comparison.given = baseline ? &*baseline : nullptr;
         const bool compared = comparison.any(list);
         const auto features = measurable(scene->study(), compared);
-        const int threads = thread_count(scene->study());
+        const int threads = thread_count(scene->ensemble());
         Progress progress(static_cast<long>(list.recordings.size()),
                           options.quiet || options.csv == "-", 0, Progress::Form::text,
                           "recordings");

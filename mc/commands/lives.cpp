@@ -106,7 +106,8 @@ int run_lives_on_leader(const LivesOptions& options, const Study& study, const L
         interruption.disable_cancellation();
         try {
             Results frame = lives_frame(study);
-            for (const auto& entry : provenance(study, ranks.size(), outcome.threads())) {
+            for (const auto& entry :
+                 provenance(EnsemblePlan(study), ranks.size(), outcome.threads())) {
                 frame.provenance.push_back(entry);
             }
             frame.provenance.emplace_back("state", "complete");
@@ -164,8 +165,8 @@ std::optional<InterpolationChoice> prepare_lives(const RunOptions& run, StudySce
 std::unique_ptr<Checkpoint> lives_checkpoint(const RunOptions& run, const Study& study) {
     try {
         return open_checkpoint(
-            study, row_shape(lives_frame(study)), lives_plan(make_campaign_plan(study)),
-            results_path(run),
+            EnsemblePlan(study), row_shape(lives_frame(study)),
+            lives_plan(make_campaign_plan(study)), results_path(run),
             {.resume = run.resume, .force = run.force, .quiet = run.quiet, .check = check_lives});
     } catch (const std::exception& error) {
         fmt::print(stderr, "{}\n", error.what());

@@ -34,7 +34,7 @@ struct MergeOptions {
 struct PartFile {
     std::string path;
     Results frame;
-    Study study;
+    EnsemblePlan ensemble;
     BatchPlan plan;
     std::size_t batches = 0;  // complete ones; they are the first of the plan
 };
@@ -52,8 +52,9 @@ PartFile read_part_file(const std::string& path) {
                                  format(reading.problems));
     }
     check_results(path, frame, rows);
-    const BatchPlan plan(reading.study->ensemble, part_of(frame));
-    PartFile file{path, std::move(frame), *std::move(reading.study), plan, 0};
+    const EnsemblePlan ensemble(*reading.study);
+    const BatchPlan plan = ensemble.batches(part_of(frame));
+    PartFile file{path, std::move(frame), ensemble, plan, 0};
     while (file.batches < plan.batches() && plan.rows_before(file.batches + 1) <= rows.rows()) {
         ++file.batches;
     }
@@ -93,7 +94,7 @@ class Merge {
                           read_study_text(first.frame.provenance_value("study"), first.path));
     }
 
-    BatchPlan whole() const { return BatchPlan(files_.front().study.ensemble); }
+    BatchPlan whole() const { return files_.front().ensemble.batches(); }
 
     void fill(RowStore& store) const {
         for (const PartFile& file : files_) {
@@ -114,10 +115,10 @@ class Merge {
         RunIdentity there = identity_of(file.frame, file.path);
         there.part = here.part;
         std::string why = difference(there, here);
-        if (why.empty() && file.study.ensemble.instances != first.study.ensemble.instances) {
+        if (why.empty() && file.ensemble.test_gearboxes != first.ensemble.test_gearboxes) {
             why = fmt::format("has ensemble.instances = {}, but {} has {}",
-                              file.study.ensemble.instances, first.path,
-                              first.study.ensemble.instances);
+                              file.ensemble.test_gearboxes, first.path,
+                              first.ensemble.test_gearboxes);
         }
         if (why.empty() && file.frame.provenance_value("numerics_choice") !=
                                first.frame.provenance_value("numerics_choice")) {
@@ -212,8 +213,9 @@ int merge_command(const MergeOptions& options) {
     const bool existed = Checkpoint::exists(temporary);
     std::unique_ptr<Checkpoint> checkpoint;
     try {
-        checkpoint = open_checkpoint(*made.scene, merge.whole(), options.out,
-                                     {.force = options.force, .quiet = options.quiet});
+        checkpoint =
+            open_checkpoint(made.scene->ensemble(), made.scene->ensemble().shape, merge.whole(),
+                            options.out, {.force = options.force, .quiet = options.quiet});
         merge.fill(*checkpoint);
         checkpoint->sync();
     } catch (const std::exception& error) {

@@ -27,7 +27,7 @@ struct SimulateOptions {
 
 void write_hdf5(const std::string& path, const Simulation& simulation, const Study& study) {
     const Hdf5Handle file = create_memory_file();
-    for (const auto& [name, value] : provenance(study, 1, 1)) {
+    for (const auto& [name, value] : provenance(EnsemblePlan(study), 1, 1)) {
         write_text(file.get(), ".", name, value);
     }
     const Hdf5Handle signals = create_group(file.get(), "signals");

@@ -119,10 +119,12 @@ PointState point_state(const RunOptions& run, bool lives) {
         }
         const Study& study = made.scene->study();
         const bool are_lives = old.provenance_value("kind") == kLivesKind;
-        if (are_lives != lives || !why_not_extendable(old, path, study, Part{}).empty()) {
+        if (are_lives != lives ||
+            !why_not_extendable(old, path, made.scene->ensemble(), Part{}).empty()) {
             return PointState::nothing;  // the run will print why it does not overwrite the file
         }
-        const BatchPlan plan = lives ? lives_plan(make_campaign_plan(study)) : plan_of(run, study);
+        const BatchPlan plan =
+            lives ? lives_plan(make_campaign_plan(study)) : plan_of(run, made.scene->ensemble());
         const bool enough = FileRows(path, old).rows() >= plan.rows() ||
                             old.provenance_value("state") == "ended by ensemble.until";
         return enough ? PointState::all : PointState::some;

@@ -12,7 +12,6 @@
 #include "mc/ensemble/ranks.hpp"
 #include "mc/files/input/problems.hpp"
 #include "mc/results/results_file.hpp"
-#include "mc/study/gears.hpp"
 
 namespace gearpod::mc {
 
@@ -31,20 +30,8 @@ Seconds& Seconds::operator+=(const Seconds& other) {
     return *this;
 }
 
-RowShape row_shape(const Study& study) {
-    const std::size_t meshes =
-        teeth_can_separate(study) ? meshes_of(study.gearbox.kind).size() : std::size_t{0};
-    const std::size_t variants = study.sensor.additional.size() + (has_other_fault(study) ? 1 : 0);
-    return {input_columns(study).size(),
-            study.features.use.size(),
-            study.sensor.noise_levels.size(),
-            meshes,
-            variants,
-            study.numerics.horizon == Horizon::superposed ? std::size_t{1} : std::size_t{0}};
-}
-
 BatchWorker::BatchWorker(const BatchTask& task)
-    : task_(task), features_(task.scene, &task.healthy), shape_(row_shape(task.scene.study())) {
+    : task_(task), features_(task.scene, &task.healthy) {
     for (const HealthyReference& healthy : task.additional) {
         additional_.emplace_back(task.scene, &healthy);
     }
@@ -63,7 +50,7 @@ BatchRows BatchWorker::compute(const Batch& batch, Seconds& seconds) {
 BatchRows BatchWorker::compute(std::span<const GearboxId> ids, std::size_t records,
                                Seconds& seconds) {
     BatchRows rows;
-    const auto lanes = static_cast<std::size_t>(task_.scene.study().numerics.lanes);
+    const auto lanes = static_cast<std::size_t>(task_.scene.ensemble().lanes);
     while (!ids.empty()) {
         const std::size_t count = shared_records(task_.scene.study(), ids, lanes);
         add_rows(ids.first(count), records, rows, seconds);
@@ -76,27 +63,29 @@ BatchRows BatchWorker::compute(std::span<const GearboxId> ids, std::size_t recor
 void BatchWorker::add_rows(std::span<const GearboxId> ids, std::size_t records, BatchRows& rows,
                            Seconds& seconds) {
     GearboxTile computed =
-        run_gearboxes(task_.scene, task_.path, ids, task_.scene.study().numerics.lanes,
+        run_gearboxes(task_.scene, task_.path, ids, task_.scene.ensemble().lanes,
                       {.signal_meshes = features_.meshes(), .cache = &task_.cache});
     const auto start = WallClock::now();
     const double noise_before = features_.noise_s();
     std::vector<LaneSignals> signals =
         all_lane_signals(task_.scene, task_.path, computed, features_.meshes());
     computed.sensor_recorders.clear();  // frees memory: `signals` holds copies
-    const Study& study = task_.scene.study();
     std::vector<LaneSignals> others(ids.size());
     const bool any_threshold = std::ranges::count(ids, Group::threshold, &GearboxId::group) > 0;
-    if (has_other_fault(study) && any_threshold) {
+    const bool other_fault =
+        std::ranges::count(task_.scene.ensemble().variants, kOtherFault, &VariantColumns::name) > 0;
+    if (other_fault && any_threshold) {
         others = with_other_fault(task_.scene, std::span(computed.realizations).first(ids.size()),
                                   signals);
     }
     for (std::size_t lane = 0; lane < ids.size(); ++lane) {
         machine::throw_if_cancelled();
         // freed when the rows of this gearbox are done
-        const LaneSignals own = std::move(signals[lane]), other = std::move(others[lane]);
+        const LaneSignals computed_signals = std::move(signals[lane]);
+        const LaneSignals other = std::move(others[lane]);
         Realization& record = computed.realizations[lane];
         for (record.id.repeat = 0; record.id.repeat < records; ++record.id.repeat) {
-            add_row(record, computed, lane, own, other, rows);
+            add_row(record, computed, lane, computed_signals, other, rows);
         }
     }
     const double spent_s = seconds_since(start);
@@ -114,22 +103,20 @@ void BatchWorker::add_rows(std::span<const GearboxId> ids, std::size_t records, 
 
 std::vector<double> BatchWorker::variants_of(const Realization& record, const LaneSignals& signals,
                                              const LaneSignals& other) {
-    const Study& study = task_.scene.study();
+    const EnsemblePlan& plan = task_.scene.ensemble();
     std::vector<double> all;
-    const auto add = [&](const std::vector<double>& values) {
-        all.insert(all.end(), values.begin(), values.end());
-    };
-    for (std::size_t s = 0; s < additional_.size(); ++s) {
-        SensorSignals own = signals_of_sensor(study, signals, s);
-        add(additional_[s].compute(own.linked(), at_sensor(study, record, s + 1)));
-    }
-    if (has_other_fault(study)) {
-        if (record.id.group == Group::threshold) {
-            add(features_.compute(other, record));
-        } else {
-            add(std::vector<double>(shape_.features * shape_.levels,
-                                    std::numeric_limits<double>::quiet_NaN()));
+    for (const VariantColumns& variant : plan.variants) {
+        std::vector<double> values(plan.shape.features * plan.shape.levels,
+                                   std::numeric_limits<double>::quiet_NaN());
+        if (variant.sensor) {
+            const std::size_t s = *variant.sensor;
+            SensorSignals measured = signals_of_sensor(task_.scene.study(), signals, s);
+            values = additional_[s].compute(measured.linked(),
+                                            at_sensor(task_.scene.study(), record, s + 1));
+        } else if (record.id.group == Group::threshold) {
+            values = features_.compute(other, record);
         }
+        all.insert(all.end(), values.begin(), values.end());
     }
     return all;
 }
@@ -139,24 +126,26 @@ void BatchWorker::add_row(const Realization& record, const GearboxTile& computed
     const Status status = computed.status[lane];
     rows.status.push_back(static_cast<int>(status));
 
+    const EnsemblePlan& plan = task_.scene.ensemble();
+    const RowShape& shape = plan.shape;
     constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
-    std::vector<double> values(shape_.features * shape_.levels, kNone);
-    std::vector<double> variants(shape_.variants * values.size(), kNone);
+    std::vector<double> values(shape.features * shape.levels, kNone);
+    std::vector<double> variants(shape.variants * values.size(), kNone);
     double noise_weight = 1.0;
     if (status == Status::ok) {
         values = features_.compute(signals, record);
         noise_weight = features_.noise_weight();
         variants = variants_of(record, signals, other);
     }
-    append_random_inputs(task_.scene.study(), record, noise_weight, rows.values);
+    plan.append_inputs(record.random_values, noise_weight, rows.values);
     rows.values.push_back(record.inputs.fault_size);
     rows.values.insert(rows.values.end(), values.begin(), values.end());
-    std::vector<double> loss = contact_loss(computed, lane, shape_.meshes);
+    std::vector<double> loss = contact_loss(computed, lane, shape.meshes);
     if (status != Status::ok) {
-        std::ranges::fill(loss, std::numeric_limits<double>::quiet_NaN());
+        std::ranges::fill(loss, kNone);
     }
     rows.values.insert(rows.values.end(), loss.begin(), loss.end());
-    if (shape_.integration > 0) {
+    if (shape.integration > 0) {
         const std::vector<char>& superposed = computed.integration.superposed;
         rows.values.push_back(status != Status::ok                           ? kNone
                               : !superposed.empty() && superposed[lane] != 0 ? 1.0
@@ -169,7 +158,7 @@ BatchRows rows_of_gearboxes(const Scene& scene, std::span<const GearboxId> gearb
     const BatchTask task(scene);
     const std::size_t size = kBatchRows, batches = (gearboxes.size() + size - 1) / size;
     std::vector<BatchRows> parts(batches);
-    machine::for_each_index(batches, thread_count(scene.study()), [&](std::size_t batch) {
+    machine::for_each_index(batches, thread_count(scene.ensemble()), [&](std::size_t batch) {
         Seconds seconds;
         const std::size_t first = batch * size;
         parts[batch] = BatchWorker(task).compute(

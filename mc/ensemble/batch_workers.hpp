@@ -32,9 +32,6 @@ struct Seconds {
     double sum() const { return sampling + stiffness + integration + signals + noise + features; }
 };
 
-// Shape of the result rows of a study.
-RowShape row_shape(const Study& study);
-
 // Data shared by all workers of a process.
 struct BatchTask {
     explicit BatchTask(const Scene& shared_scene)
@@ -83,7 +80,6 @@ class BatchWorker {
     const BatchTask& task_;
     RealizationFeatures features_;
     std::vector<RealizationFeatures> additional_;  // of the additional sensors
-    RowShape shape_;
 };
 
 // Result rows of single gearboxes, outside of an ensemble run.

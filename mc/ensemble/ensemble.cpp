@@ -13,11 +13,7 @@
 #include "machine/team.hpp"
 #include "mc/ensemble/messages.hpp"
 #include "mc/ensemble/ranks.hpp"
-#include "mc/plan/feature_needs.hpp"
 #include "mc/results/result_rows.hpp"
-#include "mc/study/gears.hpp"
-#include "mc/study/other_sources.hpp"
-#include "mc/study/schema/sizes.hpp"
 
 namespace gearpod::mc {
 namespace {
@@ -405,40 +401,6 @@ EnsembleOutcome run_follower(WorkerTeam& team, const EnsembleRun& run) {
     return {};
 }
 
-Results results_frame(const Study& study) {
-    Results results;
-    for (const ParameterColumn& column : input_columns(study)) {
-        results.parameters.push_back({column.name, column.unit, {}});
-    }
-    results.noise_levels = study.sensor.noise_levels;
-    results.request = detection_request(study);
-    for (const features::Feature* feature : used_features(study)) {
-        results.features.push_back(
-            {std::string(feature->name), std::string(feature->unit), feature->alarm, {}});
-    }
-    for (const AdditionalSensor& sensor : study.sensor.additional) {
-        results.variants.push_back({kSensorVariant + sensor.name,
-                                    fmt::format("sensor \"{}\", {:g} degrees from the first one",
-                                                sensor.name, sensor.angle_deg),
-                                    results.features});
-    }
-    if (has_other_fault(study)) {
-        results.variants.push_back(
-            {kOtherFault,
-             "healthy gearboxes of the threshold sample with " + other_fault_text(study),
-             results.features});
-    }
-    if (teeth_can_separate(study)) {
-        for (const MeshMembers& mesh : meshes_of(study.gearbox.kind)) {
-            results.contact_loss.push_back({mesh_name(mesh), {}});
-        }
-    }
-    if (study.numerics.horizon == Horizon::superposed) {
-        results.integration.push_back({"superposed", {}});
-    }
-    return results;
-}
-
 namespace {
 
 // Prepares this rank for its batches. Returns the reason if preparation was interrupted, else "".
@@ -455,8 +417,8 @@ std::string prepare(const std::function<BatchComputers()>& make, const EnsembleR
 
 }  // namespace
 
-EnsembleOutcome run_batches(const Study& study, const BatchPlan& plan, const EnsembleRun& run,
-                            const std::function<BatchComputers()>& make) {
+EnsembleOutcome run_batches(const EnsemblePlan& ensemble, const BatchPlan& plan,
+                            const EnsembleRun& run, const std::function<BatchComputers()>& make) {
     BatchComputers computers;
     for (const std::string& reason : run.ranks.gather(prepare(make, run, computers))) {
         if (!reason.empty()) {
@@ -469,16 +431,15 @@ EnsembleOutcome run_batches(const Study& study, const BatchPlan& plan, const Ens
             return outcome;
         }
     }
-    const int threads =
-        std::max(1, static_cast<int>(std::min<std::size_t>(
-                        static_cast<std::size_t>(thread_count(study, run.ranks.on_this_machine())),
-                        plan.batches())));
-    WorkerTeam team(computers, plan, threads);
+    const auto threads = std::min<std::size_t>(
+        static_cast<std::size_t>(thread_count(ensemble, run.ranks.on_this_machine())),
+        plan.batches());
+    WorkerTeam team(computers, plan, std::max(1, static_cast<int>(threads)));
     return run.ranks.leads() ? run_leader(team, plan, run) : run_follower(team, run);
 }
 
 EnsembleOutcome run_batches(const Scene& scene, const BatchPlan& plan, const EnsembleRun& run) {
-    return run_batches(scene.study(), plan, run, [&scene]() -> BatchComputers {
+    return run_batches(scene.ensemble(), plan, run, [&scene]() -> BatchComputers {
         const auto task = std::make_shared<const BatchTask>(scene);
         return [task]() -> BatchComputer {
             const auto worker = std::make_shared<BatchWorker>(*task);
@@ -490,8 +451,7 @@ EnsembleOutcome run_batches(const Scene& scene, const BatchPlan& plan, const Ens
 }
 
 Results run_ensemble(const Scene& scene, Progress& progress) {
-    const Study& study = scene.study();
-    const BatchPlan plan(study.ensemble);
+    const BatchPlan plan = scene.ensemble().batches();
     MemoryRows store(plan.batches());
     const Ranks alone;
     const EnsembleOutcome outcome =
@@ -499,7 +459,7 @@ Results run_ensemble(const Scene& scene, Progress& progress) {
     if (!outcome.failure.empty()) {
         throw std::runtime_error(outcome.failure);
     }
-    Results results = results_frame(study);
+    Results results = results_frame(scene.ensemble());
     fill_columns(results, StoredRows(store, plan, outcome.batches));
     results.timing = timing_of(outcome);
     return results;

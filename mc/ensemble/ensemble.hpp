@@ -71,14 +71,11 @@ EnsembleOutcome run_follower(WorkerTeam& team, const EnsembleRun& run);
 EnsembleOutcome run_batches(const Scene& scene, const BatchPlan& plan, const EnsembleRun& run);
 
 // The same for any kind of batch. `make` is called once in every rank, before the first batch.
-EnsembleOutcome run_batches(const Study& study, const BatchPlan& plan, const EnsembleRun& run,
-                            const std::function<BatchComputers()>& make);
+EnsembleOutcome run_batches(const EnsemblePlan& ensemble, const BatchPlan& plan,
+                            const EnsembleRun& run, const std::function<BatchComputers()>& make);
 
 // Computes all results in memory and in this process. Detection and provenance are not filled in.
 Results run_ensemble(const Scene& scene, Progress& progress);
-
-// Results without rows: names, units, noise levels and sizes.
-Results results_frame(const Study& study);
 
 // Times summed over all threads, for the results file.
 std::vector<Timing> timing_of(const EnsembleOutcome& outcome);

@@ -19,14 +19,15 @@ int thread_count(int ranks_on_this_machine) {
         return std::min(requested, machine::thread_limit());
     }
     // A rank that is bound to some of the processors sees only those.
-    const int own = machine::processors();
-    const int shared = own < sysconf(_SC_NPROCESSORS_ONLN) ? own : own / ranks_on_this_machine;
-    return std::clamp(shared, 1, machine::thread_limit());
+    const int visible = machine::processors();
+    const int share =
+        visible < sysconf(_SC_NPROCESSORS_ONLN) ? visible : visible / ranks_on_this_machine;
+    return std::clamp(share, 1, machine::thread_limit());
 }
 
-int thread_count(const Study& study, int ranks_on_this_machine) {
-    return study.numerics.threads > 0 ? std::min(study.numerics.threads, machine::thread_limit())
-                                      : thread_count(ranks_on_this_machine);
+int thread_count(const EnsemblePlan& plan, int ranks_on_this_machine) {
+    return plan.threads > 0 ? std::min(plan.threads, machine::thread_limit())
+                            : thread_count(ranks_on_this_machine);
 }
 
 }  // namespace gearpod::mc

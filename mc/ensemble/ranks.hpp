@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "mc/study/study.hpp"
+#include "mc/plan/ensemble_plan.hpp"
 
 namespace gearpod::mc {
 
@@ -72,7 +72,7 @@ std::string rank_name(const Ranks& ranks);
 // most OMP_THREAD_LIMIT.
 int thread_count(int ranks_on_this_machine = 1);
 
-// The same, unless the study's numerics.threads is not 0; then that number.
-int thread_count(const Study& study, int ranks_on_this_machine = 1);
+// The same, unless the plan gives a number of threads.
+int thread_count(const EnsemblePlan& plan, int ranks_on_this_machine = 1);
 
 }  // namespace gearpod::mc

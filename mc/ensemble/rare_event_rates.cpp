@@ -78,7 +78,7 @@ MissRateResult estimate_miss_rate(const Scene& scene, const MissRateRequest& req
     const BatchPlan plan(0, request.gearboxes);
     MemoryRows store(ranks.leads() ? plan.batches() : 0);
     const EnsembleOutcome outcome = run_batches(
-        scene.study(), plan,
+        scene.ensemble(), plan,
         {.ranks = ranks, .store = store, .progress = progress, .interruption = interruption},
         [&]() -> BatchComputers {
             const auto task = std::make_shared<BatchTask>(scene);
@@ -98,7 +98,7 @@ MissRateResult estimate_miss_rate(const Scene& scene, const MissRateRequest& req
     if (const std::string why = failure_reason(outcome); !why.empty()) {
         throw std::runtime_error(why);
     }
-    const RowShape shape = row_shape(scene.study());
+    const RowShape& shape = scene.ensemble().shape;
     MissRecords all;
     for (std::size_t batch = 0; batch < plan.batches(); ++batch) {
         all.add(store.read(batch), shape, records);
@@ -106,7 +106,7 @@ MissRateResult estimate_miss_rate(const Scene& scene, const MissRateRequest& req
     const analysis::ImportanceSample sample(
         all.values, all.weights, all.gearbox,
         analysis::opposite(features::find_feature(request.feature)->alarm));
-    result.misses = sample.at(request.threshold, scene.study().detection.confidence);
+    result.misses = sample.at(request.threshold, scene.ensemble().request.confidence);
     result.gearboxes = all.gearboxes;
     result.failed = all.failed;
     result.records = static_cast<long>(all.values.size());
@@ -138,13 +138,13 @@ class SplitRun {
           ranks_(ranks),
           progress_(progress),
           interruption_(interruption),
-          shape_(row_shape(scene.study())) {}
+          shape_(scene.ensemble().shape) {}
 
     std::vector<double> values(std::span<const analysis::SplitMember> members) {
         const BatchPlan plan(0, static_cast<std::int64_t>(members.size()));
         MemoryRows store(ranks_.leads() ? plan.batches() : 0);
         const EnsembleOutcome outcome = run_batches(
-            scene_.study(), plan,
+            scene_.ensemble(), plan,
             {.ranks = ranks_, .store = store, .progress = progress_, .interruption = interruption_},
             [&] { return computers(members); });
         std::vector<double> values(members.size());
@@ -232,7 +232,7 @@ std::vector<ShiftedInput> shifted_inputs(const Scene& scene, const RareRateReque
     }
     const double chance = kBeyondChance / std::sqrt(tail.last_families());
     std::vector<ShiftedInput> shifted;
-    const std::vector<ParameterColumn> columns = input_columns(scene.study());
+    const std::vector<ParameterColumn>& columns = scene.ensemble().inputs;
     for (std::size_t i = 0; i < all.sum.size(); ++i) {
         if (std::abs(last.mean(i) - all.mean(i)) > chance * all.deviation(i)) {
             shifted.push_back({columns[i].name, columns[i].unit, all.mean(i), last.mean(i)});
@@ -280,7 +280,7 @@ RareRateResult estimate_rare_rate(const Scene& scene, const RareRateRequest& req
         request.rate ? analysis::SplitTail::to_rate(settings_of(request), *request.rate, values)
                      : analysis::SplitTail::to_value(settings_of(request), request.threshold,
                                                      kSmallestMissRate, values);
-    const double confidence = scene.study().detection.confidence;
+    const double confidence = scene.ensemble().request.confidence;
     RareRateResult result;
     result.estimate = request.rate ? tail.threshold(*request.rate, confidence)
                                    : tail.at(request.threshold, confidence);

@@ -7,7 +7,6 @@
 #include <optional>
 #include <stdexcept>
 
-#include "mc/ensemble/ensemble.hpp"
 #include "mc/results/layout.hpp"
 
 namespace gearpod::mc {
@@ -46,58 +45,58 @@ std::string invalid_values(const Results& frame) {
 }
 
 // Describes the first column whose name or unit differs from the study's.
-std::string column_difference(const std::string& where, const auto& columns, const auto& own) {
+std::string column_difference(const std::string& where, const auto& columns, const auto& expected) {
     const auto text = [](const auto& list, std::size_t i) {
         return i < list.size() ? list[i].name + " (" + list[i].unit + ")" : "none";
     };
-    for (std::size_t i = 0; i < std::max(columns.size(), own.size()); ++i) {
-        if (text(columns, i) != text(own, i)) {
+    for (std::size_t i = 0; i < std::max(columns.size(), expected.size()); ++i) {
+        if (text(columns, i) != text(expected, i)) {
             return fmt::format("{}: column {} is {}, but in the study it is {}", where, i + 1,
-                               text(columns, i), text(own, i));
+                               text(columns, i), text(expected, i));
         }
     }
     return "";
 }
 
-// Describes the first difference from the frame of the study's own run.
-std::string study_difference(const Results& frame, const Results& own) {
-    std::string why = column_difference("/instances", frame.parameters, own.parameters);
+// Describes the first difference from the frame that the study's run writes.
+std::string study_difference(const Results& frame, const Results& expected) {
+    std::string why = column_difference("/instances", frame.parameters, expected.parameters);
     if (why.empty()) {
-        why = column_difference("/features", frame.features, own.features);
+        why = column_difference("/features", frame.features, expected.features);
     }
-    if (why.empty() && frame.variants.size() != own.variants.size()) {
+    if (why.empty() && frame.variants.size() != expected.variants.size()) {
         why = fmt::format("/variants has {} members, but in the study there are {}",
-                          frame.variants.size(), own.variants.size());
+                          frame.variants.size(), expected.variants.size());
     }
-    for (std::size_t v = 0; v < own.variants.size() && why.empty(); ++v) {
-        if (frame.variants[v].name != own.variants[v].name) {
+    for (std::size_t v = 0; v < expected.variants.size() && why.empty(); ++v) {
+        if (frame.variants[v].name != expected.variants[v].name) {
             why = fmt::format("/variants: member {} is {}, but in the study it is {}", v + 1,
-                              frame.variants[v].name, own.variants[v].name);
+                              frame.variants[v].name, expected.variants[v].name);
             break;
         }
-        why = column_difference("/variants/" + own.variants[v].name, frame.variants[v].features,
-                                own.variants[v].features);
+        why = column_difference("/variants/" + expected.variants[v].name,
+                                frame.variants[v].features, expected.variants[v].features);
     }
-    if (why.empty() && frame.noise_levels != own.noise_levels) {
+    if (why.empty() && frame.noise_levels != expected.noise_levels) {
         why = fmt::format("/noise_levels has {} levels that differ from the study's {}",
-                          frame.noise_levels.size(), own.noise_levels.size());
+                          frame.noise_levels.size(), expected.noise_levels.size());
     }
     const auto same = [](const analysis::SizeGroup& a, const analysis::SizeGroup& b) {
         return a.low == b.low && a.high == b.high;
     };
     const auto& request = frame.request;
-    if (why.empty() && (!std::ranges::equal(request.groups, own.request.groups, same) &&
+    if (why.empty() && (!std::ranges::equal(request.groups, expected.request.groups, same) &&
                         !frame.features.empty())) {
         why = "/detection: the sizes differ from the study's";
     }
-    if (why.empty() && (request.false_alarm_rate != own.request.false_alarm_rate ||
-                        request.confidence != own.request.confidence ||
-                        request.size.name != own.request.size.name)) {
+    if (why.empty() && (request.false_alarm_rate != expected.request.false_alarm_rate ||
+                        request.confidence != expected.request.confidence ||
+                        request.size.name != expected.request.size.name)) {
         why = "/detection: false_alarm_rate, confidence or size_name differs from the study's";
     }
-    if (why.empty() && request.threshold_records != own.request.threshold_records) {
+    if (why.empty() && request.threshold_records != expected.request.threshold_records) {
         why = fmt::format("/detection has threshold_records = {}, but the study has {}",
-                          request.threshold_records, own.request.threshold_records);
+                          request.threshold_records, expected.request.threshold_records);
     }
     return why;
 }
@@ -177,11 +176,10 @@ void check_results(const std::string& path, const Results& frame, const RowSourc
     if (frame.provenance_value("kind") == kLivesKind) {
         throw std::runtime_error(path + ": holds lives, which only `report` can read");
     }
-    const auto study = read_study_text(frame.provenance_value("study"), path).study;
     std::optional<ExpectedResults> expected;
-    if (study) {
+    if (const auto plan = recorded_plan(frame.provenance_value("study"), path)) {
         const auto part = read_part(frame.provenance_value("part"));
-        expected = {results_frame(*study), BatchPlan(study->ensemble, part.value_or(Part{}))};
+        expected = {results_frame(*plan), plan->batches(part.value_or(Part{}))};
     }
     check_against(path, frame, rows, expected);
 }

@@ -19,10 +19,11 @@ Part part_of(const Results& results) {
     return read_part(results.provenance_value("part")).value_or(Part{});
 }
 
-RunIdentity identity_of(const Results& results, const std::string& path) {
-    const StudyReading reading = read_study_text(results.provenance_value("study"), path);
+RunIdentity identity_of(const Results& results, const std::string& path,
+                        std::optional<std::int64_t> threshold_gearboxes) {
+    const auto plan = recorded_plan(results.provenance_value("study"), path, threshold_gearboxes);
     RunIdentity identity =
-        run_identity(reading.study.value_or(Study{}), row_shape(results), part_of(results));
+        run_identity(plan ? *plan : EnsemblePlan(), row_shape(results), part_of(results));
     identity.version = version_text(results.provenance_value("code_version"),
                                     results.provenance_value("git_hash"));
     identity.seed = results.provenance_value("seed");
@@ -45,18 +46,17 @@ void BatchFiller::add(const RowBlock& block) {
     }
 }
 
-std::string why_not_extendable(const Results& old, const std::string& path, const Study& study,
-                               const Part& part) {
-    const auto old_study = read_study_text(old.provenance_value("study"), path).study;
-    Study requested = study;
-    const auto healthy = old_study ? old_study->ensemble.threshold_instances : 0;
+std::string why_not_extendable(const Results& old, const std::string& path,
+                               const EnsemblePlan& plan, const Part& part) {
+    const auto old_plan = recorded_plan(old.provenance_value("study"), path);
+    const auto healthy = old_plan ? old_plan->threshold_gearboxes : 0;
     // Trending features are relative to the first healthy gearboxes, so the old results must
     // contain all of these.
-    if (part.whole() && healthy >= HealthyReference::kRecords &&
-        healthy < study.ensemble.threshold_instances) {
-        requested.ensemble.threshold_instances = healthy;
-    }
-    return difference(identity_of(old, path), run_identity(requested, row_shape(old), part));
+    const bool fewer =
+        part.whole() && healthy >= HealthyReference::kRecords && healthy < plan.threshold_gearboxes;
+    const RunIdentity there =
+        fewer ? identity_of(old, path, plan.threshold_gearboxes) : identity_of(old, path);
+    return difference(there, run_identity(plan, row_shape(old), part));
 }
 
 namespace {
@@ -79,11 +79,11 @@ RowBlock of_group(const RowBlock& block, Group group, std::size_t shift) {
 }
 
 std::unique_ptr<Checkpoint> extend_results(const std::string& results_path, const std::string& path,
-                                           const RunIdentity& identity, const Study& study,
-                                           const BatchPlan& plan, const StoreOptions& options) {
+                                           const RunIdentity& identity, const EnsemblePlan& plan,
+                                           const BatchPlan& batches, const StoreOptions& options) {
     const Results old = read_frame(results_path);
     const FileRows rows(results_path, old);
-    const std::string why = why_not_extendable(old, results_path, study, options.part);
+    const std::string why = why_not_extendable(old, results_path, plan, options.part);
     if (!why.empty()) {
         throw std::runtime_error(results_path + ": cannot be continued: it " + why);
     }
@@ -93,20 +93,20 @@ std::unique_ptr<Checkpoint> extend_results(const std::string& results_path, cons
         healthy += static_cast<std::size_t>(
             std::count(block.group.begin(), block.group.end(), static_cast<int>(Group::threshold)));
     });
-    if (rows.rows() - healthy > plan.graded_rows()) {
+    if (rows.rows() - healthy > batches.graded_rows()) {
         throw std::runtime_error(
             fmt::format("{}: cannot be continued: it has {} test gearboxes, more than the {} "
                         "requested; raise --instances",
-                        results_path, rows.rows() - healthy, plan.graded_rows()));
+                        results_path, rows.rows() - healthy, batches.graded_rows()));
     }
-    auto checkpoint = Checkpoint::create(path, identity, plan);
+    auto checkpoint = Checkpoint::create(path, identity, batches);
     const auto same_number = [](std::size_t batch) { return batch; };
     // One filler per group. The last batch of each group may be incomplete; it is omitted.
-    BatchFiller thresholds(*checkpoint, plan, identity.shape, same_number),
-        graded(*checkpoint, plan, identity.shape, same_number);
+    BatchFiller thresholds(*checkpoint, batches, identity.shape, same_number),
+        graded(*checkpoint, batches, identity.shape, same_number);
     rows.visit([&](const RowBlock& block) {
         thresholds.add(of_group(block, Group::threshold, 0));
-        graded.add(of_group(block, Group::graded, plan.threshold_rows() - healthy));
+        graded.add(of_group(block, Group::graded, batches.threshold_rows() - healthy));
     });
     checkpoint->sync();
     return checkpoint;
@@ -144,26 +144,20 @@ std::string checkpoint_path(const std::string& results_path) {
     return resolve_links(results_path) + ".part";
 }
 
-std::unique_ptr<Checkpoint> open_checkpoint(const Scene& scene, const BatchPlan& plan,
+std::unique_ptr<Checkpoint> open_checkpoint(const EnsemblePlan& plan, const RowShape& shape,
+                                            const BatchPlan& batches,
                                             const std::string& results_path,
                                             const StoreOptions& options) {
-    const Study& study = scene.study();
-    return open_checkpoint(study, row_shape(study), plan, results_path, options);
-}
-
-std::unique_ptr<Checkpoint> open_checkpoint(const Study& study, const RowShape& shape,
-                                            const BatchPlan& plan, const std::string& results_path,
-                                            const StoreOptions& options) {
-    const RunIdentity identity = run_identity(study, shape, options.part);
+    const RunIdentity identity = run_identity(plan, shape, options.part);
     const std::string path = checkpoint_path(results_path);
     std::unique_ptr<Checkpoint> checkpoint;
     std::string from;
     if (options.resume && Checkpoint::exists(path)) {
         from = path;
-        checkpoint = Checkpoint::resume(path, identity, plan);
+        checkpoint = Checkpoint::resume(path, identity, batches);
     } else if (options.resume && Checkpoint::exists(resolve_links(results_path))) {
         from = results_path;
-        checkpoint = extend_results(results_path, path, identity, study, plan, options);
+        checkpoint = extend_results(results_path, path, identity, plan, batches, options);
     } else {
         const std::string why =
             options.force ? "" : why_not_overwritable(resolve_links(results_path), identity);
@@ -172,14 +166,14 @@ std::unique_ptr<Checkpoint> open_checkpoint(const Study& study, const RowShape& 
                                      "; name another file with --out, or overwrite this one with "
                                      "--force");
         }
-        checkpoint = Checkpoint::create(path, identity, plan);
+        checkpoint = Checkpoint::create(path, identity, batches);
         if (options.resume && !options.quiet) {
             fmt::print(stderr, "{}: there is nothing to continue; starting a new run\n",
                        results_path);
         }
     }
     if (!from.empty() && (!options.quiet || !checkpoint->findings().empty())) {
-        report_resumed(*checkpoint, plan, from);
+        report_resumed(*checkpoint, batches, from);
     }
     return checkpoint;
 }

@@ -7,7 +7,7 @@
 #include <string>
 
 #include "mc/ensemble/results_check.hpp"
-#include "mc/plan/scene.hpp"
+#include "mc/plan/ensemble_plan.hpp"
 #include "mc/results/checkpoint.hpp"
 #include "mc/results/result_rows.hpp"
 #include "mc/results/results_file.hpp"
@@ -17,13 +17,15 @@ namespace gearpod::mc {
 // Path of the checkpoint: in the directory of the results file, after following symbolic links.
 std::string checkpoint_path(const std::string& results_path);
 
-// Identity of the run that wrote the results. `path` names the file in messages.
-RunIdentity identity_of(const Results& results, const std::string& path);
+// Identity of the run that wrote the results. `path` names the file in messages. With
+// `threshold_gearboxes`, that of the same run with another number of these.
+RunIdentity identity_of(const Results& results, const std::string& path,
+                        std::optional<std::int64_t> threshold_gearboxes = {});
 // Reason why finished results cannot be extended to those of the study, as text to follow the
 // file's name, or "". The results may have fewer gearboxes in either group. The threshold sample of
 // a part must be unchanged, because it determines the other parts.
-std::string why_not_extendable(const Results& old, const std::string& path, const Study& study,
-                               const Part& part);
+std::string why_not_extendable(const Results& old, const std::string& path,
+                               const EnsemblePlan& plan, const Part& part);
 // Part of the ensemble that the results cover.
 Part part_of(const Results& results);
 
@@ -37,11 +39,8 @@ struct StoreOptions {
 };
 
 // Opens or creates the checkpoint. Throws std::runtime_error naming the file and the reason.
-std::unique_ptr<Checkpoint> open_checkpoint(const Study& study, const RowShape& shape,
-                                            const BatchPlan& plan, const std::string& results_path,
-                                            const StoreOptions& options);
-// The same for the rows of `run`.
-std::unique_ptr<Checkpoint> open_checkpoint(const Scene& scene, const BatchPlan& plan,
+std::unique_ptr<Checkpoint> open_checkpoint(const EnsemblePlan& plan, const RowShape& shape,
+                                            const BatchPlan& batches,
                                             const std::string& results_path,
                                             const StoreOptions& options);
 

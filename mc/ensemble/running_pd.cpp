@@ -8,9 +8,6 @@
 #include "analysis/detection/detection.hpp"
 #include "analysis/detection/threshold.hpp"
 #include "analysis/statistics/interval.hpp"
-#include "mc/ensemble/batch_workers.hpp"
-#include "mc/plan/feature_needs.hpp"
-#include "mc/study/schema/sizes.hpp"
 
 namespace gearpod::mc {
 namespace {
@@ -25,34 +22,32 @@ std::size_t level_next_to(const std::vector<double>& levels, double requested) {
 
 }  // namespace
 
-RunningPd::RunningPd(const Study& study, const BatchPlan& plan, const std::string& feature)
-    : request_(detection_request(study)), plan_(plan), shape_(row_shape(study)) {
-    const Until& until = study.ensemble.until;
-    const auto used = used_features(study);
-    feature_name_ = feature.empty() ? study.features.use.front() : feature;
-    if (until.half_width) {
-        feature_name_ = features::all_features()[static_cast<std::size_t>(*until.feature)].name;
+RunningPd::RunningPd(const EnsemblePlan& plan, const BatchPlan& batches, const std::string& feature)
+    : request_(plan.request), batches_(batches), shape_(plan.shape) {
+    std::size_t index = 0;
+    while (!feature.empty() && plan.features.at(index)->name != feature) {
+        ++index;
     }
-    const auto place = static_cast<std::size_t>(
-        std::find(study.features.use.begin(), study.features.use.end(), feature_name_) -
-        study.features.use.begin());
-    alarm_ = used.at(place)->alarm;
-    requested_half_width_ = until.half_width;
-    level_ = level_next_to(request_.noise_levels, requested_half_width_ ? until.noise_level : 1.0);
     group_ = request_.groups.size() - 1;
-    if (requested_half_width_) {
-        group_ = analysis::group_of(size_in_si(study, *until.size), request_.groups).value();
+    level_ = level_next_to(request_.noise_levels, 1.0);
+    if (plan.until) {
+        requested_half_width_ = plan.until->half_width;
+        index = plan.until->feature;
+        group_ = plan.until->group;
+        level_ = plan.until->level;
     }
-    size_name_ = size_text(study, request_.groups[group_]);
-    column_ = shape_.value_of(place, level_);
+    feature_name_ = plan.features.at(index)->name;
+    alarm_ = plan.features[index]->alarm;
+    size_name_ = plan.group_names[group_];
+    column_ = shape_.value_of(index, level_);
 }
 
 void RunningPd::advance(const RowStore& store) {
-    while (!stop_ && next_ < plan_.batches() && store.has(next_)) {
-        if (next_ == plan_.threshold_batches()) {
+    while (!stop_ && next_ < batches_.batches() && store.has(next_)) {
+        if (next_ == batches_.threshold_batches()) {
             set_threshold(store);
         }
-        if (next_ >= plan_.threshold_batches()) {
+        if (next_ >= batches_.threshold_batches()) {
             count(store.read(next_));
         }
         ++next_;
@@ -65,7 +60,7 @@ void RunningPd::advance(const RowStore& store) {
 
 void RunningPd::set_threshold(const RowStore& store) {
     std::vector<double> healthy;
-    for (std::size_t batch = 0; batch < plan_.threshold_batches(); ++batch) {
+    for (std::size_t batch = 0; batch < batches_.threshold_batches(); ++batch) {
         const BatchRows rows = store.read(batch);
         for (std::size_t row = 0; row < rows.count(); ++row) {
             healthy.push_back(rows.values[row * shape_.values() + column_]);
@@ -121,9 +116,9 @@ std::optional<std::size_t> RunningPd::rows_left() const {
         const double middle = std::floor(0.5 * (few + many));
         (half_width(middle) > *requested_half_width_ ? few : many) = middle;
     }
-    const double each = static_cast<double>(graded_) / static_cast<double>(tested_);
-    return static_cast<std::size_t>(each * many) -
-           std::min(graded_, static_cast<std::size_t>(each * many));
+    const double per_tested = static_cast<double>(graded_) / static_cast<double>(tested_);
+    const auto all = static_cast<std::size_t>(per_tested * many);
+    return all - std::min(graded_, all);
 }
 
 }  // namespace gearpod::mc

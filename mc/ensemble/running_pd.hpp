@@ -7,7 +7,6 @@
 
 #include "analysis/detection/detection.hpp"
 #include "mc/results/result_rows.hpp"
-#include "mc/study/study.hpp"
 
 namespace gearpod::mc {
 
@@ -17,7 +16,7 @@ class RunningPd {
   public:
     // Watches the feature of ensemble.until. Without it, watches `feature` ("": the first feature
     // of the study) at the largest size and the noise level closest to 1.
-    RunningPd(const Study& study, const BatchPlan& plan, const std::string& feature);
+    RunningPd(const EnsemblePlan& plan, const BatchPlan& batches, const std::string& feature);
 
     void advance(const RowStore& store);
 
@@ -40,10 +39,10 @@ class RunningPd {
     analysis::Alarm alarm_ = analysis::Alarm::high;
     std::size_t group_ = 0;
     std::size_t level_ = 0;
-    std::optional<double> requested_half_width_;  // requested half width
-    BatchPlan plan_;
+    std::optional<double> requested_half_width_;
+    BatchPlan batches_;
     RowShape shape_;
-    std::size_t column_ = 0;  // place of the feature at this level in a row
+    std::size_t column_ = 0;  // of the feature at this level in a row
     std::size_t next_ = 0;    // next batch to read
     double threshold_ = 0.0;
     long tested_ = 0, detected_ = 0;

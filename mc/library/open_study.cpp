@@ -46,7 +46,7 @@ std::string OpenStudy::text_of(Problems problems) const {
 
 Simulation simulate_row(const Scene& scene, long row, long meshes) {
     const Study& study = scene.study();
-    const auto rows = static_cast<long>(BatchPlan(study.ensemble).rows());
+    const auto rows = static_cast<long>(scene.ensemble().batches().rows());
     const long simulated = meshes > 0 ? meshes : scene.span().planet_teeth;
     // A record of given length begins within the span.
     const int most = scene.signal_meshes() - (has_record_length(study) ? scene.span_meshes() : 0);

@@ -44,7 +44,7 @@ BatchPlan lives_plan(const CampaignPlan& plan) {
 }
 
 Results lives_frame(const Study& study) {
-    Results frame = results_frame(study_of_gearboxes(study));
+    Results frame = results_frame(EnsemblePlan(study_of_gearboxes(study)));
     frame.parameters.pop_back();  // the fault size, which is not constant
     frame.variants.clear();
     frame.contact_loss.clear();  // superposed records have no contact loss ratio
@@ -191,11 +191,10 @@ BatchRows life_rows(const LifeTiles& tiles, const Batch& batch, Seconds& seconds
 }  // namespace
 
 EnsembleOutcome run_lives(const LifeTiles& tiles, const BatchPlan& plan, const EnsembleRun& run) {
-    const Study& study = tiles.scene().study();
     const BatchComputer compute = [&tiles](const Batch& batch, Seconds& seconds) {
         return life_rows(tiles, batch, seconds);
     };
-    return run_batches(study, plan, run,
+    return run_batches(tiles.scene().ensemble(), plan, run,
                        [&]() -> BatchComputers { return [compute] { return compute; }; });
 }
 

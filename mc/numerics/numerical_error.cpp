@@ -81,7 +81,7 @@ struct Values {
     std::size_t count = 0;  // of values of a gearbox
 };
 Values values_of(const Scene& scene, const BatchRows& rows) {
-    const RowShape shape = row_shape(scene.study());
+    const RowShape& shape = scene.ensemble().shape;
     Values values{{}, {}, shape.features * shape.levels};
     for (std::size_t row = 0; row < rows.count(); ++row) {
         const std::span all(rows.values);

@@ -60,7 +60,7 @@ void check_free(const Study& study) {
 class ScatterChoice {
   public:
     explicit ScatterChoice(const Study& study)
-        : study_(study), shape_(row_shape(study)), own_(own_study(study)) {
+        : study_(study), shape_(EnsemblePlan(study).shape), own_(own_study(study)) {
         for (std::uint64_t i = 0; i < kHealthyPilots; ++i) {
             ids_.push_back({Group::threshold, i});
         }

@@ -240,27 +240,4 @@ Realization Sampler::draw(const GearboxId& id, std::span<const GivenInput> given
     return realization;
 }
 
-std::vector<ParameterColumn> input_columns(const Study& study) {
-    std::vector<ParameterColumn> columns;
-    for (const RandomInput& input : study.random) {
-        if (!is_fault_size(input)) {
-            const Key& key = *find_key(input.key);
-            columns.push_back({key.column(), std::string(key.unit.si_name)});
-        }
-    }
-    if (study.ensemble.uses_importance_sampling()) {
-        columns.push_back({"noise_weight", "1"});
-    }
-    columns.push_back({fault_size_column(study), std::string(fault_size_key(study).unit.si_name)});
-    return columns;
-}
-
-void append_random_inputs(const Study& study, const Realization& realization, double noise_weight,
-                          std::vector<double>& row) {
-    row.insert(row.end(), realization.random_values.begin(), realization.random_values.end());
-    if (study.ensemble.uses_importance_sampling()) {
-        row.push_back(noise_weight);
-    }
-}
-
 }  // namespace gearpod::mc

@@ -106,15 +106,4 @@ class Sampler {
     const SamplingPlan plan_;
 };
 
-struct ParameterColumn {
-    std::string name;  // "planet_bearing_stiffness_N_m", fault_size_column()
-    std::string unit;  // SI, e.g. "N/m"; "1" for a pure number
-};
-// Columns of /instances: every random input, the weight of exponentially tilted records, and the
-// fault's size last.
-std::vector<ParameterColumn> input_columns(const Study& study);
-// Appends the values of these columns, except the fault's size. A plain record has weight 1.
-void append_random_inputs(const Study& study, const Realization& realization, double noise_weight,
-                          std::vector<double>& row);
-
 }  // namespace gearpod::mc

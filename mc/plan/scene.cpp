@@ -25,7 +25,9 @@ bool differ_only_in_convergence_tolerance(Numerics a, const Numerics& b) {
 }  // namespace
 
 Scene::Scene(const Study& study)
-    : study_(with_gears(study)), sampler_(std::make_shared<const Sampler>(study)) {
+    : study_(with_gears(study)),
+      ensemble_(std::make_shared<const EnsemblePlan>(study)),
+      sampler_(std::make_shared<const Sampler>(study)) {
     auto gearbox = std::make_shared<GearboxPlan>(study);
     plan_ = std::make_shared<const ScenePlan>(make_plan(study, *sampler_, *gearbox));
     gearbox->stages = make_stages(study, *gearbox);
@@ -64,6 +66,7 @@ Scene Scene::with(const Numerics& numerics) const {
                                 given.face_slices == numerics.face_slices;
     Scene scene = *this;
     scene.study_.numerics = numerics;
+    scene.ensemble_ = std::make_shared<const EnsemblePlan>(scene.study_);
     if (!same_stiffness) {
         auto gearbox = std::make_shared<GearboxPlan>(scene.study_);
         gearbox->stages = gearbox_->stages;

@@ -8,6 +8,7 @@
 #include <optional>
 #include <vector>
 
+#include "mc/plan/ensemble_plan.hpp"
 #include "mc/plan/feature_plan.hpp"
 #include "mc/plan/gearbox_plan.hpp"
 #include "mc/plan/life_plan.hpp"
@@ -42,6 +43,7 @@ class Scene {
     // Draws the gearboxes of the study.
     const Sampler& sampler() const { return *sampler_; }
     const DrawPlan& draw() const { return sampler_->draw_plan(); }
+    const EnsemblePlan& ensemble() const { return *ensemble_; }
     const GearboxPlan& gearbox() const { return *gearbox_; }
     const Drivetrain& drivetrain() const { return *gearbox_->drivetrain; }
     const std::vector<SceneMesh>& meshes() const { return gearbox_->stiffness->meshes(); }
@@ -100,6 +102,7 @@ class Scene {
     void plan_life();
 
     Study study_;
+    std::shared_ptr<const EnsemblePlan> ensemble_;
     std::shared_ptr<const Sampler> sampler_;
     std::shared_ptr<const GearboxPlan> gearbox_;
     std::shared_ptr<const ScenePlan> plan_;

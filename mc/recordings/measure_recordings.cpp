@@ -483,7 +483,7 @@ Results recordings_results(const RecordingList& list,
                        results.noise_levels,
                        groups_of(sizes),
                        {grading.name, grading.unit}};
-    for (const auto& [name, value] : provenance(study, 1, threads)) {
+    for (const auto& [name, value] : provenance(EnsemblePlan(study), 1, threads)) {
         // The study only defines how the recordings were evaluated; it did not create them.
         results.provenance.emplace_back(name == "study" ? "measured_by_study" : name, value);
     }

@@ -35,7 +35,8 @@ RowIdentities::RowIdentities(const Results& frame, const std::optional<Study>& s
     if (study) {
         seed_ = static_cast<std::uint64_t>(study->ensemble.seed);
         order_.emplace(study->ensemble);
-        plan_.emplace(study->ensemble, read_part(frame.provenance_value("part")).value_or(Part{}));
+        plan_.emplace(EnsemblePlan(*study).batches(
+            read_part(frame.provenance_value("part")).value_or(Part{})));
     }
     std::istringstream names(frame.provenance_value("recorded_gearboxes"));
     for (std::string name; std::getline(names, name);) {

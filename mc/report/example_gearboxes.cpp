@@ -297,10 +297,10 @@ class Examples {
           features_(scene, &healthy_, false),
           level_(reference_level(frame.noise_levels)) {}
 
-    // Identity of the gearbox in a row. Rows of a part count from the part's own first row.
+    // Identity of the gearbox in a row. Rows of a part count from the first row of the part.
     GearboxId id_of(std::size_t row) const {
-        const BatchPlan plan(scene_.study().ensemble,
-                             read_part(frame_.provenance_value("part")).value_or(Part{}));
+        const BatchPlan plan =
+            scene_.ensemble().batches(read_part(frame_.provenance_value("part")).value_or(Part{}));
         const Batch batch = plan.batch(plan.batch_of_row(row));
         const std::size_t within = row - batch.first_row;
         return {batch.group, batch.first_index + within / batch.records, Record::test,

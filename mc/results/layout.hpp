@@ -46,7 +46,9 @@ void for_each_column(Frame& frame, const Use& use) {
     const auto use_all = [&](const std::string& group, auto& columns, bool by_level) {
         const std::size_t width = by_level ? frame.noise_levels.size() : 1;
         for (auto& column : columns) {
-            use(StoredColumn{group + "/" + column.name, first, width, by_level, column.values});
+            using Values = std::remove_reference_t<decltype((column.values))>;
+            use(StoredColumn<Values>{group + "/" + column.name, first, width, by_level,
+                                     column.values});
             first += width;
         }
     };

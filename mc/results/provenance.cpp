@@ -36,29 +36,29 @@ std::string host_name() {
     return gethostname(host.data(), host.size() - 1) == 0 ? host.data() : "";
 }
 
-std::vector<std::pair<std::string, std::string>> provenance(const Study& study, int ranks,
+std::vector<std::pair<std::string, std::string>> provenance(const EnsemblePlan& plan, int ranks,
                                                             int threads) {
     return {{"code_version", GEARPOD_VERSION},
             {"git_hash", GEARPOD_GIT_HASH},
             {"compiler", "gcc " __VERSION__},
             {"instruction_set", std::string(machine::name(machine::active_instruction_set()))},
             {"kernels", lockstep::built_kernels()},
-            {"study", resolved_text(study)},
-            {"seed", std::to_string(study.ensemble.seed)},
+            {"study", plan.study},
+            {"seed", std::to_string(plan.seed)},
             {"ranks", std::to_string(ranks)},
             {"threads", std::to_string(threads)},
-            {"lanes", std::to_string(study.numerics.lanes)},
+            {"lanes", std::to_string(plan.lanes)},
             {"host", host_name()},
             {"date", fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(std::time(nullptr)))}};
 }
 
 std::string line_difference(const std::string& there, const std::string& here,
                             const std::string& where_there) {
-    std::istringstream one(there), two(here);
+    std::istringstream lines_there(there), lines_here(here);
     std::string a, b;
     do {
-        const bool more_a = static_cast<bool>(std::getline(one, a));
-        const bool more_b = static_cast<bool>(std::getline(two, b));
+        const bool more_a = static_cast<bool>(std::getline(lines_there, a));
+        const bool more_b = static_cast<bool>(std::getline(lines_here, b));
         if (!more_a && !more_b) {
             return "";
         }
@@ -68,22 +68,8 @@ std::string line_difference(const std::string& there, const std::string& here,
     return fmt::format("\"{}\" {}, \"{}\" here", a, where_there, b);
 }
 
-RunIdentity run_identity(const Study& study, const RowShape& shape, const Part& part) {
-    Study essence = study;
-    essence.title.clear();
-    for (PythonFeature& one : essence.features.python) {
-        one.file.clear();  // the hash of its content counts
-    }
-    essence.numerics.threads = Numerics{}.threads;
-    essence.numerics.lanes = Numerics{}.lanes;
-    essence.numerics.instruction_set = Numerics{}.instruction_set;
-    essence.ensemble = {};
-    essence.ensemble.threshold_instances = study.ensemble.threshold_instances;
-    essence.ensemble.sampling = study.ensemble.sampling;
-    essence.ensemble.threshold_records = study.ensemble.threshold_records;
-    essence.ensemble.importance_sampling = study.ensemble.importance_sampling;
-    return {version_text(), std::to_string(study.ensemble.seed), resolved_text(essence), shape,
-            part.text()};
+RunIdentity run_identity(const EnsemblePlan& plan, const RowShape& shape, const Part& part) {
+    return {version_text(), std::to_string(plan.seed), plan.identity, shape, part.text()};
 }
 
 std::string difference(const RunIdentity& there, const RunIdentity& here) {

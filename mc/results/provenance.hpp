@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "mc/results/result_rows.hpp"
-#include "mc/study/study.hpp"
 
 namespace gearpod::mc {
 
@@ -20,7 +19,7 @@ std::string version_text(const std::string& code_version, const std::string& git
 std::string build_text();
 
 // Root attributes of a results file, in order. `threads`: number of threads of all ranks.
-std::vector<std::pair<std::string, std::string>> provenance(const Study& study, int ranks,
+std::vector<std::pair<std::string, std::string>> provenance(const EnsemblePlan& plan, int ranks,
                                                             int threads);
 
 // Attribute of recordings' results: a line for each measured file, its SHA-256 and its name as
@@ -35,14 +34,12 @@ std::string host_name();
 struct RunIdentity {
     std::string version;  // version_text()
     std::string seed;
-    std::string study;  // resolved, without settings that do not affect the rows
+    std::string study;  // EnsemblePlan::identity
     RowShape shape;
     std::string part = {};  // Part::text()
 };
 
-// Omits the title, the number of test gearboxes, the stopping rule, and all settings of threads,
-// lanes, instruction set and checkpoints.
-RunIdentity run_identity(const Study& study, const RowShape& shape, const Part& part = {});
+RunIdentity run_identity(const EnsemblePlan& plan, const RowShape& shape, const Part& part = {});
 
 // Reason why a file of the run `there` cannot be continued as `here`, or "". One line, to follow
 // the file's name.

@@ -40,6 +40,7 @@
 #include "analysis/detection/detection.hpp"
 #include "mc/files/atomic_file.hpp"  // why_not_writable(path), to check before a long run
 #include "mc/files/signal_file.hpp"
+#include "mc/plan/ensemble_plan.hpp"
 
 namespace gearpod::mc {
 
@@ -77,10 +78,6 @@ inline constexpr const char* kRecordingsKind = "recordings";
 // survives.
 inline constexpr const char* kLivesKind = "lives";
 
-// Parameter that holds the importance weights of tilted records
-// (signals/windowing/noise_importance_sampler.hpp).
-inline constexpr const char* kNoiseWeight = "noise_weight";
-
 struct ParameterResult {
     std::string name;
     std::string unit;
@@ -106,12 +103,6 @@ struct Variant {
     std::string name, description;
     std::vector<FeatureResult> features;  // all of Results::features, in the same order
 };
-
-// Beginning of the names of variants that are measured by additional sensors.
-inline const std::string kSensorVariant = "sensor_";
-// Name of the variant in which the healthy gearboxes of the threshold group have another fault than
-// that of the study (SourceRole::other_fault). Its values are NaN for test gearboxes.
-inline constexpr const char* kOtherFault = "other_fault";
 
 struct Timing {
     std::string name;

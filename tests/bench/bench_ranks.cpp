@@ -59,23 +59,24 @@ int main(int count, char** arguments) {
         fmt::print(stderr, "{}\n", format(reading.problems));
         ranks.abort(2);
     }
-    const Study& study = *reading.study;
-    const BatchPlan plan(study.ensemble);
-    const RowShape shape = row_shape(study);
+    const EnsemblePlan ensemble(*reading.study);
+    const BatchPlan plan = ensemble.batches();
+    const RowShape& shape = ensemble.shape;
     std::unique_ptr<Checkpoint> checkpoint;
     MemoryRows none(0);
     if (ranks.leads()) {
-        checkpoint = open_checkpoint(study, shape, plan, words[1], {.force = true, .quiet = true});
+        checkpoint =
+            open_checkpoint(ensemble, shape, plan, words[1], {.force = true, .quiet = true});
     }
     RowStore& store = checkpoint ? static_cast<RowStore&>(*checkpoint) : none;
     Progress progress(static_cast<long>(plan.rows()), true);
     const double before_s = own_processor_s();
     const std::chrono::microseconds each(std::lround(1e3 * std::atof(words[2].c_str())));
-    const EnsembleOutcome outcome = run_batches(study, plan,
+    const EnsembleOutcome outcome = run_batches(ensemble, plan,
                                                 {.ranks = ranks,
                                                  .store = store,
                                                  .progress = progress,
-                                                 .checkpoint_s = study.ensemble.checkpoint_s},
+                                                 .checkpoint_s = ensemble.checkpoint_s},
                                                 [&] { return rows_at_once(shape, each); });
     if (!ranks.leads()) {
         return 0;

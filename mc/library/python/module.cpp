@@ -68,7 +68,7 @@ mc::Simulation simulate_rows(const mc::Scene& scene, const std::vector<long>& ro
     std::vector<mc::Simulation> each(rows.size());
     std::atomic<bool> stopped{false};
     const auto caller = std::this_thread::get_id();
-    machine::for_each_index(rows.size(), mc::thread_count(scene.study()), [&](std::size_t i) {
+    machine::for_each_index(rows.size(), mc::thread_count(scene.ensemble()), [&](std::size_t i) {
         if (std::this_thread::get_id() == caller && interrupted()) {
             stopped = true;
         }

@@ -119,16 +119,15 @@ StudyScene load_scene(const StudyOptions& options) {
     return made;
 }
 
-std::string shortage_of(const Study& study) {
-    const Ensemble& ensemble = study.ensemble;
-    return analysis::sample_shortage(ensemble.threshold_instances, study.detection.false_alarm_rate,
-                                     study.detection.confidence, analysis::Subject::gearboxes,
-                                     ensemble.threshold_records,
-                                     ensemble.uses_importance_sampling());
+std::string shortage_of(const EnsemblePlan& plan) {
+    const analysis::DetectionRequest& request = plan.request;
+    return analysis::sample_shortage(plan.threshold_gearboxes, request.false_alarm_rate,
+                                     request.confidence, analysis::Subject::gearboxes,
+                                     plan.threshold_records, request.importance_sampling);
 }
 
-void warn_of_shortage(const Study& study, const std::string& path) {
-    if (const std::string shortage = shortage_of(study); !shortage.empty()) {
+void warn_of_shortage(const EnsemblePlan& plan, const std::string& path) {
+    if (const std::string shortage = shortage_of(plan); !shortage.empty()) {
         fmt::print(stderr, "{}\n", wrapped_text(fmt::format("{}: warning: {}", path, shortage), 2));
     }
 }

@@ -52,10 +52,10 @@ StudyScene make_scene(const StudyOptions& options);
 StudyScene load_scene(const StudyOptions& options);
 
 // States that the study has too few healthy gearboxes for its false-alarm rate, or "".
-std::string shortage_of(const Study& study);
+std::string shortage_of(const EnsemblePlan& plan);
 
 // Prints that as a warning.
-void warn_of_shortage(const Study& study, const std::string& path);
+void warn_of_shortage(const EnsemblePlan& plan, const std::string& path);
 
 // File that a command reads or writes, and its role, for example "the study" or "--json".
 struct FileRole {

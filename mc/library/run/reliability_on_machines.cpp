@@ -91,8 +91,8 @@ class AllMachines {
     Levels pairs_;
 };
 
-void evaluate_share(const Study& study, const Ranks& ranks) {
-    Results frame = results_frame(study);
+void evaluate_share(const EnsemblePlan& plan, const Ranks& ranks) {
+    Results frame = results_frame(plan);
     Evaluated evaluated{static_cast<std::size_t>(ranks.machine()), {}, false};
     std::string bytes = ranks.from_leader_to_machines({});
     try {
@@ -102,7 +102,7 @@ void evaluate_share(const Study& study, const Ranks& ranks) {
         evaluated.levels =
             analysis::assess_pairs(*data, frame.detection, frame.request,
                                    {evaluated.machine, static_cast<std::size_t>(ranks.machines())},
-                                   threads_of_machine(study, ranks));
+                                   threads_of_machine(plan, ranks));
     } catch (...) {  // rank 0 reports the problem when it meets it, or is cancelled too
         evaluated = {evaluated.machine, {}, true};
     }
@@ -130,21 +130,21 @@ std::optional<analysis::Reliability> reliability_on_machines(const Results& fram
                                         threads);
 }
 
-std::string assess_for_leader(const Study& study, const Ranks& ranks) {
+std::string assess_for_leader(const EnsemblePlan& plan, const Ranks& ranks) {
     for (;;) {
         std::string order = ranks.from_leader("");
         if (order != kAssess) {
             return order;
         }
         if (ranks.first_on_machine()) {
-            evaluate_share(study, ranks);
+            evaluate_share(plan, ranks);
         }
     }
 }
 
-int threads_of_machine(const Study& study, const Ranks& ranks) {
+int threads_of_machine(const EnsemblePlan& plan, const Ranks& ranks) {
     const int count = ranks.on_this_machine();
-    return std::min(machine::processors(), count * thread_count(study, count));
+    return std::min(machine::processors(), count * thread_count(plan, count));
 }
 
 }  // namespace gearpod::mc

@@ -99,9 +99,9 @@ std::optional<analysis::Reliability> reliability_on_machines(const Results& fram
                                                              const Ranks& ranks, int threads);
 
 // Evaluates shares until rank 0 broadcasts something else (Ranks::from_leader), and returns that.
-std::string assess_for_leader(const Study& study, const Ranks& ranks);
+std::string assess_for_leader(const EnsemblePlan& plan, const Ranks& ranks);
 
 // Threads of all ranks on this machine, or its processors if there are fewer.
-int threads_of_machine(const Study& study, const Ranks& ranks);
+int threads_of_machine(const EnsemblePlan& plan, const Ranks& ranks);
 
 }  // namespace gearpod::mc

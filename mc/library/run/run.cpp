@@ -50,21 +50,21 @@ class Run {
           scene_(*made.scene),
           choice_(made.choice),
           ranks_(ranks),
-          study_(scene_.study()),
+          ensemble_(scene_.ensemble()),
           part_(read_part(options.part).value().text()),
-          plan_(plan_of(options, study_)),
+          plan_(plan_of(options, ensemble_)),
           checkpoint_(std::move(checkpoint)),
-          watch_(study_, plan_, options.watch),
+          watch_(ensemble_, plan_, options.watch),
           setup_s_(setup_s) {}
 
     int run(const Interruption& interruption) {
-        warn_of_shortage(study_, options_.study.path);
+        warn_of_shortage(ensemble_, options_.study.path);
         if (!options_.quiet) {
-            fmt::print(stderr, "running {}: {}\n", options_.study.path, study_.title);
+            fmt::print(stderr, "running {}: {}\n", options_.study.path, ensemble_.title);
             if (choice_) {
                 fmt::print(stderr, "tolerance {:g}: {}\n",
-                           choice_->of_scatter ? study_.numerics.scatter_tolerance
-                                               : study_.numerics.tolerance,
+                           choice_->of_scatter ? scene_.study().numerics.scatter_tolerance
+                                               : scene_.study().numerics.tolerance,
                            choice_->text());
             }
         }
@@ -77,7 +77,7 @@ class Run {
                                                      .progress = progress,
                                                      .interruption = &interruption,
                                                      .watch = &watch_,
-                                                     .checkpoint_s = study_.ensemble.checkpoint_s,
+                                                     .checkpoint_s = ensemble_.checkpoint_s,
                                                      .checkpointed = [&] { snapshot(); }});
         progress.finish();
         return conclude(outcome, interruption);
@@ -88,9 +88,9 @@ class Run {
 
     // Results without rows.
     Results frame(const RowSource& rows, const std::string& state) const {
-        Results results = results_frame(study_);
+        Results results = results_frame(ensemble_);
         results.detection = detect_all(results, rows);
-        results.provenance = provenance(study_, ranks_.size(), threads_);
+        results.provenance = provenance(ensemble_, ranks_.size(), threads_);
         results.provenance.emplace_back("state", state);
         results.provenance.emplace_back(
             "gearboxes_asked_for",
@@ -148,7 +148,7 @@ class Run {
         try {
             const analysis::Report report = results_report(
                 all, rows,
-                reliability_on_machines(all, rows, ranks_, threads_of_machine(study_, ranks_)));
+                reliability_on_machines(all, rows, ranks_, threads_of_machine(ensemble_, ranks_)));
             return {report_text(report), "\n" + headline_text(report)};
         } catch (const machine::Cancelled&) {
             return {"the time limit is reached; `gearpod report` shows the results", ""};
@@ -221,7 +221,7 @@ class Run {
             fmt::print("ensemble.until is reached with {} of {} {}: {}\n",
                        plan_.rows_before(outcome.batches), plan_.rows(), plan_.counted(),
                        watch_.text());
-        } else if (study_.ensemble.until.half_width) {
+        } else if (ensemble_.until) {
             fmt::print("ensemble.until is not reached: {}, about {} more gearboxes needed\n",
                        watch_.text(), watch_.rows_left().value_or(0));
         }
@@ -255,7 +255,7 @@ class Run {
     const Scene& scene_;
     const std::optional<NumericsChoice>& choice_;
     const Ranks& ranks_;
-    const Study& study_;
+    const EnsemblePlan& ensemble_;
     const std::string part_;  // "" for the whole ensemble
     const BatchPlan plan_;
     std::unique_ptr<Checkpoint> checkpoint_;
@@ -270,7 +270,7 @@ class Run {
 // Work of the other ranks: computing batches.
 void compute_for_leader(const RunOptions& options, const Scene& scene, const Ranks& ranks,
                         const Interruption& interruption) {
-    const BatchPlan plan = plan_of(options, scene.study());
+    const BatchPlan plan = plan_of(options, scene.ensemble());
     MemoryRows nothing(0);
     Progress silent(1, true);
     run_batches(
@@ -311,11 +311,12 @@ int run_study(const RunOptions& options, const Ranks& ranks) {
         const bool writable = check_output(options);
         const bool good_progress = check_progress(options);
         if (scene && writable && good_limit && good_progress &&
-            check_part(options, scene->study()) && check_watch(options, scene->study()) &&
-            check_signals(options, scene->study()) && check_memory(options, *scene, ranks)) {
+            check_part(options, scene->ensemble()) && check_watch(options, scene->ensemble()) &&
+            check_signals(options, scene->ensemble()) && check_memory(options, *scene, ranks)) {
             try {
                 checkpoint =
-                    open_checkpoint(*scene, plan_of(options, scene->study()), results_path(options),
+                    open_checkpoint(scene->ensemble(), scene->ensemble().shape,
+                                    plan_of(options, scene->ensemble()), results_path(options),
                                     {.resume = options.resume,
                                      .force = options.force,
                                      .quiet = options.quiet,
@@ -332,7 +333,7 @@ int run_study(const RunOptions& options, const Ranks& ranks) {
     }
     if (!ranks.leads()) {
         compute_for_leader(options, *scene, ranks, interruption);
-        return std::stoi(assess_for_leader(scene->study(), ranks));
+        return std::stoi(assess_for_leader(scene->ensemble(), ranks));
     }
     const int code =
         run_to_end(options, made, ranks, std::move(checkpoint), seconds_since(start), interruption);

@@ -26,8 +26,8 @@ std::string results_path(const RunOptions& options) {
                                : options.out;
 }
 
-BatchPlan plan_of(const RunOptions& options, const Study& study) {
-    return BatchPlan(study.ensemble, read_part(options.part).value_or(Part{}));
+BatchPlan plan_of(const RunOptions& options, const EnsemblePlan& plan) {
+    return plan.batches(read_part(options.part).value_or(Part{}));
 }
 
 bool check_time_limit(const RunOptions& options, std::optional<std::chrono::seconds>& limit) {
@@ -51,7 +51,7 @@ bool check_progress(const RunOptions& options) {
     return false;
 }
 
-bool check_part(const RunOptions& options, const Study& study) {
+bool check_part(const RunOptions& options, const EnsemblePlan& plan) {
     const std::optional<Part> part = read_part(options.part);
     if (!part) {
         fmt::print(stderr, "--part {}: must be K/N with K from 1 to N, for example 2/4\n",
@@ -61,40 +61,40 @@ bool check_part(const RunOptions& options, const Study& study) {
     if (part->whole()) {
         return true;
     }
-    if (study.ensemble.until.half_width) {
+    if (plan.until) {
         fmt::print(stderr,
                    "--part {}: ensemble.until needs the results of all gearboxes, which a part "
                    "does not have; remove one of the two\n",
                    options.part);
         return false;
     }
-    if (plan_of(options, study).batches() == 0) {
+    if (plan_of(options, plan).batches() == 0) {
         fmt::print(stderr,
                    "--part {}: the study's gearboxes form {} batches of {}, of which this part has "
                    "none; use fewer parts\n",
-                   options.part, BatchPlan(study.ensemble).batches(), kBatchRows);
+                   options.part, plan.batches().batches(), kBatchRows);
         return false;
     }
     return true;
 }
 
-bool check_watch(const RunOptions& options, const Study& study) {
-    const auto& use = study.features.use;
-    if (options.watch.empty() || std::find(use.begin(), use.end(), options.watch) != use.end()) {
+bool check_watch(const RunOptions& options, const EnsemblePlan& plan) {
+    if (options.watch.empty() ||
+        std::ranges::count(plan.features, options.watch, &features::Feature::name) > 0) {
         return true;
     }
     fmt::print(stderr, "--watch {}: is not among the study's features.use\n", options.watch);
     return false;
 }
 
-bool check_signals(const RunOptions& options, const Study& study) {
+bool check_signals(const RunOptions& options, const EnsemblePlan& plan) {
     if (!options.part.empty() && !options.signals.empty()) {
         fmt::print(
             stderr,
             "--signals: a part numbers its rows differently; use `gearpod simulate --instance`\n");
         return false;
     }
-    const auto rows = static_cast<long>(BatchPlan(study.ensemble).rows());
+    const auto rows = static_cast<long>(plan.batches().rows());
     const auto outside = std::find_if(options.signals.begin(), options.signals.end(),
                                       [&](long row) { return row < 0 || row >= rows; });
     if (outside == options.signals.end()) {
@@ -127,9 +127,10 @@ bool check_output(const RunOptions& options) {
 }
 
 bool check_memory(const RunOptions& options, const Scene& scene, const Ranks& ranks) {
-    const BatchPlan plan = plan_of(options, scene.study());
+    const BatchPlan plan = plan_of(options, scene.ensemble());
     const int here = ranks.on_this_machine();
-    const double needed = least_memory_bytes(scene, plan, here * thread_count(scene.study(), here));
+    const double needed =
+        least_memory_bytes(scene, plan, here * thread_count(scene.ensemble(), here));
     const double at_hand = available_memory_bytes();
     if (options.force || needed <= at_hand) {
         return true;
@@ -199,7 +200,7 @@ StudyScene load_scene_on_all_ranks(const Ranks& ranks, const StudyOptions& optio
     const auto names = ranks.gather(ranks.size() > 1 ? rank_name(ranks) : "");
     const auto programs =
         ranks.gather(ranks.size() > 1 ? fmt::format("{}, {}", version_text(), program_sum()) : "");
-    const auto studies = ranks.gather(made ? resolved_text(made.scene->study()) : "");
+    const auto studies = ranks.gather(made ? made.scene->ensemble().study : "");
     std::string why = all_problems[0];
     for (std::size_t rank = 1; rank < names.size() && why.empty(); ++rank) {
         const std::string& problem = all_problems[rank];

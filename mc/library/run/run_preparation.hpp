@@ -18,13 +18,13 @@ namespace gearpod::mc {
 
 std::string results_path(const RunOptions& options);
 // Batches that this run computes.
-BatchPlan plan_of(const RunOptions& options, const Study& study);
+BatchPlan plan_of(const RunOptions& options, const EnsemblePlan& plan);
 
 bool check_time_limit(const RunOptions& options, std::optional<std::chrono::seconds>& limit);
 bool check_progress(const RunOptions& options);
-bool check_part(const RunOptions& options, const Study& study);
-bool check_watch(const RunOptions& options, const Study& study);
-bool check_signals(const RunOptions& options, const Study& study);
+bool check_part(const RunOptions& options, const EnsemblePlan& plan);
+bool check_watch(const RunOptions& options, const EnsemblePlan& plan);
+bool check_signals(const RunOptions& options, const EnsemblePlan& plan);
 // Checks the path of the results, of the temporary file and of the checkpoint.
 bool check_output(const RunOptions& options);
 // Checks the memory of this machine against the lower limit of the run's memory.

@@ -104,8 +104,8 @@ PilotEnsemble run_pilot_ensemble(const Study& study) {
     PilotEnsemble pilot;
     pilot.results = run_ensemble(scene, silent);
     pilot.results.detection = detect_all(pilot.results);
-    pilot.reliability =
-        reliability_of(pilot.results, ColumnRows(pilot.results), "", thread_count(study, 1));
+    pilot.reliability = reliability_of(pilot.results, ColumnRows(pilot.results), "",
+                                       thread_count(scene.ensemble()));
     return pilot;
 }
 

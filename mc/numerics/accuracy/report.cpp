@@ -531,7 +531,7 @@ std::string accuracy_json(const AccuracyReport& report, const Study& study) {
     for (const PeerResult& peer : report.peers) {
         all["peers"].push_back(peer_json(peer));
     }
-    for (const auto& [name, value] : provenance(study, 1, 1)) {
+    for (const auto& [name, value] : provenance(EnsemblePlan(study), 1, 1)) {
         all["provenance"][name] = value;
     }
     return json_text(all, 2) + "\n";

@@ -192,11 +192,13 @@ Results synthetic_results(const Scene& scene, const RunCost& calibration, const 
     Study study = scene.study();
     study.ensemble.threshold_records = 1;  // a row for each gearbox
     const RowOrder order(study.ensemble);
-    const RowShape shape = row_shape(study);
-    Results results = results_frame(study);
+    const EnsemblePlan& ensemble = scene.ensemble();
+    const RowShape& shape = ensemble.shape;
+    Results results = results_frame(ensemble);
+    results.request.threshold_records = 1;
     results.noise_levels.clear();
     for (const std::size_t level : levels) {
-        results.noise_levels.push_back(study.sensor.noise_levels[level]);
+        results.noise_levels.push_back(ensemble.request.noise_levels[level]);
     }
     results.request.noise_levels = results.noise_levels;
     results.contact_loss.clear();  // not part of the analysis
@@ -222,7 +224,7 @@ Results synthetic_results(const Scene& scene, const RunCost& calibration, const 
         const Realization realization = scene.sampler().draw(id);
         const double size = realization.inputs.fault_size;
         std::vector<double> parameters;
-        append_random_inputs(study, realization, 1.0, parameters);
+        ensemble.append_inputs(realization.random_values, 1.0, parameters);
         parameters.push_back(size);
         Philox engine(static_cast<std::uint64_t>(study.ensemble.seed), id.group, id.index,
                       StreamPurpose::forecast_rows);

@@ -67,7 +67,7 @@ RankForecast forecast_ranks(const Scene& scene, const BatchPlan& plan, const Run
     const auto lanes = static_cast<std::size_t>(scene.study().numerics.lanes);
     const double motion = motion_bytes(scene);
     const IntegrationCounts integrations = integrations_of_ranks(scene, plan, motion, ranks);
-    const RowShape shape = row_shape(scene.study());
+    const RowShape& shape = scene.ensemble().shape;
     const auto batches = static_cast<double>(plan.batches());
 
     RankForecast forecast;
@@ -171,16 +171,15 @@ std::string leader_text(const RankForecast& forecast) {
                                          most));
 }
 
-void print_ranks(const Study& study, const RankForecast& forecast, int threads, int ranks) {
+void print_ranks(const EnsemblePlan& plan, const RankForecast& forecast, int threads, int ranks) {
     print_heading(fmt::format("forecast for {} MPI ranks", ranks));
     print_entry("threads", fmt::format("{} per rank, as here; {:.0f} have a batch of {} gearboxes "
                                        "to compute",
                                        threads, forecast.busy_threads, kBatchRows));
     print_entry("gearboxes", seconds_text(forecast.gearboxes_s));
-    print_entry(
-        "estimated time",
-        seconds_text(forecast.total_s) +
-            (study.ensemble.until.half_width ? ", or less if ensemble.until stops the run" : ""));
+    print_entry("estimated time",
+                seconds_text(forecast.total_s) +
+                    (plan.until ? ", or less if ensemble.until stops the run" : ""));
     print_entry("estimated memory",
                 fmt::format("{:.0f} MB per rank, {:.0f} MB for rank 0", forecast.rank_bytes / 1e6,
                             forecast.leader_bytes / 1e6));
@@ -223,9 +222,9 @@ bool print_lives(const Scene& scene, double setup_s) {
 
 void print_step_forecast(const Scene& scene, const PeakMemory& memory) {
     const Study& study = scene.study();
-    const BatchPlan plan(study.ensemble);
-    const auto threads =
-        std::min(static_cast<std::size_t>(std::max(1, thread_count(study))), plan.batches());
+    const BatchPlan plan = scene.ensemble().batches();
+    const auto threads = std::min(
+        static_cast<std::size_t>(std::max(1, thread_count(scene.ensemble()))), plan.batches());
     print_heading("forecast of a run");
     print_entry(
         "based on",
@@ -237,7 +236,7 @@ void print_step_forecast(const Scene& scene, const PeakMemory& memory) {
     if (study.effects.quasi_static()) {
         print_entry("gearboxes", "not forecast: a quasi-static study integrates nothing");
     } else {
-        const auto lanes = static_cast<double>(study.numerics.lanes);
+        const auto lanes = static_cast<double>(scene.ensemble().lanes);
         const double tiles = std::ceil(static_cast<double>(plan.threshold_gearboxes()) / lanes) +
                              std::ceil(static_cast<double>(plan.graded_rows()) / lanes);
         const double meshes = integrated_meshes(scene);
@@ -247,7 +246,7 @@ void print_step_forecast(const Scene& scene, const PeakMemory& memory) {
                 "{}: {:.0f} tiles of {} gearboxes, about {:.0f} mesh periods of {} "
                 "steps each",
                 seconds_text(tiles * meshes * mesh_period_s(scene) / static_cast<double>(threads)),
-                tiles, study.numerics.lanes, meshes, scene.plan().grid.steps.size()));
+                tiles, scene.ensemble().lanes, meshes, scene.plan().grid.steps.size()));
     }
     const double least_bytes =
         std::max(memory.setup_bytes + least_memory_bytes(scene, plan, static_cast<int>(threads)),
@@ -259,17 +258,17 @@ void print_forecast(const Scene& scene, double setup_s, int ranks) {
     if (ranks == 0 && print_lives(scene, setup_s)) {
         return;
     }
-    const Study& study = scene.study();
-    const BatchPlan plan(study.ensemble);
-    const int threads = thread_count(study);
+    const EnsemblePlan& ensemble = scene.ensemble();
+    const BatchPlan plan = ensemble.batches();
+    const int threads = thread_count(ensemble);
     const RunCost calibration = measure_run_cost(scene, plan, threads, kBudget_s);
     const AnalysisTrial trial = measure_analysis(scene, calibration, plan, threads, kBudget_s);
     const RunForecast forecast = forecast_run(scene, plan, calibration, trial, setup_s);
-    if (teeth_can_separate(study)) {
+    if (!ensemble.meshes.empty()) {
         print_heading("contact");
     }
     if (const std::string loss = contact_loss_text(
-            summarise_contact_loss(results_frame(study), CalibrationRows(calibration)));
+            summarise_contact_loss(results_frame(ensemble), CalibrationRows(calibration)));
         !loss.empty()) {
         print_entry("out of contact",
                     fmt::format("{} of the time of a tooth pair: mean (5 to 95 % range of {} "
@@ -286,13 +285,12 @@ void print_forecast(const Scene& scene, double setup_s, int ranks) {
                                          shares_text(forecast.work,
                                                      forecast.gearboxes_s * calibration.threads)));
     print_entry("detection and results", seconds_text(forecast.detection_s));
-    print_entry(
-        "estimated time",
-        seconds_text(forecast.total_s()) +
-            (study.ensemble.until.half_width ? ", or less if ensemble.until stops the run" : ""));
+    print_entry("estimated time",
+                seconds_text(forecast.total_s()) +
+                    (ensemble.until ? ", or less if ensemble.until stops the run" : ""));
     print_entry("estimated memory", fmt::format("{:.0f} MB", forecast.memory_bytes / 1e6));
     if (ranks > 0) {
-        print_ranks(study, forecast_ranks(scene, plan, calibration, trial, forecast, ranks),
+        print_ranks(ensemble, forecast_ranks(scene, plan, calibration, trial, forecast, ranks),
                     calibration.threads, ranks);
     }
 }

@@ -238,7 +238,7 @@ void print_lives_forecast(const Scene& scene, double setup_s) {
     };
     const int axes =
         interpolated(plan.distributions.torque) + interpolated(plan.distributions.speed);
-    const int threads = thread_count(scene.study());
+    const int threads = thread_count(scene.ensemble());
     // One load and five more for each quantity that varies are integrated at least.
     const int least_loads = axes == 0 ? 0 : 1 + 5 * axes;
     LivesForecast all = forecast_lives(LifeTiles(scene), threads, setup_s, least_loads);

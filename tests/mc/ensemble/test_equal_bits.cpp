@@ -81,7 +81,7 @@ class TileRows {
 
     std::vector<Bits> first(std::size_t gearboxes) {
         const auto ids = gearboxes_of(scene_);
-        const std::size_t values = mc::row_shape(scene_.study()).values();
+        const std::size_t values = scene_.ensemble().shape.values();
         mc::Seconds seconds;
         const mc::BatchRows computed = worker_.compute(std::span(ids).first(gearboxes), 1, seconds);
         std::vector<Bits> rows;
@@ -129,7 +129,7 @@ void check_simulation(const std::string& name) {
         return;  // `simulate` refuses a gearbox that failed
     }
     const mc::Simulation simulation = mc::simulate(scene, ids.front(), 1);
-    const std::size_t first = mc::row_shape(scene.study()).value_of(0, 0);
+    const std::size_t first = scene.ensemble().shape.value_of(0, 0);
     CHECK((test::bits_of(simulation.features) ==
            test::bits_of(std::span(row.values).subspan(first, simulation.features.size()))));
 }

@@ -21,13 +21,13 @@ const std::vector<std::string> kUntil{
     R"(ensemble.until={half_width=0.1, feature="window_ratio", size=4.28})"};
 
 // Healthy gearboxes have 1, graded ones 2 in every feature.
-BatchRows rows_of(const Study& study, const Batch& batch) {
+BatchRows rows_of(const Study& study, const EnsemblePlan& ensemble, const Batch& batch) {
     const Sampler sampler(study);
-    const RowShape shape = row_shape(study);
+    const RowShape& shape = ensemble.shape;
     BatchRows rows;
     for (std::size_t i = 0; i < batch.rows(); ++i) {
         const Realization drawn = sampler.draw({batch.group, batch.first_index + i});
-        append_random_inputs(study, drawn, 1.0, rows.values);
+        ensemble.append_inputs(drawn.random_values, 1.0, rows.values);
         rows.values.push_back(drawn.inputs.fault_size);
         rows.values.resize(rows.values.size() + shape.features * shape.levels,
                            batch.group == Group::threshold ? 1.0 : 2.0);
@@ -40,6 +40,7 @@ BatchRows rows_of(const Study& study, const Batch& batch) {
 
 TEST_CASE("The run may stop at the gearbox that the Wilson interval requires, in any order") {
     const Study study = test::shipped_study("planet-crack-ideal.toml", kUntil);
+    const EnsemblePlan ensemble(study);
     const BatchPlan plan(48, 700);
     // All of n are detected: half the interval is z^2 / (2 (n + z^2)), so n >= z^2 (1 / (2 w) - 1).
     const double z2 = 1.959963984540054 * 1.959963984540054;
@@ -55,9 +56,9 @@ TEST_CASE("The run may stop at the gearbox that the Wilson interval requires, in
     std::mt19937 engine(1);
     for (int trial = 0; trial < 5; ++trial) {
         MemoryRows store(plan.batches());
-        RunningPd watch(study, plan, "");
+        RunningPd watch(ensemble, plan, "");
         for (const std::size_t batch : order) {
-            store.write(batch, rows_of(study, plan.batch(batch)));
+            store.write(batch, rows_of(study, ensemble, plan.batch(batch)));
             watch.advance(store);
         }
         REQUIRE(watch.done());
@@ -70,14 +71,15 @@ TEST_CASE("The run may stop at the gearbox that the Wilson interval requires, in
 TEST_CASE(
     "The number of gearboxes until the requested interval is predicted from the rate so far") {
     const Study study = test::shipped_study("planet-crack-ideal.toml", kUntil);
+    const EnsemblePlan ensemble(study);
     const BatchPlan plan(48, 700);
     MemoryRows store(plan.batches());
-    RunningPd watch(study, plan, "");
+    RunningPd watch(ensemble, plan, "");
     CHECK_FALSE(watch.rows_left().has_value());
     CHECK(watch.text().empty());
     // The threshold group and 64 test gearboxes: nine of the largest size, 16 required.
     for (std::size_t batch = 0; batch < 7; ++batch) {
-        store.write(batch, rows_of(study, plan.batch(batch)));
+        store.write(batch, rows_of(study, ensemble, plan.batch(batch)));
     }
     watch.advance(store);
     CHECK_FALSE(watch.done());

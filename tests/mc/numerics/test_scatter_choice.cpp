@@ -31,7 +31,7 @@ Study real_teeth(std::vector<std::string> more = {}) {
 }
 
 std::vector<double> values(const Scene& scene, const BatchRows& rows, std::size_t feature) {
-    const RowShape shape = row_shape(scene.study());
+    const RowShape& shape = scene.ensemble().shape;
     std::vector<double> all;
     for (std::size_t row = 0; row < rows.count(); ++row) {
         all.push_back(rows.values[row * shape.values() + shape.value_of(feature, 0)]);

@@ -39,7 +39,7 @@ std::vector<double> many_numbers(const GearboxId& id) {
 
 std::size_t column_of(const Study& study, const std::string& name) {
     std::size_t column = 0;
-    while (input_columns(study)[column].name != name) {
+    while (EnsemblePlan(study).inputs[column].name != name) {
         ++column;
     }
     return column;

@@ -8,6 +8,7 @@
 #include <tuple>
 
 #include "mc/files/input/document.hpp"
+#include "mc/plan/ensemble_plan.hpp"
 #include "mc/plan/sampling.hpp"
 #include "signals/noise/normals.hpp"
 #include "tests/mc/plan/random_samples.hpp"
@@ -307,7 +308,8 @@ TEST_CASE("A fixed-shaft gearbox's inputs are sampled like any other's") {
     }();
     const Sampler sampler(study);
     CHECK(speed_member(study) == Member::pinion);
-    const auto columns = input_columns(study);
+    const EnsemblePlan plan(study);
+    const auto& columns = plan.inputs;
     REQUIRE(columns.size() == 3);
     CHECK(columns[0].name == "motor_coupling_stiffness_N_m_rad");
     CHECK(columns[0].unit == "N m/rad");
@@ -345,7 +347,8 @@ TEST_CASE("Rows of the results hold the sampled values in SI under their names")
     const Study study =
         study_with({"random.operation.carrier_speed_rpm={distribution='uniform', low=8, high=9}"});
     const Sampler sampler(study);
-    const auto columns = input_columns(study);
+    const EnsemblePlan plan(study);
+    const auto& columns = plan.inputs;
     REQUIRE(columns.size() == 4);
     CHECK(columns[0].name == "planet_bearing_stiffness_N_m");
     CHECK(columns[0].unit == "N/m");
@@ -358,7 +361,7 @@ TEST_CASE("Rows of the results hold the sampled values in SI under their names")
     for (const Group group : {Group::graded, Group::threshold}) {
         const Realization drawn = sampler.draw({group, 3});
         std::vector<double> row;
-        append_random_inputs(study, drawn, 1.0, row);
+        plan.append_inputs(drawn.random_values, 1.0, row);
         CHECK(row == std::vector<double>{drawn.inputs.bodies[Member::planet].bearing_stiffness_N_m,
                                          drawn.inputs.speed_rad_s, drawn.inputs.path_exponent});
     }

@@ -226,7 +226,7 @@ TEST_CASE("Synthetic results have the run's gearboxes and values similar to comp
     CHECK(std::count(made.group.begin(), made.group.end(), 0) == 400);
     CHECK(made.noise_levels == std::vector<double>{0.5, 1.0});
 
-    const RowShape shape = row_shape(study);
+    const RowShape shape = EnsemblePlan(study).shape;
     const std::size_t feature = test::feature_index(made, "window_ratio");
     std::set<double> distinct;
     std::vector<double> means;

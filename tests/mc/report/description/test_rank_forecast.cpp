@@ -54,8 +54,7 @@ TEST_CASE("Ranks share the batches, and at most as many threads compute as there
 TEST_CASE("Rank 0 limits the speed where batches arrive faster than it processes them") {
     const BatchPlan plan(16, 16 * 99'999);
     const double batches = 100'000.0;
-    const double each_s =
-        leader_time_s(checkpoint_bytes(plan, row_shape(scene().study())) / batches);
+    const double each_s = leader_time_s(checkpoint_bytes(plan, scene().ensemble().shape) / batches);
     const double batch_s = 0.1;
     const RankForecast some = forecast_of(plan, batch_s, 4, 50);
     CHECK(some.leader_share == Approx(4 * 50 * each_s / batch_s).epsilon(0.01));
