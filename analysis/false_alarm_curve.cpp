@@ -14,11 +14,11 @@ namespace {
 constexpr double kTargetPod = 0.9;
 
 // Test gearboxes with a value, by size: rows are sorted once for all thresholds.
-struct GradedRows {
+struct TestRows {
     std::vector<double> size, value;
     Alarm alarm;
 
-    explicit GradedRows(const GradedValues& values) : alarm(values.alarm) {
+    explicit TestRows(const TestValues& values) : alarm(values.alarm) {
         std::vector<std::size_t> order;
         for (std::size_t i = 0; i < values.value.size(); ++i) {
             if (std::isfinite(values.value[i])) {
@@ -102,11 +102,11 @@ double share_beyond(std::span<const double> ascending, double threshold) {
 
 }  // namespace
 
-FalseAlarmCurve false_alarm_curve(const GradedValues& values, std::span<const PodForm> forms,
+FalseAlarmCurve false_alarm_curve(const TestValues& values, std::span<const PodForm> forms,
                                   double confidence) {
     FalseAlarmCurve curve;
     const HealthyThresholds healthy(values.healthy, values.alarm);
-    const GradedRows graded(values);
+    const TestRows test(values);
     // The bounds of the threshold and the bounds of a90 each get half of the error probability.
     const double half = 1.0 - 0.5 * (1.0 - confidence), two_sided = confidence;
     for (const double rate : kCurveRates) {
@@ -125,9 +125,9 @@ FalseAlarmCurve false_alarm_curve(const GradedValues& values, std::span<const Po
             form.floor = form.floor > 0.0 ? rate : 0.0;
         }
         const auto middle =
-            a90_by_form(graded.outcomes_at(threshold.value), floored, half, std::nullopt);
-        const auto least = a90_by_form(graded.outcomes_at(near), floored, half, Side::lower);
-        const auto most = a90_by_form(graded.outcomes_at(far), floored, half, Side::upper);
+            a90_by_form(test.outcomes_at(threshold.value), floored, half, std::nullopt);
+        const auto least = a90_by_form(test.outcomes_at(near), floored, half, Side::lower);
+        const auto most = a90_by_form(test.outcomes_at(far), floored, half, Side::upper);
         bool fitted = false;
         for (std::size_t i = 0; i < floored.size(); ++i) {
             if (middle[i] && least[i] && most[i]) {
@@ -151,7 +151,7 @@ FalseAlarmCurve false_alarm_curve(const GradedValues& values, std::span<const Po
     return curve;
 }
 
-std::optional<LeastCost> least_cost(const GradedValues& values, const Costs& costs,
+std::optional<LeastCost> least_cost(const TestValues& values, const Costs& costs,
                                     double confidence) {
     const double sign = alarm_sign(values.alarm);
     const HealthyThresholds all(values.healthy, values.alarm);

@@ -1,6 +1,6 @@
 // Detectable size against false-alarm rate: a90 at thresholds for rates from 0.1 down to 1e-6, as
-// far as the healthy sample supports them (analysis/detection/threshold.hpp). Also the threshold of least
-// expected cost, where an alarm and a miss have a cost.
+// far as the healthy sample supports them (analysis/detection/threshold.hpp). Also the threshold of
+// least expected cost, where an alarm and a miss have a cost.
 #pragma once
 
 #include <array>
@@ -40,7 +40,7 @@ struct FalseAlarmCurve {
 };
 
 // Values of one feature at one noise level.
-struct GradedValues {
+struct TestValues {
     Alarm alarm = Alarm::high;
     HealthyValues healthy;  // threshold sample
     std::span<const double> size, value;
@@ -51,7 +51,7 @@ struct GradedValues {
 // of all forms, as in a POD (hit_miss_pod.hpp). The floor of a curve follows the false-alarm rate.
 // A rarer false alarm cannot find a smaller fault, so a90 and both of its bounds are made monotone:
 // none of them falls as the rate falls.
-FalseAlarmCurve false_alarm_curve(const GradedValues& values, std::span<const PodForm> forms,
+FalseAlarmCurve false_alarm_curve(const TestValues& values, std::span<const PodForm> forms,
                                   double confidence);
 
 // Costs of a false alarm and of a miss in the same unit of money, and the share of records that
@@ -78,7 +78,7 @@ struct LeastCost {
 // Minimises the expected cost (1 - share) rate alarm + share (1 - Pd) miss over the thresholds for
 // the rates of kCurveRates and over every order statistic of the healthy sample. Empty without
 // healthy or without faulty values.
-std::optional<LeastCost> least_cost(const GradedValues& values, const Costs& costs,
+std::optional<LeastCost> least_cost(const TestValues& values, const Costs& costs,
                                     double confidence);
 
 }  // namespace gearpod::analysis

@@ -21,9 +21,9 @@ struct HealthyAndFaulty {
 HealthyAndFaulty healthy_and_faulty(const ReliabilityData& data, const FeatureColumns& feature,
                                     std::size_t level, std::size_t levels) {
     HealthyAndFaulty values{every_nth(feature.healthy, level, levels), {}};
-    for (std::size_t i = 0; i < data.graded_size.size(); ++i) {
-        (data.graded_size[i] > 0.0 ? values.faulty : values.healthy)
-            .push_back(feature.graded[i * levels + level]);
+    for (std::size_t i = 0; i < data.test_size.size(); ++i) {
+        (data.test_size[i] > 0.0 ? values.faulty : values.healthy)
+            .push_back(feature.test[i * levels + level]);
     }
     return values;
 }
@@ -32,7 +32,7 @@ HealthyAndFaulty healthy_and_faulty(const ReliabilityData& data, const FeatureCo
 struct LevelValues {
     HealthyAndFaulty all;
     std::vector<double> thresholds;            // of the threshold sample
-    std::vector<double> graded;                // all test gearboxes in order
+    std::vector<double> test;                  // all test gearboxes in order
     std::vector<std::vector<double>> by_size;  // faulty gearboxes by size group
 };
 
@@ -43,11 +43,11 @@ LevelValues level_values(const ReliabilityData& data, const FeatureColumns& feat
     values.all = healthy_and_faulty(data, feature, level, levels);
     values.thresholds =
         every_nth(feature.records.empty() ? feature.healthy : feature.records, level, levels);
-    values.graded = every_nth(feature.graded, level, levels);
+    values.test = every_nth(feature.test, level, levels);
     values.by_size.resize(groups);
-    for (std::size_t i = 0; i < values.graded.size(); ++i) {
-        if (data.graded_size[i] > 0.0 && group[i] != kNoGroup) {
-            values.by_size[group[i]].push_back(values.graded[i]);
+    for (std::size_t i = 0; i < values.test.size(); ++i) {
+        if (data.test_size[i] > 0.0 && group[i] != kNoGroup) {
+            values.by_size[group[i]].push_back(values.test[i]);
         }
     }
     return values;
@@ -66,18 +66,18 @@ LevelReliability assess_level(const ReliabilityData& data, const FeatureColumns&
     for (const std::vector<double>& faulty : values.by_size) {
         level.auc_by_size.push_back(auc(healthy, faulty, high, confidence));
     }
-    const std::vector<int> hit = outcomes(values.graded, detection.threshold, feature.alarm);
-    level.hit_miss = pod_of_outcomes(data.graded_size, hit, detection, confidence);
-    level.signal_response = signal_response_pod(data.graded_size, values.graded,
+    const std::vector<int> hit = outcomes(values.test, detection.threshold, feature.alarm);
+    level.hit_miss = pod_of_outcomes(data.test_size, hit, detection, confidence);
+    level.signal_response = signal_response_pod(data.test_size, values.test,
                                                 {detection.threshold, feature.alarm, confidence});
     if (!level.has_threshold) {
         level.misses.refusal = "no threshold";
     } else {
-        level.misses = miss_sensitivity(data.graded_size, hit, data.inputs, confidence);
+        level.misses = miss_sensitivity(data.test_size, hit, data.inputs, confidence);
     }
-    level.inputs = input_effects(data.graded_size, hit, data.inputs, level.hit_miss,
+    level.inputs = input_effects(data.test_size, hit, data.inputs, level.hit_miss,
                                  transition_sizes(detection.cells), confidence);
-    level.uncertain = epistemic_band(data.graded_size, hit, data.uncertain, level.hit_miss);
+    level.uncertain = epistemic_band(data.test_size, hit, data.uncertain, level.hit_miss);
     for (const DetectionCell& cell : detection.cells) {
         if (cell.size.high > 0.0) {
             level.pd.push_back(cell.pd);
@@ -88,15 +88,15 @@ LevelReliability assess_level(const ReliabilityData& data, const FeatureColumns&
     if (!feature.records.empty()) {
         sample.weights = feature.weights;
     }
-    const GradedValues graded{feature.alarm, sample, data.graded_size, values.graded};
+    const TestValues test{feature.alarm, sample, data.test_size, values.test};
     level.by_rate = level.hit_miss.refusal.empty()
-                        ? false_alarm_curve(graded, level.hit_miss.supported, confidence)
+                        ? false_alarm_curve(test, level.hit_miss.supported, confidence)
                         : FalseAlarmCurve{{}, {}, level.hit_miss.refusal};
     if (data.costs) {
-        level.least_cost = least_cost(graded, *data.costs, confidence);
+        level.least_cost = least_cost(test, *data.costs, confidence);
     }
     level.demonstrated_size =
-        demonstrated_size(detection, data.graded_size, hit, kReliablePd, confidence);
+        demonstrated_size(detection, data.test_size, hit, kReliablePd, confidence);
     return level;
 }
 
@@ -117,18 +117,18 @@ FeatureRanking ranking_at(const ReliabilityData& data, std::size_t level, std::s
 CombinedDetector combined_at(const ReliabilityData& data, std::size_t level,
                              const DetectionRequest& request) {
     const std::size_t levels = request.noise_levels.size();
-    std::vector<std::vector<double>> healthy, graded;
+    std::vector<std::vector<double>> healthy, test;
     std::vector<CombinedFeature> features;
     for (const FeatureColumns& feature : data.features) {
         healthy.push_back(every_nth(feature.healthy, level, levels));
-        graded.push_back(every_nth(feature.graded, level, levels));
+        test.push_back(every_nth(feature.test, level, levels));
     }
     for (std::size_t f = 0; f < data.features.size(); ++f) {
-        features.push_back({data.features[f].name, data.features[f].alarm, healthy[f], graded[f]});
+        features.push_back({data.features[f].name, data.features[f].alarm, healthy[f], test[f]});
     }
     DetectionRequest here = request;
     here.noise_levels = {request.noise_levels[level]};
-    return combine_features(features, data.healthy_size, data.graded_size, here);
+    return combine_features(features, data.healthy_size, data.test_size, here);
 }
 
 LevelSensitivity sensitivity_at(const ReliabilityData& data,
@@ -144,9 +144,9 @@ LevelSensitivity sensitivity_at(const ReliabilityData& data,
     }
     const auto f = static_cast<std::size_t>(best - data.features.begin());
     const LevelDetection& detection = detections[f].levels[level];
-    const auto values = every_nth(best->graded, level, request.noise_levels.size());
+    const auto values = every_nth(best->test, level, request.noise_levels.size());
     return level_sensitivity(best->name, values, outcomes(values, detection.threshold, best->alarm),
-                             {request.size.name, request.size.unit, data.graded_size}, data.inputs,
+                             {request.size.name, request.size.unit, data.test_size}, data.inputs,
                              detection, request.confidence);
 }
 
@@ -162,7 +162,7 @@ std::vector<LevelReliability> assess_pairs(const ReliabilityData& data,
     const std::size_t levels = request.noise_levels.size(), pairs = data.features.size() * levels;
     const std::size_t count =
         share.first < pairs ? (pairs - share.first + share.step - 1) / share.step : 0;
-    const std::vector<std::size_t> group = groups_of(data.graded_size, request.groups);
+    const std::vector<std::size_t> group = groups_of(data.test_size, request.groups);
     std::vector<LevelReliability> result(count);
     // Entries are independent, so the results do not depend on the number of threads.
     machine::for_each_index(count, threads, [&](std::size_t i) {
@@ -191,7 +191,7 @@ Reliability assess_reliability(const ReliabilityData& data,
         for (const ConditionColumn& condition : data.condition) {
             result.conditions.push_back(detect_by_condition(
                 feature.name, feature.alarm, {data.healthy_size, feature.healthy},
-                {data.graded_size, feature.graded}, condition, request));
+                {data.test_size, feature.test}, condition, request));
         }
     }
     for (std::size_t n = 0; n < levels; ++n) {

@@ -67,7 +67,7 @@ struct FeatureColumns {
     std::string name;
     Alarm alarm = Alarm::high;
     std::span<const double> healthy;  // threshold sample, gearboxes x noise levels
-    std::span<const double> graded;
+    std::span<const double> test;
     // All records of the threshold sample (records x noise levels) if each gearbox has several, and
     // the importance-sampling weights of the records. Used for thresholds; `healthy` holds the
     // first record of each gearbox.
@@ -77,7 +77,7 @@ struct FeatureColumns {
 
 struct ReliabilityData {
     std::span<const double> healthy_size;  // threshold sample
-    std::span<const double> graded_size;
+    std::span<const double> test_size;
     std::vector<FeatureColumns> features;
     std::vector<InputColumn> inputs;         // inputs of the test gearboxes
     std::vector<InputColumn> uncertain;      // epistemic inputs among them (uncertain_inputs.hpp)

@@ -34,13 +34,13 @@ struct ResampledDetection {
 // One feature at one noise level, sorted once for many resamples.
 class Resampling {
   public:
-    Resampling(Alarm alarm, std::span<const double> healthy, std::span<const double> graded_size,
-               std::span<const double> graded, const std::vector<SizeGroup>& groups,
+    Resampling(Alarm alarm, std::span<const double> healthy, std::span<const double> test_size,
+               std::span<const double> test, const std::vector<SizeGroup>& groups,
                double false_alarm_rate);
 
     // Detection of one resample, given the number of times each gearbox is drawn. Fits the
     // POD curve `form`, or no curve if it is null.
-    ResampledDetection detect(const std::vector<int>& healthy, const std::vector<int>& graded,
+    ResampledDetection detect(const std::vector<int>& healthy, const std::vector<int>& test,
                               const PodForm* form) const;
 
   private:
@@ -55,7 +55,7 @@ class Resampling {
     double false_alarm_rate_;
     std::size_t groups_;
     std::vector<std::pair<double, std::size_t>> healthy_;  // value and gearbox, ascending
-    std::vector<TestValue> graded_;                        // ascending size
+    std::vector<TestValue> test_;                          // ascending size
 };
 
 namespace {
@@ -93,7 +93,7 @@ std::vector<int> bootstrap_counts(std::size_t count, std::mt19937_64& engine) {
 }
 
 Resampling::Resampling(Alarm alarm, std::span<const double> healthy,
-                       std::span<const double> graded_size, std::span<const double> graded,
+                       std::span<const double> test_size, std::span<const double> test,
                        const std::vector<SizeGroup>& groups, double false_alarm_rate)
     : sign_(alarm_sign(alarm)), false_alarm_rate_(false_alarm_rate), groups_(groups.size()) {
     for (std::size_t i = 0; i < healthy.size(); ++i) {
@@ -102,13 +102,13 @@ Resampling::Resampling(Alarm alarm, std::span<const double> healthy,
         }
     }
     std::sort(healthy_.begin(), healthy_.end());
-    const std::vector<std::size_t> group = groups_of(graded_size, groups);
-    for (std::size_t i = 0; i < graded.size(); ++i) {
-        if (std::isfinite(graded[i])) {
-            graded_.push_back({graded_size[i], sign_ * graded[i], i, group[i]});
+    const std::vector<std::size_t> group = groups_of(test_size, groups);
+    for (std::size_t i = 0; i < test.size(); ++i) {
+        if (std::isfinite(test[i])) {
+            test_.push_back({test_size[i], sign_ * test[i], i, group[i]});
         }
     }
-    std::sort(graded_.begin(), graded_.end(), [](const TestValue& a, const TestValue& b) {
+    std::sort(test_.begin(), test_.end(), [](const TestValue& a, const TestValue& b) {
         return a.size != b.size ? a.size < b.size : a.gearbox < b.gearbox;
     });
 }
@@ -140,13 +140,13 @@ double Resampling::beyond(const std::vector<int>& counts, long sample) const {
     return tail.refusal().empty() ? tail.threshold(false_alarm_rate_) : kNan;
 }
 
-ResampledDetection Resampling::detect(const std::vector<int>& healthy,
-                                      const std::vector<int>& graded, const PodForm* form) const {
+ResampledDetection Resampling::detect(const std::vector<int>& healthy, const std::vector<int>& test,
+                                      const PodForm* form) const {
     const double limit = threshold(healthy);
     std::vector<double> tested(groups_, 0.0), found(groups_, 0.0);
     HitMissTable table;
-    for (const TestValue& row : graded_) {
-        const double weight = graded[row.gearbox];
+    for (const TestValue& row : test_) {
+        const double weight = test[row.gearbox];
         const double hits = row.value > limit ? weight : 0.0;
         if (row.group != kNoGroup) {
             tested[row.group] += weight;
@@ -186,12 +186,12 @@ Detected detected(const ComparedSample& sample, const ComparisonRequest& request
     single_level_request.groups = request.groups;
     Detected result;
     result.level = detect("", sample.alarm, {no_fault, sample.healthy},
-                          {sample.graded_size, sample.graded}, single_level_request)
+                          {sample.test_size, sample.test}, single_level_request)
                        .levels.front();
-    result.hit = outcomes(sample.graded, result.level.threshold, sample.alarm);
+    result.hit = outcomes(sample.test, result.level.threshold, sample.alarm);
     constexpr int kNoBand = 2;
     result.pod =
-        pod_of_outcomes(sample.graded_size, result.hit, result.level, request.confidence, kNoBand);
+        pod_of_outcomes(sample.test_size, result.hit, result.level, request.confidence, kNoBand);
     return result;
 }
 
@@ -203,9 +203,9 @@ struct Resampled {
 
 Resampled resample(const ComparedSample& a, const ComparedSample& b, const Detected& of_a,
                    const Detected& of_b, const ComparisonRequest& request, int threads) {
-    const Resampling first(a.alarm, a.healthy, a.graded_size, a.graded, request.groups,
+    const Resampling first(a.alarm, a.healthy, a.test_size, a.test, request.groups,
                            request.false_alarm_rate);
-    const Resampling second(b.alarm, b.healthy, b.graded_size, b.graded, request.groups,
+    const Resampling second(b.alarm, b.healthy, b.test_size, b.test, request.groups,
                             request.false_alarm_rate);
     const bool curves = of_a.pod.refusal.empty() && of_b.pod.refusal.empty();
     const auto count = static_cast<std::size_t>(request.resamples);
@@ -215,12 +215,12 @@ Resampled resample(const ComparedSample& a, const ComparedSample& b, const Detec
     machine::for_each_index(count, threads, [&](std::size_t r) {
         std::mt19937_64 engine(r);
         const auto healthy = bootstrap_counts(a.healthy.size(), engine);
-        const auto graded = bootstrap_counts(a.graded.size(), engine);
+        const auto test = bootstrap_counts(a.test.size(), engine);
         const auto one =
-            first.detect(healthy, graded, curves ? &of_a.pod.chosen.curve.form : nullptr);
+            first.detect(healthy, test, curves ? &of_a.pod.chosen.curve.form : nullptr);
         const auto two =
             second.detect(request.paired ? healthy : bootstrap_counts(b.healthy.size(), engine),
-                          request.paired ? graded : bootstrap_counts(b.graded.size(), engine),
+                          request.paired ? test : bootstrap_counts(b.test.size(), engine),
                           curves ? &of_b.pod.chosen.curve.form : nullptr);
         for (std::size_t g = 0; g < request.groups.size(); ++g) {
             result.rates[g][r] = two.pd[g] - one.pd[g];
@@ -333,10 +333,9 @@ Areas areas_of(const ComparedSample& own, const ComparedSample& other, bool pair
             areas.healthy.push_back(sign * own.healthy[i]);
         }
     }
-    for (std::size_t i = 0; i < own.graded.size(); ++i) {
-        if (usable(own.graded, other.graded, i)) {
-            (own.graded_size[i] > 0.0 ? areas.faulty : areas.healthy)
-                .push_back(sign * own.graded[i]);
+    for (std::size_t i = 0; i < own.test.size(); ++i) {
+        if (usable(own.test, other.test, i)) {
+            (own.test_size[i] > 0.0 ? areas.faulty : areas.healthy).push_back(sign * own.test[i]);
         }
     }
     return areas;
@@ -381,13 +380,13 @@ NumberDifference auc_difference(const ComparedSample& a, const ComparedSample& b
 Comparison compare_detection(const ComparedSample& a, const ComparedSample& b,
                              const ComparisonRequest& request, int threads) {
     if (request.paired && (a.healthy.size() != b.healthy.size() ||
-                           !std::equal(a.graded_size.begin(), a.graded_size.end(),
-                                       b.graded_size.begin(), b.graded_size.end()))) {
+                           !std::equal(a.test_size.begin(), a.test_size.end(), b.test_size.begin(),
+                                       b.test_size.end()))) {
         throw std::invalid_argument("comparison: paired samples have different gearboxes");
     }
     const Detected of_a = detected(a, request), of_b = detected(b, request);
     const Resampled resampled = resample(a, b, of_a, of_b, request, threads);
-    const std::vector<std::size_t> group = groups_of(a.graded_size, request.groups);
+    const std::vector<std::size_t> group = groups_of(a.test_size, request.groups);
     Comparison result;
     for (std::size_t g = 0; g < request.groups.size(); ++g) {
         RateDifference rate;

@@ -17,8 +17,8 @@ namespace gearpod::analysis {
 struct ComparedSample {
     Alarm alarm = Alarm::high;
     std::span<const double> healthy;  // threshold sample; NaN: no value
-    std::span<const double> graded_size;
-    std::span<const double> graded;
+    std::span<const double> test_size;
+    std::span<const double> test;
 };
 
 struct ComparisonRequest {

@@ -59,12 +59,12 @@ void warn(const ConditionLevel& level, const ConditionColumn& column,
 }  // namespace
 
 ConditionDetection detect_by_condition(const std::string& feature, Alarm alarm,
-                                       const FeatureSample& healthy, const FeatureSample& graded,
+                                       const FeatureSample& healthy, const FeatureSample& test,
                                        const ConditionColumn& column,
                                        const DetectionRequest& request) {
     const std::size_t levels = request.noise_levels.size();
     if (column.healthy.size() * levels != healthy.values.size() ||
-        column.graded.size() * levels != graded.values.size()) {
+        column.test.size() * levels != test.values.size()) {
         throw std::invalid_argument("condition detection: needs one condition per gearbox");
     }
     ConditionDetection result{feature, column.name, column.unit, alarm, {}, {}, {}};
@@ -81,7 +81,7 @@ ConditionDetection detect_by_condition(const std::string& feature, Alarm alarm,
                                                   column.name, conditions.size());
         return result;
     }
-    const std::vector<std::size_t> group = groups_of(graded.fault_size, request.groups);
+    const std::vector<std::size_t> group = groups_of(test.fault_size, request.groups);
     for (std::size_t n = 0; n < levels; ++n) {
         ConditionLevel level;
         level.noise_level = request.noise_levels[n];
@@ -98,12 +98,12 @@ ConditionDetection detect_by_condition(const std::string& feature, Alarm alarm,
             }
             const auto own = std::find_if(
                 level.thresholds.begin(), level.thresholds.end(),
-                [&](const ConditionThreshold& t) { return t.condition == column.graded[i]; });
+                [&](const ConditionThreshold& t) { return t.condition == column.test[i]; });
             if (own == level.thresholds.end() || std::isnan(own->threshold)) {
                 ++level.without;
                 continue;
             }
-            count(level.cells[group[i]], graded.values[i * levels + n], own->threshold, alarm);
+            count(level.cells[group[i]], test.values[i * levels + n], own->threshold, alarm);
         }
         for (DetectionCell& cell : level.cells) {
             rate(cell, true, request.confidence);

@@ -40,7 +40,7 @@ struct ConditionColumn {
     std::string name;
     std::string unit;
     std::span<const double> healthy;  // one value per gearbox
-    std::span<const double> graded;
+    std::span<const double> test;
     // Index of the gearbox of each value of `healthy`; empty if every value has its own gearbox.
     std::span<const std::size_t> gearbox = {};
 };
@@ -49,7 +49,7 @@ struct ConditionColumn {
 // that is not known of a healthy gearbox. Throws std::invalid_argument unless there is one
 // condition per gearbox.
 ConditionDetection detect_by_condition(const std::string& feature, Alarm alarm,
-                                       const FeatureSample& healthy, const FeatureSample& graded,
+                                       const FeatureSample& healthy, const FeatureSample& test,
                                        const ConditionColumn& column,
                                        const DetectionRequest& request);
 

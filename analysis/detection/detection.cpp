@@ -252,15 +252,15 @@ void warn(const LevelDetection& level, std::size_t healthy, double rate,
 }  // namespace
 
 FeatureDetection detect(const std::string& feature, Alarm alarm, const FeatureSample& healthy,
-                        const FeatureSample& graded, const DetectionRequest& request) {
+                        const FeatureSample& test, const DetectionRequest& request) {
     const std::size_t levels = request.noise_levels.size();
     check_shapes(healthy, levels, "healthy");
-    check_shapes(graded, levels, "graded");
+    check_shapes(test, levels, "graded");
     check_request(request);
     FeatureDetection result;
     result.feature = feature;
     result.alarm = alarm;
-    const std::vector<std::size_t> group = groups_of(graded.fault_size, request.groups);
+    const std::vector<std::size_t> group = groups_of(test.fault_size, request.groups);
     const std::span<const std::size_t> none;
     for (std::size_t n = 0; n < levels; ++n) {
         LevelDetection level;
@@ -287,7 +287,7 @@ FeatureDetection detect(const std::string& feature, Alarm alarm, const FeatureSa
         }
         for (std::size_t i = 0; i < group.size(); ++i) {
             if (group[i] != kNoGroup) {
-                count(level.cells[group[i]], graded.values[i * levels + n], level.threshold, alarm);
+                count(level.cells[group[i]], test.values[i * levels + n], level.threshold, alarm);
             }
         }
         for (DetectionCell& cell : level.cells) {
@@ -326,9 +326,9 @@ bool tied_within_one(std::span<const double> values, std::span<const std::size_t
 
 FeatureDetection detect_clustered(const std::string& feature, Alarm alarm,
                                   const FeatureSample& healthy,
-                                  std::span<const std::size_t> gearbox, const FeatureSample& graded,
+                                  std::span<const std::size_t> gearbox, const FeatureSample& test,
                                   const DetectionRequest& request) {
-    FeatureDetection result = detect(feature, alarm, healthy, graded, request);
+    FeatureDetection result = detect(feature, alarm, healthy, test, request);
     const std::size_t count = std::set<std::size_t>(gearbox.begin(), gearbox.end()).size();
     if (count == gearbox.size() || !healthy.weights.empty()) {
         return result;

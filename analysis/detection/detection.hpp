@@ -42,12 +42,12 @@ struct FeatureSample {
 };
 
 // Sets thresholds from all of `healthy`, whatever their fault_size (healthy_thresholds.hpp), and
-// computes rates from `graded`. Intervals assume independent values or importance-sampled records;
+// computes rates from `test`. Intervals assume independent values or importance-sampled records;
 // use detect_clustered() for several plain records of each gearbox. Throws
 // std::invalid_argument if the shapes disagree, the false-alarm rate is not between 0 and 1, or the
 // size groups do not ascend.
 FeatureDetection detect(const std::string& feature, Alarm alarm, const FeatureSample& healthy,
-                        const FeatureSample& graded, const DetectionRequest& request);
+                        const FeatureSample& test, const DetectionRequest& request);
 
 // Detection from two-level healthy samples: several recordings of each of fewer gearboxes
 // (healthy_thresholds.hpp).
@@ -56,7 +56,7 @@ FeatureDetection detect(const std::string& feature, Alarm alarm, const FeatureSa
 // gearbox, or with importance-sampled records, the result is that of detect().
 FeatureDetection detect_clustered(const std::string& feature, Alarm alarm,
                                   const FeatureSample& healthy,
-                                  std::span<const std::size_t> gearbox, const FeatureSample& graded,
+                                  std::span<const std::size_t> gearbox, const FeatureSample& test,
                                   const DetectionRequest& request);
 
 // Smallest fault size that a detector finds reliably, demonstrated by tests without a curve.

@@ -21,10 +21,10 @@ constexpr int kCombinedBandPoints = 5;
 
 // Row indices of one half of the gearboxes, in the threshold sample and among the test gearboxes.
 struct Half {
-    std::vector<std::size_t> healthy, graded;
+    std::vector<std::size_t> healthy, test;
 };
 
-Half half_of(std::size_t healthy, std::size_t graded, bool training) {
+Half half_of(std::size_t healthy, std::size_t test, bool training) {
     Half half;
     const auto pick = [training](std::size_t count, std::vector<std::size_t>& rows) {
         for (std::size_t i = 0; i < count; ++i) {
@@ -34,7 +34,7 @@ Half half_of(std::size_t healthy, std::size_t graded, bool training) {
         }
     };
     pick(healthy, half.healthy);
-    pick(graded, half.graded);
+    pick(test, half.test);
     return half;
 }
 
@@ -49,8 +49,8 @@ std::vector<double> picked(std::span<const double> values, const std::vector<std
 // Values of one feature for a half, healthy gearboxes first, then test gearboxes.
 std::vector<double> values_of(const CombinedFeature& feature, const Half& half) {
     std::vector<double> values = picked(feature.healthy, half.healthy);
-    const std::vector<double> graded = picked(feature.graded, half.graded);
-    values.insert(values.end(), graded.begin(), graded.end());
+    const std::vector<double> test = picked(feature.test, half.test);
+    values.insert(values.end(), test.begin(), test.end());
     return values;
 }
 
@@ -75,12 +75,12 @@ struct Covariate {
 
 // Fits the scaling; returns the reason why the feature cannot be used, or "".
 std::string fit_covariate(Covariate& covariate, const Half& half,
-                          std::span<const double> graded_size) {
+                          std::span<const double> test_size) {
     std::vector<double> values = values_of(*covariate.feature, half);
     const std::size_t all = values.size();
     for (std::size_t i = 0; i < all; ++i) {
         const bool healthy =
-            i < half.healthy.size() || graded_size[half.graded[i - half.healthy.size()]] <= 0.0;
+            i < half.healthy.size() || test_size[half.test[i - half.healthy.size()]] <= 0.0;
         if (healthy && std::isfinite(values[i])) {
             covariate.healthy.push_back(values[i]);
         }
@@ -122,7 +122,7 @@ struct Training {
 };
 
 Training training_of(const std::vector<Covariate>& covariates, const Half& half,
-                     std::span<const double> graded_size) {
+                     std::span<const double> test_size) {
     std::vector<std::vector<double>> columns;
     for (const Covariate& covariate : covariates) {
         columns.push_back(values_of(*covariate.feature, half));
@@ -133,11 +133,11 @@ Training training_of(const std::vector<Covariate>& covariates, const Half& half,
     std::vector<std::size_t> rows;
     Training training;
     const std::size_t healthy = half.healthy.size();
-    for (std::size_t i = 0; i < healthy + half.graded.size(); ++i) {
+    for (std::size_t i = 0; i < healthy + half.test.size(); ++i) {
         if (std::all_of(columns.begin(), columns.end(),
                         [i](const auto& column) { return !std::isnan(column[i]); })) {
             rows.push_back(i);
-            const bool faulty = i >= healthy && graded_size[half.graded[i - healthy]] > 0.0;
+            const bool faulty = i >= healthy && test_size[half.test[i - healthy]] > 0.0;
             training.faulty.push_back(faulty ? 1 : 0);
         }
     }
@@ -171,14 +171,14 @@ std::vector<double> scores(const std::vector<Covariate>& covariates, const Eigen
 
 // Usable feature with the largest area on the training half.
 const CombinedFeature* best_single(const std::vector<Covariate>& covariates, const Half& half,
-                                   std::span<const double> graded_size, double confidence) {
+                                   std::span<const double> test_size, double confidence) {
     const CombinedFeature* best = nullptr;
     double largest = -1.0;
     for (const Covariate& covariate : covariates) {
         const CombinedFeature& feature = *covariate.feature;
         std::vector<double> healthy = picked(feature.healthy, half.healthy), faulty;
-        for (const std::size_t row : half.graded) {
-            (graded_size[row] > 0.0 ? faulty : healthy).push_back(feature.graded[row]);
+        for (const std::size_t row : half.test) {
+            (test_size[row] > 0.0 ? faulty : healthy).push_back(feature.test[row]);
         }
         const double area = auc(healthy, faulty, feature.alarm == Alarm::high, confidence).auc;
         if (area > largest) {
@@ -190,8 +190,8 @@ const CombinedFeature* best_single(const std::vector<Covariate>& covariates, con
 }
 
 struct HeldOut {
-    std::vector<double> healthy_size, graded_size;
-    std::vector<double> healthy, graded;  // values
+    std::vector<double> healthy_size, test_size;
+    std::vector<double> healthy, test;  // values
     Alarm alarm = Alarm::high;
 };
 
@@ -200,13 +200,13 @@ HeldOutDetector grade(const std::string& name, const HeldOut& held, const Detect
     HeldOutDetector detector;
     detector.name = name;
     FeatureDetection detection = detect(name, held.alarm, {held.healthy_size, held.healthy},
-                                        {held.graded_size, held.graded}, request);
+                                        {held.test_size, held.test}, request);
     detector.detection = detection.levels.front();
     if (warnings != nullptr) {
         *warnings = detection.warnings;
     }
-    const auto hit = outcomes(held.graded, detector.detection.threshold, held.alarm);
-    detector.pod = pod_of_outcomes(held.graded_size, hit, detector.detection, request.confidence,
+    const auto hit = outcomes(held.test, detector.detection.threshold, held.alarm);
+    detector.pod = pod_of_outcomes(held.test_size, hit, detector.detection, request.confidence,
                                    kCombinedBandPoints);
     return detector;
 }
@@ -219,8 +219,8 @@ void compare(CombinedDetector& result, const HeldOut& combined, const HeldOut& s
     const HeldOut* held[] = {&combined, &single};
     for (int d = 0; d < 2; ++d) {
         healthy[d] = held[d]->healthy;
-        for (std::size_t i = 0; i < held[d]->graded.size(); ++i) {
-            (combined.graded_size[i] > 0.0 ? faulty : healthy)[d].push_back(held[d]->graded[i]);
+        for (std::size_t i = 0; i < held[d]->test.size(); ++i) {
+            (combined.test_size[i] > 0.0 ? faulty : healthy)[d].push_back(held[d]->test[i]);
         }
         // Numbers as names, because a feature might have the same name as the combined detector.
         pair.push_back({d == 0 ? "0" : "1", held[d]->alarm, healthy[d], faulty[d]});
@@ -248,16 +248,16 @@ bool in_training_half(std::size_t instance) {
 
 CombinedDetector combine_features(const std::vector<CombinedFeature>& features,
                                   std::span<const double> healthy_size,
-                                  std::span<const double> graded_size,
+                                  std::span<const double> test_size,
                                   const DetectionRequest& request) {
     EXPECTS(request.noise_levels.size() == 1);
     CombinedDetector result;
     result.noise_level = request.noise_levels.front();
-    const Half training_half = half_of(healthy_size.size(), graded_size.size(), true);
-    const Half test_half = half_of(healthy_size.size(), graded_size.size(), false);
-    const long faulty = std::count_if(training_half.graded.begin(), training_half.graded.end(),
-                                      [&](std::size_t row) { return graded_size[row] > 0.0; });
-    const auto all = static_cast<long>(training_half.healthy.size() + training_half.graded.size());
+    const Half training_half = half_of(healthy_size.size(), test_size.size(), true);
+    const Half held_out_half = half_of(healthy_size.size(), test_size.size(), false);
+    const long faulty = std::count_if(training_half.test.begin(), training_half.test.end(),
+                                      [&](std::size_t row) { return test_size[row] > 0.0; });
+    const auto all = static_cast<long>(training_half.healthy.size() + training_half.test.size());
     result.refusal = sample_refusal(all - faulty, faulty);
     if (!result.refusal.empty()) {
         return result;
@@ -265,7 +265,7 @@ CombinedDetector combine_features(const std::vector<CombinedFeature>& features,
     std::vector<Covariate> covariates;
     for (const CombinedFeature& feature : features) {
         Covariate covariate{&feature, {}, 0.0, 1.0};
-        if (const std::string reason = fit_covariate(covariate, training_half, graded_size);
+        if (const std::string reason = fit_covariate(covariate, training_half, test_size);
             reason.empty()) {
             covariates.push_back(std::move(covariate));
         } else {
@@ -277,7 +277,7 @@ CombinedDetector combine_features(const std::vector<CombinedFeature>& features,
                                      covariates.size() == 1 ? "" : "s");
         return result;
     }
-    const Training training = training_of(covariates, training_half, graded_size);
+    const Training training = training_of(covariates, training_half, test_size);
     result.trained_faulty = std::count(training.faulty.begin(), training.faulty.end(), 1);
     result.trained_healthy = static_cast<long>(training.faulty.size()) - result.trained_faulty;
     result.refusal = sample_refusal(result.trained_healthy, result.trained_faulty);
@@ -296,15 +296,15 @@ CombinedDetector combine_features(const std::vector<CombinedFeature>& features,
             {covariates[c].feature->name, fit.coefficients[static_cast<Eigen::Index>(c) + 1]});
     }
     HeldOut combined{
-        picked(healthy_size, test_half.healthy), picked(graded_size, test_half.graded),
-        scores(covariates, fit.coefficients, &CombinedFeature::healthy, test_half.healthy),
-        scores(covariates, fit.coefficients, &CombinedFeature::graded, test_half.graded),
+        picked(healthy_size, held_out_half.healthy), picked(test_size, held_out_half.test),
+        scores(covariates, fit.coefficients, &CombinedFeature::healthy, held_out_half.healthy),
+        scores(covariates, fit.coefficients, &CombinedFeature::test, held_out_half.test),
         Alarm::high};
     const CombinedFeature* best =
-        best_single(covariates, training_half, graded_size, request.confidence);
+        best_single(covariates, training_half, test_size, request.confidence);
     HeldOut single = combined;
-    single.healthy = picked(best->healthy, test_half.healthy);
-    single.graded = picked(best->graded, test_half.graded);
+    single.healthy = picked(best->healthy, held_out_half.healthy);
+    single.test = picked(best->test, held_out_half.test);
     single.alarm = best->alarm;
     result.combined = grade("combined", combined, request, &result.warnings);
     result.single = grade(best->name, single, request, nullptr);

@@ -22,7 +22,7 @@ struct CombinedFeature {
     std::string name;
     Alarm alarm = Alarm::high;
     std::span<const double> healthy;  // threshold sample
-    std::span<const double> graded;
+    std::span<const double> test;
 };
 
 struct FeatureWeight {
@@ -58,7 +58,7 @@ bool in_training_half(std::size_t instance);
 // Refuses fewer than two usable features, and fewer than 50 healthy or faulty training gearboxes.
 CombinedDetector combine_features(const std::vector<CombinedFeature>& features,
                                   std::span<const double> healthy_size,
-                                  std::span<const double> graded_size,
+                                  std::span<const double> test_size,
                                   const DetectionRequest& request);
 
 }  // namespace gearpod::analysis

@@ -307,20 +307,20 @@ Json to_json(const SobolIndices& indices) {
 }
 
 Json combined_json(const CombinedDetector& combined) {
-    const bool graded = combined.refusal.empty();
+    const bool has_result = combined.refusal.empty();
     Json weights = Json::array();
     for (const FeatureWeight& weight : combined.weights) {
         weights.push_back({{"feature", weight.name}, {"weight", number(weight.weight)}});
     }
     return {{"weights", weights},
-            {"intercept", graded ? number(combined.intercept) : Json(nullptr)},
+            {"intercept", has_result ? number(combined.intercept) : Json(nullptr)},
             {"trained_healthy", combined.trained_healthy},
             {"trained_faulty", combined.trained_faulty},
-            {"detector", graded ? to_json(combined.combined) : Json(nullptr)},
-            {"single", graded ? to_json(combined.single) : Json(nullptr)},
-            {"gain",
-             graded ? number(combined.combined.auc.auc - combined.single.auc.auc) : Json(nullptr)},
-            {"p_value", graded ? number(combined.p_value) : Json(nullptr)},
+            {"detector", has_result ? to_json(combined.combined) : Json(nullptr)},
+            {"single", has_result ? to_json(combined.single) : Json(nullptr)},
+            {"gain", has_result ? number(combined.combined.auc.auc - combined.single.auc.auc)
+                                : Json(nullptr)},
+            {"p_value", has_result ? number(combined.p_value) : Json(nullptr)},
             {"left_out", combined.left_out},
             {"warnings", combined.warnings},
             {"refusal", text_or_null(combined.refusal)}};

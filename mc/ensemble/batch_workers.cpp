@@ -39,7 +39,7 @@ BatchWorker::BatchWorker(const BatchTask& task)
 BatchRows BatchWorker::compute(const Batch& batch, Seconds& seconds) {
     const NoiseSampling noise_sampling = batch.group == Group::threshold
                                              ? task_.scene.draw().rows.threshold_noise
-                                             : task_.graded_noise;
+                                             : task_.test_noise;
     std::vector<GearboxId> ids;
     for (std::size_t i = 0; i < batch.gearboxes; ++i) {
         ids.push_back({batch.group, batch.first_index + i, Record::test, 0, noise_sampling});

@@ -51,7 +51,7 @@ struct BatchTask {
     std::vector<HealthyReference> additional;  // of the additional sensors
     // Noise of test gearboxes with several records. If it is tilted, the study must use
     // importance sampling, so that its rows have a column for the weights.
-    NoiseSampling graded_noise = NoiseSampling::plain;
+    NoiseSampling test_noise = NoiseSampling::plain;
 };
 
 // Computes rows on one thread. Holds scratch memory: use one object per thread.

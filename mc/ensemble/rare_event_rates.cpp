@@ -82,7 +82,7 @@ MissRateResult estimate_miss_rate(const Scene& scene, const MissRateRequest& req
         {.ranks = ranks, .store = store, .progress = progress, .interruption = interruption},
         [&]() -> BatchComputers {
             const auto task = std::make_shared<BatchTask>(scene);
-            task->graded_noise = NoiseSampling::towards_misses;
+            task->test_noise = NoiseSampling::towards_misses;
             return [task, records]() -> BatchComputer {
                 const auto worker = std::make_shared<BatchWorker>(*task);
                 return [task, worker, records](Batch batch, Seconds& seconds) {
@@ -119,7 +119,7 @@ MissRateResult estimate_miss_rate(const Scene& scene, const MissRateRequest& req
 namespace {
 
 Group group_of(const RareRateRequest& request) {
-    return request.rate ? Group::threshold : Group::graded;
+    return request.rate ? Group::threshold : Group::test;
 }
 
 GearboxId id_of(const RareRateRequest& request, const analysis::SplitMember& member) {

@@ -114,7 +114,7 @@ class RowCheck {
         }
         if (row.status < 0 || row.status >= kStatuses) {
             why_ = fmt::format("/status of row {} has the invalid value {}", row.index, row.status);
-        } else if (row.group != 0 && row.group != 1 && (healthy_ || row.group != kUngraded)) {
+        } else if (row.group != 0 && row.group != 1 && (healthy_ || row.group != kNoGroup)) {
             why_ = fmt::format("/instances/group of row {} has the invalid value {}", row.index,
                                row.group);
         } else if (healthy_ && (row.index < *healthy_) != (row.group == 0)) {

@@ -93,20 +93,20 @@ std::unique_ptr<Checkpoint> extend_results(const std::string& results_path, cons
         healthy += static_cast<std::size_t>(
             std::count(block.group.begin(), block.group.end(), static_cast<int>(Group::threshold)));
     });
-    if (rows.rows() - healthy > batches.graded_rows()) {
+    if (rows.rows() - healthy > batches.test_rows()) {
         throw std::runtime_error(
             fmt::format("{}: cannot be continued: it has {} test gearboxes, more than the {} "
                         "requested; raise --instances",
-                        results_path, rows.rows() - healthy, batches.graded_rows()));
+                        results_path, rows.rows() - healthy, batches.test_rows()));
     }
     auto checkpoint = Checkpoint::create(path, identity, batches);
     const auto same_number = [](std::size_t batch) { return batch; };
     // One filler per group. The last batch of each group may be incomplete; it is omitted.
     BatchFiller thresholds(*checkpoint, batches, identity.shape, same_number),
-        graded(*checkpoint, batches, identity.shape, same_number);
+        test(*checkpoint, batches, identity.shape, same_number);
     rows.visit([&](const RowBlock& block) {
         thresholds.add(of_group(block, Group::threshold, 0));
-        graded.add(of_group(block, Group::graded, batches.threshold_rows() - healthy));
+        test.add(of_group(block, Group::test, batches.threshold_rows() - healthy));
     });
     checkpoint->sync();
     return checkpoint;

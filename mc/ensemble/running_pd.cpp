@@ -74,7 +74,7 @@ void RunningPd::count(const BatchRows& rows) {
     for (std::size_t row = 0; row < rows.count(); ++row) {
         const double* values = rows.values.data() + row * shape_.values();
         const double value = values[column_];
-        ++graded_;
+        ++test_;
         if (std::isfinite(value) && !std::isnan(threshold_) &&
             analysis::group_of(values[shape_.fault_size()], request_.groups) == group_) {
             ++tested_;
@@ -116,9 +116,9 @@ std::optional<std::size_t> RunningPd::rows_left() const {
         const double middle = std::floor(0.5 * (few + many));
         (half_width(middle) > *requested_half_width_ ? few : many) = middle;
     }
-    const double per_tested = static_cast<double>(graded_) / static_cast<double>(tested_);
+    const double per_tested = static_cast<double>(test_) / static_cast<double>(tested_);
     const auto all = static_cast<std::size_t>(per_tested * many);
-    return all - std::min(graded_, all);
+    return all - std::min(test_, all);
 }
 
 }  // namespace gearpod::mc

@@ -46,7 +46,7 @@ class RunningPd {
     std::size_t next_ = 0;    // next batch to read
     double threshold_ = 0.0;
     long tested_ = 0, detected_ = 0;
-    std::size_t graded_ = 0;  // number of gearboxes read
+    std::size_t test_ = 0;  // number of gearboxes read
     std::optional<std::size_t> stop_;
 };
 

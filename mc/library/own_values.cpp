@@ -43,17 +43,17 @@ nlohmann::json grade_values(const std::string& path, const OwnValues& own) {
     const auto reliability = reliability_of(results, rows, "", thread_count());
     const nlohmann::json detection =
         analysis::detection_json(results.detection, results.request, subject_of(results));
-    nlohmann::json graded;
-    graded["detection"] = {{"false_alarm_rate", detection["false_alarm_rate"]},
+    nlohmann::json result;
+    result["detection"] = {{"false_alarm_rate", detection["false_alarm_rate"]},
                            {"confidence", detection["confidence"]},
                            {"size", detection["size"]},
                            {"level", detection["features"][0]["levels"][0]}};
-    graded["reliability"] = nullptr;
+    result["reliability"] = nullptr;
     if (reliability) {
         const nlohmann::json all = analysis::reliability_json(*reliability, results.request);
-        graded["reliability"] = all["features"][0]["levels"][0];
+        result["reliability"] = all["features"][0]["levels"][0];
     }
-    return graded;
+    return result;
 }
 
 }  // namespace gearpod::mc

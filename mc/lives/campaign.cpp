@@ -77,7 +77,7 @@ CampaignPlan check_lives(const std::string& path, const Results& frame, const Ro
 
 bool measures_interpolation(const GearboxId& id) {
     constexpr std::uint64_t kMeasuredLives = 8;
-    return id.group == Group::graded && id.index < kMeasuredLives;
+    return id.group == Group::test && id.index < kMeasuredLives;
 }
 
 void add_life(const CampaignPlan& plan, const Realization& gearbox, const GearboxLife& life,
@@ -130,7 +130,7 @@ LifeRow life_of_row(const CampaignPlan& plan, const Results& frame, const Result
             history.records[r].*kRecordColumns[c].member = values[shape.value_of(features + c, r)];
         }
     }
-    history.first_cracked = row.group == static_cast<int>(Group::graded)
+    history.first_cracked = row.group == static_cast<int>(Group::test)
                                 ? static_cast<std::size_t>(plan.baseline_records)
                                 : history.records.size();
     for (std::size_t f = 0; life.status == Status::ok && f < features; ++f) {
@@ -175,7 +175,7 @@ BatchRows life_rows(const LifeTiles& tiles, const Batch& batch, Seconds& seconds
         std::vector<InterpolationErrors> errors(part.size());
         const auto measured_count = static_cast<std::size_t>(
             std::ranges::count_if(part, measures_interpolation, &Realization::id));
-        const auto lives = tiles.run(part, batch.group == Group::graded, costs,
+        const auto lives = tiles.run(part, batch.group == Group::test, costs,
                                      std::span(errors).first(measured_count));
         for (std::size_t lane = 0; lane < part.size(); ++lane) {
             add_life(tiles.plan().campaign, part[lane], lives[lane], errors[lane], rows);
@@ -219,7 +219,7 @@ Campaign campaign_of(const CampaignPlan& plan, const Results& frame, const RowSo
         LifeRow read = life_of_row(plan, frame, row);
         campaign.interpolation.take(read.interpolation);
         campaign.failed += read.life.status == Status::ok ? 0 : 1;
-        auto& lives = row.group == static_cast<int>(Group::graded) ? campaign.cracked
+        auto& lives = row.group == static_cast<int>(Group::test) ? campaign.cracked
                       : row.index < threshold_lives                ? campaign.threshold_lives
                                                                    : campaign.healthy;
         lives.push_back(std::move(read.life));

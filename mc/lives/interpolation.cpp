@@ -110,7 +110,7 @@ class Pilots {
   public:
     explicit Pilots(const LifeTiles& tiles) : tiles_(tiles) {
         for (std::uint64_t i = 0; i < kInterpolationPilots; ++i) {
-            gearboxes_.push_back(tiles.draw({Group::graded, i}));
+            gearboxes_.push_back(tiles.draw({Group::test, i}));
         }
     }
 

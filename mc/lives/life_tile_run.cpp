@@ -409,7 +409,7 @@ LaneSignals LifeTiles::synthetic_signals(std::uint64_t number) const {
         return static_cast<std::size_t>(of_mesh) * static_cast<std::size_t>(meshes);
     };
     LaneSignals all;
-    Philox engine = gearbox_stream(plan_.campaign.seed, {Group::graded, number},
+    Philox engine = gearbox_stream(plan_.campaign.seed, {Group::test, number},
                                    StreamPurpose::forecast_signals);
     all.sensor.resize(samples(scene_.samples_per_mesh(), scene_.span_meshes()));
     signals::draw_normals(engine, std::span(all.sensor));
@@ -421,7 +421,7 @@ LaneSignals LifeTiles::synthetic_signals(std::uint64_t number) const {
 RecordTimes LifeTiles::time_records() const {
     const std::vector<LaneSignals> none, healthy(load_count(), synthetic_signals(0)),
         low(load_count(), synthetic_signals(1)), high(load_count(), synthetic_signals(2));
-    Lane lane(*this, draw({Group::graded, 0}), false);
+    Lane lane(*this, draw({Group::test, 0}), false);
     lane.compute_reference_pattern(healthy);
     const auto seconds = [](const auto& work) {
         const double start = thread_processor_s();

@@ -59,11 +59,11 @@ std::vector<GearboxId> spread(const std::vector<GearboxId>& all, std::size_t cou
     return ids;
 }
 
-// Gearboxes of a group; of the graded ones only those with a fault.
+// Gearboxes of a group; of the test gearboxes only those with a fault.
 std::vector<GearboxId> members(const Scene& scene, Group group) {
     const Ensemble& ensemble = scene.study().ensemble;
     const std::int64_t count =
-        group == Group::graded ? ensemble.instances : ensemble.threshold_instances;
+        group == Group::test ? ensemble.instances : ensemble.threshold_instances;
     std::vector<GearboxId> ids;
     for (std::int64_t i = 0; i < count; ++i) {
         const GearboxId id{group, static_cast<std::uint64_t>(i)};
@@ -92,13 +92,13 @@ Values values_of(const Scene& scene, const BatchRows& rows) {
     return values;
 }
 
-// Adds the differences of the first `graded` gearboxes in one value. Infinite if a gearbox has it
-// with fine steps only.
-void add_differences(const Values& own, const Values& fine, std::size_t graded, std::size_t at,
+// Adds the differences of the first `test_count` gearboxes in one value. Infinite if a gearbox has
+// it with fine steps only.
+void add_differences(const Values& own, const Values& fine, std::size_t test_count, std::size_t at,
                      NumericalError& error) {
     double squares = 0.0, largest = 0.0;
     std::size_t compared = 0;
-    for (std::size_t g = 0; g < graded; ++g) {
+    for (std::size_t g = 0; g < test_count; ++g) {
         const double here = own.features[g][at], there = fine.features[g][at];
         if (std::isfinite(there)) {
             const double difference = std::isfinite(here) ? std::abs(here - there) : INFINITY;
@@ -128,14 +128,14 @@ std::vector<Counts> count_near(const Results& frame, const RowSource& rows) {
     }
     const std::size_t size_at = frame.parameter_index(frame.request.size.name).value_or(0);
     for_each_row(rows, [&](const ResultRow& row) {
-        const bool graded = row.group == static_cast<int>(Group::graded);
+        const bool is_test = row.group == static_cast<int>(Group::test);
         const auto group = analysis::group_of(row.values[size_at], groups);
         for (std::size_t at = 0; at < all.size(); ++at) {
             const double value = row.values[shape.parameters + at];
             if (!std::isfinite(value)) {
                 continue;
             }
-            if (!graded) {
+            if (!is_test) {
                 all[at].healthy.push_back(value);
             } else if (group) {
                 const double threshold =
@@ -228,7 +228,7 @@ std::optional<NumericalError> find_numerical_error(const Scene& scene) {
     const auto pairs = static_cast<std::size_t>(scene.study().numerics.paired_gearboxes);
     std::vector<GearboxId> ids, healthy;
     if (pairs > 0) {
-        ids = spread(members(scene, Group::graded), pairs);
+        ids = spread(members(scene, Group::test), pairs);
         healthy = spread(members(scene, Group::threshold), pairs);
     }
     const std::size_t faulty = ids.size();
@@ -237,22 +237,22 @@ std::optional<NumericalError> find_numerical_error(const Scene& scene) {
             1, scene.study().ensemble.instances / static_cast<std::int64_t>(kVerified)));
         ids = pilot_gearboxes(stride / 2, stride);
     }
-    const std::size_t graded = ids.size();
+    const std::size_t test_count = ids.size();
     ids.insert(ids.end(), healthy.begin(), healthy.end());
     const BatchRows own_rows = rows_of_gearboxes(scene, ids),
                     fine_rows = rows_of_gearboxes(*finer.scene, ids);
     const Values own = values_of(scene, own_rows), fine = values_of(scene, fine_rows);
     NumericalError error{
-        setting_of(scene).text(), finer.setting.text(), static_cast<int>(graded), {}, {}};
+        setting_of(scene).text(), finer.setting.text(), static_cast<int>(test_count), {}, {}};
     error.healthy_pairs = static_cast<int>(healthy.size());
     error.faulty_pairs = static_cast<int>(faulty);
     for (std::size_t at = 0; at < own.count; ++at) {
-        add_differences(own, fine, graded, at, error);
+        add_differences(own, fine, test_count, at, error);
         PairedValues values;
         for (std::size_t g = 0; g < ids.size(); ++g) {
             values.own.push_back(own.features[g][at]);
             values.fine.push_back(fine.features[g][at]);
-            values.size.push_back(g < graded ? own.size[g] : 0.0);
+            values.size.push_back(g < test_count ? own.size[g] : 0.0);
         }
         if (pairs > 0) {
             error.corrections.push_back(fit_correction(values));

@@ -59,8 +59,8 @@ class CorrectedRows final : public RowSource {
             RowBlock corrected = block;
             for (std::size_t row = 0; row < block.count(); ++row) {
                 double* const values = corrected.values.data() + row * shape.values();
-                const bool graded = block.group[row] == static_cast<int>(Group::graded);
-                const double size = graded ? values[shape.fault_size()] : 0.0;
+                const bool test = block.group[row] == static_cast<int>(Group::test);
+                const double size = test ? values[shape.fault_size()] : 0.0;
                 for (std::size_t at = 0; at < all.size(); ++at) {
                     if (!std::isfinite(all[at].by_size)) {
                         continue;  // too few pairs
@@ -115,7 +115,7 @@ double standard_deviation(const std::vector<double>& values) {
 }
 
 PairedCorrection fit_correction(const PairedValues& pairs) {
-    std::vector<double> own, size, difference, healthy_own, healthy_fine, healthy, graded;
+    std::vector<double> own, size, difference, healthy_own, healthy_fine, healthy, test;
     for (std::size_t i = 0; i < pairs.own.size(); ++i) {
         const double change = pairs.fine[i] - pairs.own[i];
         if (!std::isfinite(change)) {
@@ -124,14 +124,14 @@ PairedCorrection fit_correction(const PairedValues& pairs) {
         own.push_back(pairs.own[i]);
         size.push_back(pairs.size[i]);
         difference.push_back(change);
-        (pairs.size[i] > 0.0 ? graded : healthy).push_back(-change);
+        (pairs.size[i] > 0.0 ? test : healthy).push_back(-change);
         if (!(pairs.size[i] > 0.0)) {
             healthy_own.push_back(pairs.own[i]);
             healthy_fine.push_back(pairs.fine[i]);
         }
     }
     constexpr std::size_t kFewest = kFewestPairs;
-    if (healthy.size() < kFewest || graded.size() < kFewest) {
+    if (healthy.size() < kFewest || test.size() < kFewest) {
         return no_correction();
     }
     // The part that grows with the size, apart from what grows with the value.
@@ -157,8 +157,8 @@ PairedCorrection fit_correction(const PairedValues& pairs) {
             squares > 0.0 ? std::sqrt(weighted * count / (count - 3.0)) / squares : 0.0,
             mean(healthy),
             standard_error(healthy),
-            mean(graded),
-            standard_error(graded),
+            mean(test),
+            standard_error(test),
             standard_deviation(healthy_own) / standard_deviation(healthy_fine)};
 }
 

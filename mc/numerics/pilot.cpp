@@ -97,7 +97,7 @@ double PilotError::signals() const {
 std::vector<GearboxId> pilot_gearboxes(std::uint64_t first, std::uint64_t stride) {
     std::vector<GearboxId> ids;
     for (int i = 0; i < lockstep::kPilotLanes; ++i) {
-        ids.push_back({Group::graded, first + static_cast<std::uint64_t>(i) * stride});
+        ids.push_back({Group::test, first + static_cast<std::uint64_t>(i) * stride});
     }
     return ids;
 }

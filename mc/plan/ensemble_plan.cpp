@@ -39,7 +39,7 @@ std::optional<Part> read_part(const std::string& text) {
 BatchPlan::BatchPlan(std::int64_t threshold_instances, std::int64_t instances, const Part& part,
                      int threshold_records)
     : thresholds_(static_cast<std::size_t>(threshold_instances)),
-      graded_(static_cast<std::size_t>(instances)),
+      test_(static_cast<std::size_t>(instances)),
       records_(static_cast<std::size_t>(threshold_records)),
       part_(part) {}
 
@@ -47,9 +47,9 @@ Batch BatchPlan::batch(std::size_t index) const {
     const std::size_t all = number(index), thresholds = all_threshold_batches();
     const bool threshold = all < thresholds;
     const std::size_t in_group = threshold ? all : all - thresholds;
-    const std::size_t gearboxes = threshold ? thresholds_ : graded_;
+    const std::size_t gearboxes = threshold ? thresholds_ : test_;
     const std::size_t first = in_group * kBatchRows;
-    return {threshold ? Group::threshold : Group::graded, first, rows_before(index),
+    return {threshold ? Group::threshold : Group::test, first, rows_before(index),
             std::min<std::size_t>(kBatchRows, gearboxes - first), threshold ? records_ : 1};
 }
 
@@ -67,9 +67,9 @@ std::size_t BatchPlan::gearboxes_before(std::size_t batches) const {
         const bool included = last % part_.count == part_.index && last / part_.count < until;
         return included ? (kBatchRows - instances % kBatchRows) % kBatchRows : 0;
     };
-    const std::size_t thresholds = all_threshold_batches(), graded = batches_of(graded_);
+    const std::size_t thresholds = all_threshold_batches(), test = batches_of(test_);
     gearboxes -= thresholds > 0 ? short_of(thresholds - 1, thresholds_) : 0;
-    gearboxes -= graded > 0 ? short_of(thresholds + graded - 1, graded_) : 0;
+    gearboxes -= test > 0 ? short_of(thresholds + test - 1, test_) : 0;
     return gearboxes;
 }
 

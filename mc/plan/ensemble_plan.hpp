@@ -51,7 +51,7 @@ struct RowShape {
 
 // Consecutive gearboxes of one group. The records of a gearbox follow one another.
 struct Batch {
-    Group group = Group::graded;
+    Group group = Group::test;
     std::uint64_t first_index = 0;  // within the group
     std::size_t first_row = 0;      // within the results
     std::size_t gearboxes = 0;
@@ -84,15 +84,15 @@ class BatchPlan {
 
     std::size_t rows() const { return rows_before(batches()); }
     std::size_t threshold_rows() const { return rows_before(threshold_batches()); }
-    std::size_t graded_rows() const { return rows() - threshold_rows(); }
+    std::size_t test_rows() const { return rows() - threshold_rows(); }
     std::size_t threshold_gearboxes() const { return threshold_rows() / records_; }
     // Records per gearbox of the threshold group.
     std::size_t threshold_records() const { return records_; }
     // Name of a row: "gearboxes", or "records" if some gearboxes have several.
     const char* counted() const { return records_ > 1 ? "records" : "gearboxes"; }
     // Test gearboxes of the whole ensemble.
-    std::size_t graded_instances() const { return graded_; }
-    std::size_t batches() const { return of_part(all_threshold_batches() + batches_of(graded_)); }
+    std::size_t test_gearboxes() const { return test_; }
+    std::size_t batches() const { return of_part(all_threshold_batches() + batches_of(test_)); }
     std::size_t threshold_batches() const { return of_part(all_threshold_batches()); }
     Batch batch(std::size_t index) const;
     // Number of a batch in the whole ensemble.
@@ -112,7 +112,7 @@ class BatchPlan {
     std::size_t gearboxes_before(std::size_t batches) const;
 
     // gearboxes in each group, and records per threshold gearbox
-    std::size_t thresholds_, graded_, records_;
+    std::size_t thresholds_, test_, records_;
     Part part_;
 };
 

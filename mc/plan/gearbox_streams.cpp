@@ -59,7 +59,7 @@ GearboxId RowOrder::id_of(long row) const {
     return row < threshold_rows
                ? GearboxId{Group::threshold, static_cast<std::uint64_t>(row / records),
                            Record::test, static_cast<std::uint64_t>(row % records), threshold_noise}
-               : GearboxId{Group::graded, static_cast<std::uint64_t>(row - threshold_rows)};
+               : GearboxId{Group::test, static_cast<std::uint64_t>(row - threshold_rows)};
 }
 
 std::uint64_t source_index(std::uint64_t seed, const GearboxId& id, StreamPurpose purpose) {

@@ -22,7 +22,7 @@ enum class NoiseSampling { plain, towards_alarms, towards_misses };
 
 // Row `index` of a group of gearboxes, and one record of that gearbox.
 struct GearboxId {
-    Group group = Group::graded;
+    Group group = Group::test;
     std::uint64_t index = 0;
     Record record = Record::test;
     std::uint64_t repeat = 0;  // repetition of the record with other noise
@@ -36,7 +36,7 @@ struct GearboxId {
 };
 
 // Order of the rows in the results: all records of the threshold gearboxes, one gearbox after the
-// other, then the graded gearboxes.
+// other, then the test gearboxes.
 struct RowOrder {
     long threshold_gearboxes = 0;
     long records = 1;  // of each threshold gearbox

@@ -52,7 +52,7 @@ SamplingPlan::SamplingPlan(const Study& study, std::uint64_t sizes, std::uint64_
 
 SamplingPlan::SequencePoint SamplingPlan::place(Group group, std::uint64_t index) const {
     const std::uint64_t round = index / combinations_;
-    if (group == Group::graded) {
+    if (group == Group::test) {
         return {index % combinations_, round};
     }
     // Healthy gearboxes have no fault size: those that would differ only in it belong to one

@@ -107,7 +107,7 @@ double highest_frequency(const Study& study, const Sampler& sampler, const Gearb
     double result = highest_frequency(gearbox, gearbox.nominal);
     constexpr std::uint64_t kPilot = 32;
     for (std::uint64_t i = 0; i < (study.random.empty() ? 0 : kPilot); ++i) {
-        const InstanceInputs inputs = sampler.draw({Group::graded, i}).inputs;
+        const InstanceInputs inputs = sampler.draw({Group::test, i}).inputs;
         result = std::max(result, highest_frequency(gearbox, inputs));
     }
     return result;
@@ -298,7 +298,7 @@ class PlanBuilder {
         return {study_.errors.ring_planet_m, study_.errors.ring_planet_phase_rad};
     }
 
-    // Pilot sample: the nominal gearbox and the first graded ones. All have the largest fault, or
+    // Pilot sample: the nominal gearbox and the first test gearboxes. All have the largest fault, or
     // every second one if it is wear. The same for every run of the study.
     lockstep::Pilot pilot() const {
         const SceneFault& fault = stiffness_.fault();
@@ -310,7 +310,7 @@ class PlanBuilder {
             const InstanceInputs inputs =
                 lane == 0
                     ? gearbox_.nominal
-                    : sampler_.draw({Group::graded, static_cast<std::uint64_t>(lane - 1)}).inputs;
+                    : sampler_.draw({Group::test, static_cast<std::uint64_t>(lane - 1)}).inputs;
             pilot.inputs.push_back(gearbox_.inputs(inputs));
             const double largest = sizes.empty() ? 0.0 : sizes.back();
             for (int curve = 0; curve < fault.curves(); ++curve) {

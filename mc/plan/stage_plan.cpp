@@ -280,7 +280,7 @@ double slowest_period(const Sampler& sampler, double nominal) {
     constexpr std::uint64_t kGearboxes = 256;
     double slowest = 1.0;
     for (std::uint64_t i = 0; i < kGearboxes; ++i) {
-        for (const Group group : {Group::threshold, Group::graded}) {
+        for (const Group group : {Group::threshold, Group::test}) {
             slowest = std::max(slowest, nominal / sampler.draw({group, i}).inputs.speed_rad_s);
         }
     }

@@ -50,7 +50,7 @@ class StepNeeds {
         // gearboxes.
         constexpr std::uint64_t kPilot = 32;
         for (std::uint64_t i = 0; i < (study.random.empty() ? 0 : kPilot); ++i) {
-            gearboxes_.push_back(graded(i));
+            gearboxes_.push_back(test_gearbox(i));
         }
         const dynamics::GearboxInputs& nominal = gearboxes_[0];
         check_equal_masses();
@@ -75,7 +75,7 @@ class StepNeeds {
         constexpr std::uint64_t kPilot = 256;
         std::vector<double> needs{needed_steps(gearboxes_[0], integrator)};
         for (std::uint64_t i = 0; i < (study_.random.empty() ? 0 : kPilot); ++i) {
-            needs.push_back(needed_steps(graded(i), integrator));
+            needs.push_back(needed_steps(test_gearbox(i), integrator));
         }
         std::sort(needs.begin(), needs.end());
         const double worst = needs.back(), upper = needs[needs.size() * 9 / 10];
@@ -108,8 +108,8 @@ class StepNeeds {
             }
         }
     }
-    dynamics::GearboxInputs graded(std::uint64_t i) const {
-        return gearbox_.inputs(sampler_.draw({Group::graded, i}).inputs);
+    dynamics::GearboxInputs test_gearbox(std::uint64_t i) const {
+        return gearbox_.inputs(sampler_.draw({Group::test, i}).inputs);
     }
     dynamics::GearboxMatrices system(const dynamics::GearboxInputs& gearbox) const {
         return lockstep::with_mode_inertia(dynamics::assemble(layout_, gearbox, stiffest_),

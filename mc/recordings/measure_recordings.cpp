@@ -295,7 +295,7 @@ struct Grading {
         }
         const bool known =
             recording.condition == Condition::faulty && (!sized || recording.size.has_value());
-        return known ? static_cast<int>(Group::graded) : kUngraded;
+        return known ? static_cast<int>(Group::test) : kNoGroup;
     }
     double size(const Recording& recording) const {
         return sized ? recording.size.value_or(0.0)
@@ -462,7 +462,7 @@ Results recordings_results(const RecordingList& list,
         }
         const double size = grading.size(recording);
         parameter->values.push_back(size);
-        if (results.group.back() == static_cast<int>(Group::graded)) {
+        if (results.group.back() == static_cast<int>(Group::test)) {
             sizes.insert(size);
         }
         for (std::size_t f = 0; f < used.size(); ++f) {

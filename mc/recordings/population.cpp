@@ -63,7 +63,7 @@ PopulationFeature feature_of(const Results& results, std::size_t f, std::size_t 
     const std::size_t levels = results.noise_levels.size();
     for (std::size_t row = 0; row < results.group.size(); ++row) {
         const double value = results.features[f].values[row * levels + level];
-        if (!std::isfinite(value) || results.group[row] == kUngraded) {
+        if (!std::isfinite(value) || results.group[row] == kNoGroup) {
             continue;
         }
         const bool healthy =

@@ -82,7 +82,7 @@ std::string number_field(double value) {
 }
 
 const char* group_name(int group) {
-    return group == kUngraded                            ? "neither"
+    return group == kNoGroup                             ? "neither"
            : group == static_cast<int>(Group::threshold) ? "threshold"
                                                          : "graded";
 }
@@ -217,7 +217,7 @@ class Dataset {
         return size_at ? values[*size_at] : 0.0;
     }
     bool is_faulty(int group, const double* values) const {
-        return group == static_cast<int>(Group::graded) && (recorded_ || size_of(values) > 0.0);
+        return group == static_cast<int>(Group::test) && (recorded_ || size_of(values) > 0.0);
     }
 
     void count(const RowIdentity& identity, bool faulty) {
@@ -239,7 +239,7 @@ class Dataset {
             if (other_fault_) {
                 line += other_fault ? ",1" : ",0";
             }
-            line += group == kUngraded ? "," : is_faulty(group, values) ? ",1" : ",0";
+            line += group == kNoGroup ? "," : is_faulty(group, values) ? ",1" : ",0";
             for (std::size_t p = 0; p < shape_.parameters; ++p) {
                 line += "," + number_field(values[p]);
             }

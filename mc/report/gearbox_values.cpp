@@ -103,34 +103,33 @@ bool any_threshold(const Results& frame) {
 }
 
 // Returns the test rows, or none if there are more than kMostRead.
-std::vector<ReadRow> graded_rows(const RowShape& shape, const RowSource& rows) {
-    std::vector<ReadRow> graded;
+std::vector<ReadRow> test_rows(const RowShape& shape, const RowSource& rows) {
+    std::vector<ReadRow> test;
     std::size_t seen = 0;
     for_each_row(rows, [&](const ResultRow& row) {
-        if (row.group == static_cast<int>(Group::graded) && ++seen <= kMostRead) {
-            graded.push_back({row.index, {row.values, row.values + shape.values()}});
+        if (row.group == static_cast<int>(Group::test) && ++seen <= kMostRead) {
+            test.push_back({row.index, {row.values, row.values + shape.values()}});
         }
     });
     if (seen > kMostRead) {
-        graded.clear();
+        test.clear();
     }
-    return graded;
+    return test;
 }
 
 // Inputs that differ between the rows, at most kMostInputs, the last first.
-std::vector<std::size_t> differing_inputs(const Results& frame,
-                                          const std::vector<ReadRow>& graded) {
+std::vector<std::size_t> differing_inputs(const Results& frame, const std::vector<ReadRow>& test) {
     std::vector<std::size_t> inputs;
     for (std::size_t p = frame.parameters.size(); p-- > 0 && inputs.size() < kMostInputs;) {
-        if (std::any_of(graded.begin(), graded.end(),
-                        [&](const ReadRow& row) { return row.values[p] != graded[0].values[p]; })) {
+        if (std::any_of(test.begin(), test.end(),
+                        [&](const ReadRow& row) { return row.values[p] != test[0].values[p]; })) {
             inputs.push_back(p);
         }
     }
     return inputs;
 }
 
-analysis::Table values_table(const Results& frame, const std::vector<ReadRow>& graded,
+analysis::Table values_table(const Results& frame, const std::vector<ReadRow>& test,
                              std::size_t level) {
     const RowShape shape = row_shape(frame);
     const analysis::SizeUnit& size = frame.request.size;
@@ -138,7 +137,7 @@ analysis::Table values_table(const Results& frame, const std::vector<ReadRow>& g
     const bool levels = frame.noise_levels.size() > 1 || frame.noise_levels[level] != 0.0;
     analysis::Table table{
         fmt::format("values.{}", level), levels ? "Noise x " + noise : "", {"row"}, {}};
-    const std::vector<std::size_t> inputs = differing_inputs(frame, graded);
+    const std::vector<std::size_t> inputs = differing_inputs(frame, test);
     for (const std::size_t p : inputs) {
         const std::string& name = frame.parameters[p].name;
         table.columns.push_back(name != size.name ? name
@@ -149,7 +148,7 @@ analysis::Table values_table(const Results& frame, const std::vector<ReadRow>& g
         const bool pure = feature.unit.empty() || feature.unit == "1";
         table.columns.push_back(feature.name + (pure ? "" : fmt::format(" [{}]", feature.unit)));
     }
-    for (const ReadRow& row : graded) {
+    for (const ReadRow& row : test) {
         std::vector<std::string> cells{std::to_string(row.row)};
         for (const std::size_t p : inputs) {
             const bool is_size = frame.parameters[p].name == size.name;
@@ -172,9 +171,9 @@ analysis::Section feature_values(const Results& frame, const RowSource& rows) {
     if (frame.features.empty() || any_threshold(frame)) {
         return section;
     }
-    const std::vector<ReadRow> graded = graded_rows(row_shape(frame), rows);
-    for (std::size_t n = 0; !graded.empty() && n < frame.noise_levels.size(); ++n) {
-        section.add(values_table(frame, graded, n));
+    const std::vector<ReadRow> test = test_rows(row_shape(frame), rows);
+    for (std::size_t n = 0; !test.empty() && n < frame.noise_levels.size(); ++n) {
+        section.add(values_table(frame, test, n));
     }
     return section;
 }

@@ -96,7 +96,7 @@ std::vector<GearboxRecords> gearboxes_of(const RecordColumns& columns,
         };
         for (const std::size_t row : rows) {
             one.healthy.push_back(columns.group[row] == static_cast<int>(Group::threshold));
-            one.faulty.push_back(columns.group[row] == static_cast<int>(Group::graded));
+            one.faulty.push_back(columns.group[row] == static_cast<int>(Group::test));
         }
         one.time = in_order(columns.time);
         one.torque = in_order(columns.torque);

@@ -121,12 +121,12 @@ std::optional<OneSensor> learned_sensors(const std::vector<OneSensor>& sensors) 
     analysis::LearningSample sample;
     std::size_t number[2] = {0, 0};
     for (std::size_t row = 0; row < all.results.group.size(); ++row) {
-        const bool graded = all.results.group[row] != static_cast<int>(Group::threshold);
+        const bool is_test = all.results.group[row] != static_cast<int>(Group::threshold);
         const auto records =
-            static_cast<std::size_t>(graded ? 1 : all.results.request.threshold_records);
-        const std::size_t gearbox = number[graded ? 1 : 0]++ / records;
+            static_cast<std::size_t>(is_test ? 1 : all.results.request.threshold_records);
+        const std::size_t gearbox = number[is_test ? 1 : 0]++ / records;
         sample.half.push_back(analysis::in_training_half(gearbox) ? 1 : 0);
-        sample.faulty.push_back(graded && all.results.parameters[0].values[row] > 0.0);
+        sample.faulty.push_back(is_test && all.results.parameters[0].values[row] > 0.0);
     }
     bool any = false;
     for (std::size_t f = 0; f < all.results.features.size(); ++f) {
@@ -181,15 +181,15 @@ struct Columns {
                     healthy.push_back(feature->values[row]);
                 }
             } else {
-                graded.push_back(feature->values[row]);
+                test.push_back(feature->values[row]);
                 size.push_back(results.parameters[0].values[row]);
             }
         }
     }
-    analysis::ComparedSample sample() const { return {alarm, healthy, size, graded}; }
+    analysis::ComparedSample sample() const { return {alarm, healthy, size, test}; }
 
     analysis::Alarm alarm;
-    std::vector<double> healthy, graded, size;
+    std::vector<double> healthy, test, size;
 };
 
 SensorDetection detection_of(OneSensor& sensor) {

@@ -274,11 +274,11 @@ std::uint64_t Checkpoint::synced_before() {
         }
         return 0;
     }
-    if (number_at(bytes, 0) > plan_.graded_instances()) {
+    if (number_at(bytes, 0) > plan_.test_gearboxes()) {
         fail(
             fmt::format("belongs to a run with {} test gearboxes, more than the {} requested; "
                         "raise --instances, or delete it to start again",
-                        number_at(bytes, 0), plan_.graded_instances()));
+                        number_at(bytes, 0), plan_.test_gearboxes()));
     }
     return number_at(bytes, 8);
 }
@@ -363,7 +363,7 @@ void Checkpoint::write(std::size_t batch, const BatchRows& rows) {
 }
 
 void Checkpoint::write_counter() {
-    std::string counter = number_bytes(plan_.graded_instances()) + number_bytes(count_);
+    std::string counter = number_bytes(plan_.test_gearboxes()) + number_bytes(count_);
     counter += number_bytes(fnv1a(counter));
     if (!write_at(file_.get(), std::as_bytes(std::span(counter)),
                   static_cast<off_t>(header_.size())) ||

@@ -52,7 +52,7 @@ std::optional<AssessedColumns> assessed_columns(const Results& frame, const RowS
     std::vector<std::size_t> repeated_rows, healthy_rows;
     for_each_row(rows, [&](const ResultRow& row) {
         const bool sets_threshold = row.group == static_cast<int>(Group::threshold);
-        if (row.group == kUngraded) {
+        if (row.group == kNoGroup) {
             return;
         }
         if (sets_threshold && repeated) {
@@ -60,7 +60,7 @@ std::optional<AssessedColumns> assessed_columns(const Results& frame, const RowS
             repeated_rows.push_back(row.index);
         }
         if (!sets_threshold || row.index % records == 0) {
-            (sets_threshold ? columns.healthy : columns.graded).add(row.values, shape);
+            (sets_threshold ? columns.healthy : columns.test).add(row.values, shape);
             if (sets_threshold) {
                 healthy_rows.push_back(row.index);
             }
@@ -74,37 +74,37 @@ std::optional<AssessedColumns> assessed_columns(const Results& frame, const RowS
 
 AssessedData::AssessedData(const Results& frame, const AssessedColumns& columns,
                            const std::string& condition, std::optional<analysis::Costs> costs)
-    : no_fault_(std::max(columns.healthy.rows, columns.graded.rows), 0.0) {
-    const auto& [healthy, graded, repeats, healthy_gearbox, record_gearbox] = columns;
+    : no_fault_(std::max(columns.healthy.rows, columns.test.rows), 0.0) {
+    const auto& [healthy, test, repeats, healthy_gearbox, record_gearbox] = columns;
     data_.costs = costs;
     data_.record_gearbox = record_gearbox;
     std::span<const double> weights;
     data_.healthy_size = {no_fault_.data(), healthy.rows};
-    data_.graded_size = {no_fault_.data(), graded.rows};
+    data_.test_size = {no_fault_.data(), test.rows};
     for (std::size_t p = 0; p < frame.parameters.size(); ++p) {
         const ParameterResult& parameter = frame.parameters[p];
         if (parameter.name == frame.request.size.name) {
             data_.healthy_size = healthy.parameters[p];
-            data_.graded_size = graded.parameters[p];
+            data_.test_size = test.parameters[p];
             continue;
         }
         if (parameter.name == kNoiseWeight) {
             weights = repeats.parameters[p];
             continue;
         }
-        data_.inputs.push_back({parameter.name, parameter.unit, graded.parameters[p]});
+        data_.inputs.push_back({parameter.name, parameter.unit, test.parameters[p]});
         if (std::ranges::count(frame.request.uncertain, parameter.name) > 0) {
             data_.uncertain.push_back(data_.inputs.back());
         }
         if (parameter.name == condition) {
             data_.condition.push_back({parameter.name, parameter.unit, healthy.parameters[p],
-                                       graded.parameters[p], healthy_gearbox});
+                                       test.parameters[p], healthy_gearbox});
         }
     }
     for (std::size_t f = 0; f < frame.features.size(); ++f) {
         const std::string& name = frame.features[f].name;
         data_.features.push_back({name, frame.features[f].alarm, healthy.features[f],
-                                  graded.features[f], repeats.features[f],
+                                  test.features[f], repeats.features[f],
                                   uses_noise_weights(name) ? weights : std::span<const double>()});
     }
 }

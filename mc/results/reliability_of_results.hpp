@@ -30,8 +30,8 @@ struct ResultColumns {
 
 // Columns that curves, areas and ranking need.
 struct AssessedColumns {
-    ResultColumns healthy, graded;  // one record per gearbox
-    ResultColumns repeats;          // all records of the threshold sample, if there are several
+    ResultColumns healthy, test;  // one record per gearbox
+    ResultColumns repeats;        // all records of the threshold sample, if there are several
     std::vector<std::size_t> healthy_gearbox;
     std::vector<std::size_t> record_gearbox;  // of `repeats`, or of `healthy` if that is empty
 };

@@ -138,14 +138,14 @@ std::vector<analysis::FeatureDetection> detect_all(const Results& frame, const R
     std::vector<analysis::FeatureDetection> all;
     for (std::size_t first = 0; first < shape.features; first += at_once) {
         const std::size_t count = std::min(at_once, shape.features - first);
-        Sample healthy, graded;
+        Sample healthy, test;
         healthy.values.resize(count);
-        graded.values.resize(count);
+        test.values.resize(count);
         for_each_row(rows, [&](const ResultRow& row) {
-            if (row.group == kUngraded) {
+            if (row.group == kNoGroup) {
                 return;
             }
-            Sample& sample = row.group == static_cast<int>(Group::threshold) ? healthy : graded;
+            Sample& sample = row.group == static_cast<int>(Group::threshold) ? healthy : test;
             sample.row.push_back(row.index);
             sample.size.push_back(size_at ? row.values[*size_at] : 0.0);
             if (weight_at) {
@@ -165,7 +165,7 @@ std::vector<analysis::FeatureDetection> detect_all(const Results& frame, const R
                 sample.weights = healthy.weight;
             }
             all.push_back(analysis::detect_clustered(feature.name, feature.alarm, sample, numbers,
-                                                     {graded.size, graded.values[f]},
+                                                     {test.size, test.values[f]},
                                                      frame.request));
         }
     }

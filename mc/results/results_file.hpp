@@ -64,8 +64,8 @@ enum class Status {
 inline constexpr int kStatuses = 7;
 
 // Third value of a row's group, in addition to those of Group: the row neither sets thresholds nor
-// is graded.
-inline constexpr int kUngraded = 2;
+// is a test gearbox.
+inline constexpr int kNoGroup = 2;
 
 // Value of the provenance's `kind` if the rows are measured recordings. Results of a run have no
 // `kind`.

@@ -67,10 +67,10 @@ const std::vector<Kind> kInputs{
 void assess(const Kind& sizes, std::size_t count, double rate, unsigned seed) {
     std::mt19937_64 engine(seed);
     std::normal_distribution<double> normal;
-    std::vector<double> healthy_size(count, 0.0), graded_size;
+    std::vector<double> healthy_size(count, 0.0), test_size;
     std::vector<std::vector<double>> inputs(kInputs.size());
     for (std::size_t i = 0; i < count; ++i) {
-        graded_size.push_back(sizes.value(0.0, 0.0, normal(engine)));
+        test_size.push_back(sizes.value(0.0, 0.0, normal(engine)));
         for (std::size_t k = 0; k < kInputs.size(); ++k) {
             inputs[k].push_back(kInputs[k].value(0.0, 0.0, normal(engine)));
         }
@@ -81,17 +81,17 @@ void assess(const Kind& sizes, std::size_t count, double rate, unsigned seed) {
     request.groups = {{0.0, 0.0}, {kLeast, 1e-3}, {1e-3, 2e-3}, {2e-3, kLargest}};
     ReliabilityData data;
     data.healthy_size = healthy_size;
-    data.graded_size = graded_size;
-    std::vector<std::vector<double>> healthy(kValues.size()), graded(kValues.size());
+    data.test_size = test_size;
+    std::vector<std::vector<double>> healthy(kValues.size()), test(kValues.size());
     std::vector<FeatureDetection> detections;
     for (std::size_t f = 0; f < kValues.size(); ++f) {
         for (std::size_t i = 0; i < count; ++i) {
             healthy[f].push_back(kValues[f].value(0.0, normal(engine), normal(engine)));
-            graded[f].push_back(kValues[f].value(graded_size[i], inputs[0][i], normal(engine)));
+            test[f].push_back(kValues[f].value(test_size[i], inputs[0][i], normal(engine)));
         }
-        data.features.push_back({kValues[f].name, Alarm::high, healthy[f], graded[f]});
+        data.features.push_back({kValues[f].name, Alarm::high, healthy[f], test[f]});
         detections.push_back(detect(kValues[f].name, Alarm::high, {healthy_size, healthy[f]},
-                                    {graded_size, graded[f]}, request));
+                                    {test_size, test[f]}, request));
     }
     for (std::size_t k = 0; k < inputs.size(); ++k) {
         data.inputs.push_back({kInputs[k].name, "1", inputs[k]});
@@ -133,14 +133,14 @@ TEST_CASE(
     "Healthy test gearboxes that contradict the threshold end in a refusal, not in an error") {
     std::mt19937_64 engine(5);
     std::normal_distribution<double> normal;
-    std::vector<double> healthy_size(1500, 0.0), graded_size, constant(1500, 1.0), scattered;
+    std::vector<double> healthy_size(1500, 0.0), test_size, constant(1500, 1.0), scattered;
     for (std::size_t i = 0; i < healthy_size.size(); ++i) {
         scattered.push_back(normal(engine));
     }
-    std::vector<double> graded;  // every gearbox alarms, healthy or not
+    std::vector<double> test;  // every gearbox alarms, healthy or not
     for (int i = 0; i < 2000; ++i) {
-        graded_size.push_back(i % 2 == 0 ? 0.0 : 1e-3 * (1 + i % 5));
-        graded.push_back(50.0 + normal(engine));
+        test_size.push_back(i % 2 == 0 ? 0.0 : 1e-3 * (1 + i % 5));
+        test.push_back(50.0 + normal(engine));
     }
     DetectionRequest request;
     request.noise_levels = {1.0};
@@ -151,10 +151,10 @@ TEST_CASE(
         CAPTURE(rate);
         ReliabilityData data;
         data.healthy_size = healthy_size;
-        data.graded_size = graded_size;
-        data.features.push_back({"drifted", Alarm::high, healthy, graded});
-        const std::vector<FeatureDetection> detections{detect(
-            "drifted", Alarm::high, {healthy_size, healthy}, {graded_size, graded}, request)};
+        data.test_size = test_size;
+        data.features.push_back({"drifted", Alarm::high, healthy, test});
+        const std::vector<FeatureDetection> detections{
+            detect("drifted", Alarm::high, {healthy_size, healthy}, {test_size, test}, request)};
         CHECK_FALSE(detections[0].levels[0].healthy_rate <= 0.05);  // NaN beyond the sample
         Reliability found;
         REQUIRE_NOTHROW(found = assess_reliability(data, detections, request, 1));

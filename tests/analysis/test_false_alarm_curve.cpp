@@ -35,7 +35,7 @@ struct Study {
             value.push_back(sign * (size.back() + noise(engine)));
         }
     }
-    GradedValues values(Alarm alarm = Alarm::high) const { return {alarm, {healthy}, size, value}; }
+    TestValues values(Alarm alarm = Alarm::high) const { return {alarm, {healthy}, size, value}; }
 };
 
 double true_a90(double rate) {
@@ -107,7 +107,7 @@ TEST_CASE("Rates that a sample cannot determine leave the bounds of a90 at other
     for (std::size_t i = 0; i < study.healthy.size(); ++i) {
         gearbox.push_back(i / 40);
     }
-    const GradedValues values{Alarm::high, {study.healthy, gearbox}, study.size, study.value};
+    const TestValues values{Alarm::high, {study.healthy, gearbox}, study.size, study.value};
     const auto points = false_alarm_curve(values, {&kProbit, 1}, 0.95).points;
     REQUIRE(points.size() > 5);
     REQUIRE(points.back().threshold_bounds.lower < points.front().threshold_bounds.lower);
@@ -169,7 +169,7 @@ TEST_CASE("A threshold of least cost has the bounds of the method that determine
     for (std::size_t i = 0; i < size.size(); ++i) {
         value.push_back(3.0 + noise(engine));
     }
-    const GradedValues values{Alarm::high, {healthy, gearbox, weights}, size, value};
+    const TestValues values{Alarm::high, {healthy, gearbox, weights}, size, value};
     const HealthyThresholds all(values.healthy, Alarm::high);
     int counted = 0;
     for (const double miss : {300.0, 500.0, 700.0, 1000.0, 1500.0}) {

@@ -25,9 +25,9 @@ const double kNan = std::numeric_limits<double>::quiet_NaN();
 // that detects all and one that detects none.
 struct Study {
     DetectionRequest request;
-    std::vector<double> healthy_size, graded_size, torque, healthy_torque;
+    std::vector<double> healthy_size, test_size, torque, healthy_torque;
     std::vector<std::string> names{"good", "failed", "flat", "all", "none"};
-    std::vector<std::vector<double>> healthy{5}, graded{5};
+    std::vector<std::vector<double>> healthy{5}, test{5};
 
     explicit Study(int healthy_count = 400, int graded_count = 1400) {
         request.noise_levels = {1.0, 4.0};
@@ -53,9 +53,9 @@ struct Study {
             add(healthy, 0.0, healthy_torque.back());
         }
         for (int i = 0; i < graded_count; ++i) {
-            graded_size.push_back(request.groups[i % request.groups.size()].high);
+            test_size.push_back(request.groups[i % request.groups.size()].high);
             torque.push_back((i / 7) % 2);
-            add(graded, graded_size.back(), torque.back());
+            add(test, test_size.back(), torque.back());
         }
     }
 
@@ -63,7 +63,7 @@ struct Study {
         std::vector<FeatureDetection> all;
         for (std::size_t f = 0; f < names.size(); ++f) {
             all.push_back(detect(names[f], Alarm::high, {healthy_size, healthy[f]},
-                                 {graded_size, graded[f]}, request));
+                                 {test_size, test[f]}, request));
         }
         return all;
     }
@@ -71,13 +71,13 @@ struct Study {
     Reliability assess(bool by_torque = false, int threads = 2, std::size_t shares = 1) const {
         ReliabilityData data;
         data.healthy_size = healthy_size;
-        data.graded_size = graded_size;
+        data.test_size = test_size;
         data.inputs = {{"torque", "1", torque}};
         if (by_torque) {
             data.condition = {{"torque", "1", healthy_torque, torque}};
         }
         for (std::size_t f = 0; f < names.size(); ++f) {
-            data.features.push_back({names[f], Alarm::high, healthy[f], graded[f]});
+            data.features.push_back({names[f], Alarm::high, healthy[f], test[f]});
         }
         const auto found = detections();
         std::vector<LevelReliability> pairs(names.size() * request.noise_levels.size());
@@ -161,9 +161,9 @@ TEST_CASE("The text is complete within its columns and contains no invented numb
 }
 
 TEST_CASE("A handful of gearboxes gets no curve, no area and no rank") {
-    for (const auto& [healthy, graded, curves] :
+    for (const auto& [healthy, test, curves] :
          {std::tuple{1, 7, false}, std::tuple{400, 7, false}, std::tuple{400, 14, true}}) {
-        const Study study(healthy, graded);
+        const Study study(healthy, test);
         const std::string text = text_of(study, study.assess());
         INFO(text);
         CHECK((text.find("POD curve") != std::string::npos) == curves);
@@ -220,8 +220,8 @@ TEST_CASE("The JSON maps detection over every input and does not depend on the n
 
 TEST_CASE("Studies without healthy or without faulty gearboxes are reported, not computed") {
     const std::pair<int, int> counts[] = {{0, 0}, {0, 70}, {50, 0}, {1, 7}, {400, 7}};
-    for (const auto& [healthy, graded] : counts) {
-        Study study(healthy, graded);
+    for (const auto& [healthy, test] : counts) {
+        Study study(healthy, test);
         const Reliability result = study.assess(true);
         const std::string text = text_of(study, result);
         INFO(text);
@@ -230,7 +230,7 @@ TEST_CASE("Studies without healthy or without faulty gearboxes are reported, not
         CHECK(!json.empty());
         if (healthy == 0) {
             CHECK(result.features[0].levels[0].hit_miss.refusal == "no threshold");
-        } else if (graded == 0) {
+        } else if (test == 0) {
             CHECK(!result.features[0].levels[0].hit_miss.refusal.empty());
         }
     }

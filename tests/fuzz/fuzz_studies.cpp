@@ -80,7 +80,7 @@ std::string nonsense(const mc::Study& study) {
         return "its resolved text reads to another study";
     }
     const mc::Sampler sampler(study);
-    for (const mc::Group group : {mc::Group::threshold, mc::Group::graded}) {
+    for (const mc::Group group : {mc::Group::threshold, mc::Group::test}) {
         const mc::Realization drawn = sampler.draw({group, 12345});
         std::vector<double> values = drawn.random_values;
         values.push_back(drawn.inputs.fault_size);

@@ -21,7 +21,7 @@ struct Drawn {
 using Law = std::function<double(const Drawn&, double noise)>;
 
 struct Plan {
-    int healthy = 400, graded = 600;
+    int healthy = 400, test = 600;
     std::vector<double> sizes{0.0, 0.5e-3, 1e-3, 2e-3};
     std::vector<double> noise_levels{0.0, 1.0, 3.0};
     std::vector<std::pair<std::string, Law>> features;
@@ -62,14 +62,14 @@ Results drawn(const Plan& plan) {
     std::mt19937_64 engine(7);
     std::normal_distribution<double> normal;
     std::uniform_real_distribution<double> uniform;
-    for (int row = 0; row < plan.healthy + plan.graded; ++row) {
+    for (int row = 0; row < plan.healthy + plan.test; ++row) {
         const bool sets_threshold = row < plan.healthy;
         const double level = plan.sizes[static_cast<std::size_t>(row) % plan.sizes.size()];
         const double size = sets_threshold    ? 0.0
                             : plan.continuous ? plan.sizes.back() * uniform(engine)
                                               : level;
         const Drawn gearbox{size, 1e8 * (1.0 + 0.2 * normal(engine)), normal(engine)};
-        r.group.push_back(static_cast<int>(sets_threshold ? Group::threshold : Group::graded));
+        r.group.push_back(static_cast<int>(sets_threshold ? Group::threshold : Group::test));
         r.status.push_back(0);
         r.parameters[0].values.push_back(gearbox.stiffness);
         r.parameters[1].values.push_back(gearbox.size);
@@ -121,10 +121,10 @@ std::vector<ReportCase> report_cases() {
     const auto add = [&](const std::string& name, const Plan& plan) {
         cases.push_back({name, drawn(plan)});
     };
-    const auto with_counts = [](int healthy, int graded) {
+    const auto with_counts = [](int healthy, int test) {
         Plan plan = usual_plan();
         plan.healthy = healthy;
-        plan.graded = graded;
+        plan.test = test;
         return plan;
     };
     add("usual", usual_plan());

@@ -41,7 +41,7 @@ void check_numbers(const Json& json) {
 }
 
 // Checks that every test gearbox is in one cell, as tested or as failed.
-void check_cells(const Json& json, std::size_t graded) {
+void check_cells(const Json& json, std::size_t test) {
     for (const Json& feature : json["detection"]["features"]) {
         for (const Json& level : feature["levels"]) {
             std::size_t counted = 0;
@@ -51,7 +51,7 @@ void check_cells(const Json& json, std::size_t graded) {
                 CHECK(cell["pd"].is_null() ==
                       (cell["tested"] == 0 || level["threshold"].is_null()));
             }
-            CHECK(counted == graded);
+            CHECK(counted == test);
         }
     }
 }

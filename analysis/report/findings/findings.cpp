@@ -18,12 +18,12 @@ constexpr long kFewestReported =
 void count_sample(Findings& findings) {
     for (const FeatureDetection& feature : findings.detection) {
         for (const LevelDetection& level : feature.levels) {
-            long sound = level.threshold_sample, graded = 0;
+            long sound = level.threshold_sample, test = 0;
             for (const DetectionCell& cell : level.cells) {
-                (cell.size.high > 0.0 ? graded : sound) += cell.tested;
+                (cell.size.high > 0.0 ? test : sound) += cell.tested;
             }
             findings.healthy = std::max(findings.healthy, sound);
-            findings.faulty = std::max(findings.faulty, graded);
+            findings.faulty = std::max(findings.faulty, test);
         }
     }
 }

@@ -18,8 +18,8 @@ double mesh_period_of(const GearboxPlan& gearbox) {
 // Every gearbox has two rows of its own in the stage: healthy gearboxes the even ones.
 GearboxId id_in_stage(const GearboxId& id) {
     GearboxId other = id;
-    other.group = Group::graded;
-    other.index = 2 * id.index + (id.group == Group::graded ? 1 : 0);
+    other.group = Group::test;
+    other.index = 2 * id.index + (id.group == Group::test ? 1 : 0);
     other.exchanged = {};
     return other;
 }

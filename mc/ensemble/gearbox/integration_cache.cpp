@@ -69,7 +69,7 @@ IntegrationCounts count_integrations(const Scene& scene, const BatchPlan& plan,
     // With more distinct gearboxes than this, repetitions are too rare to count.
     constexpr std::size_t kMostDistinct = 2000;
     const auto lanes = static_cast<std::size_t>(scene.study().numerics.lanes);
-    const std::array<std::size_t, 2> rows{plan.threshold_gearboxes(), plan.graded_rows()};
+    const std::array<std::size_t, 2> rows{plan.threshold_gearboxes(), plan.test_rows()};
     const std::size_t distinct = distinct_integrations(scene).value_or(kMostDistinct + 1);
     IntegrationCounts counts;
     std::set<std::string> keys;

@@ -85,7 +85,7 @@ GEARPOD_SEND(LevelReliability, noise_level, has_threshold, hit_miss, signal_resp
 namespace gearpod::mc {
 
 GEARPOD_SEND(ResultColumns, parameters, features, rows)
-GEARPOD_SEND(AssessedColumns, healthy, graded, repeats, healthy_gearbox, record_gearbox)
+GEARPOD_SEND(AssessedColumns, healthy, test, repeats, healthy_gearbox, record_gearbox)
 
 // Assesses the features of a run on all its machines. The first rank of each machine evaluates a
 // share of the pairs of a feature and a noise level, on the processors of the machine's ranks,

@@ -93,8 +93,7 @@ class Run {
         results.provenance = provenance(ensemble_, ranks_.size(), threads_);
         results.provenance.emplace_back("state", state);
         results.provenance.emplace_back(
-            "gearboxes_asked_for",
-            std::to_string(plan_.threshold_gearboxes() + plan_.graded_rows()));
+            "gearboxes_asked_for", std::to_string(plan_.threshold_gearboxes() + plan_.test_rows()));
         if (!part_.empty()) {
             results.provenance.emplace_back("part", part_);
         }
@@ -129,8 +128,8 @@ class Run {
             all.signals = chosen_signals(options_, scene_);
             if (part_.empty()) {  // for a part, `merge` computes them
                 all.numerical = find_numerical_error(scene_);
-                all.step_error = find_step_error_of_run(
-                    scene_, plan_.threshold_gearboxes() + plan_.graded_rows());
+                all.step_error =
+                    find_step_error_of_run(scene_, plan_.threshold_gearboxes() + plan_.test_rows());
             }
         } catch (const machine::Cancelled&) {
             const std::string reason = interruption.reason({});

@@ -23,7 +23,7 @@ double share_of_alarms_changed(const Results& a, const Results& b) {
     long changed = 0, all = 0;
     for (std::size_t f = 0; f < a.features.size(); ++f) {
         for (std::size_t row = 0; row < a.group.size(); ++row) {
-            if (a.group[row] != static_cast<int>(Group::graded)) {
+            if (a.group[row] != static_cast<int>(Group::test)) {
                 continue;
             }
             for (std::size_t level = 0; level < levels; ++level) {
@@ -123,7 +123,7 @@ bool has_rates(const PilotEnsemble& pilot) {
 DetectionChange detection_change(const PilotEnsemble& here, const PilotEnsemble& reference) {
     DetectionChange change;
     change.gearboxes = std::count(reference.results.group.begin(), reference.results.group.end(),
-                                  static_cast<int>(Group::graded));
+                                  static_cast<int>(Group::test));
     change.alarms = share_of_alarms_changed(here.results, reference.results);
     compare_rates(here.results, reference.results, change);
     if (here.reliability && reference.reliability) {

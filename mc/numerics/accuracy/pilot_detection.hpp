@@ -24,7 +24,7 @@ PilotEnsemble run_pilot_ensemble(const Study& study);
 bool has_rates(const PilotEnsemble& pilot);
 
 struct DetectionChange {
-    long gearboxes = 0;   // graded
+    long gearboxes = 0;   // test gearboxes
     double alarms = 0.0;  // fraction of alarm decisions (gearbox, feature, noise level) that differ
     double pd = 0.0;      // largest change of a detection rate
     double pd_half_width = 0.0;  // of that rate's interval, in the reference

@@ -169,7 +169,7 @@ std::vector<std::size_t> level_order(std::size_t levels) {
 
 // Number of gearboxes, on which areas and curves are based, independent of the number of records.
 std::size_t gearboxes_of(const BatchPlan& plan) {
-    return plan.threshold_gearboxes() + plan.graded_rows();
+    return plan.threshold_gearboxes() + plan.test_rows();
 }
 
 std::size_t values_of(const Study& study, const BatchPlan& plan) {
@@ -205,7 +205,7 @@ Results synthetic_results(const Scene& scene, const RunCost& calibration, const 
     results.variants.clear();
 
     std::array<Pool, 2> pools{Pool(calibration, shape, Group::threshold),
-                              Pool(calibration, shape, Group::graded)};
+                              Pool(calibration, shape, Group::test)};
     // Values of healthy gearboxes scatter as in the threshold sample; without one, as in all
     // gearboxes.
     const Pool& scatter = pools[pools[0].empty() ? 1 : 0];
@@ -387,7 +387,7 @@ double verification_s(const Scene& scene, const RunCost& calibration) {
         return 0.0;
     }
     const double setup_s = seconds_since(start);
-    const TileCost& own = calibration.cost[static_cast<std::size_t>(Group::graded)].integrated;
+    const TileCost& own = calibration.cost[static_cast<std::size_t>(Group::test)].integrated;
     const auto lanes = static_cast<std::size_t>(scene.study().numerics.lanes);
     const double integration_s = mesh_period_s(*finer.scene) * integrated_meshes(*finer.scene);
     const std::int64_t pairs = scene.study().numerics.paired_gearboxes;

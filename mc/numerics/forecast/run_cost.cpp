@@ -35,7 +35,7 @@ class SpreadTiles {
         : plan_(plan),
           lanes_(lanes),
           healthy_(tiles(plan.threshold_gearboxes())),
-          all_(healthy_ + tiles(plan.graded_rows())),
+          all_(healthy_ + tiles(plan.test_rows())),
           // Close to the golden section of the number of tiles, and coprime to it.
           stride_(std::max<std::size_t>(1, all_ / 1000 * 618 + all_ % 1000 * 618 / 1000)) {
         while (std::gcd(stride_, all_) != 1) {
@@ -291,8 +291,8 @@ void measure(const Scene& scene, const BatchPlan& plan, double budget_s, RunCost
     result.memory.kept = -bytes_each * static_cast<double>(task.cache.kept());
 
     std::array<GroupCost, 2>& cost = result.cost;
-    for (const Group group : {Group::threshold, Group::graded}) {
-        const Group other = group == Group::graded ? Group::threshold : Group::graded;
+    for (const Group group : {Group::threshold, Group::test}) {
+        const Group other = group == Group::test ? Group::threshold : Group::test;
         const TileCost alike = cost_of(all, other, false, {});
         cost[at(group)].integrated = cost_of(all, group, false, alike);
         cost[at(group)].reused = cost_of(all, group, true, cost[at(group)].integrated);

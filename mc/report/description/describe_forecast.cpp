@@ -31,7 +31,7 @@ IntegrationCounts integrations_of_ranks(const Scene& scene, const BatchPlan& pla
                                         double motion_bytes, int ranks) {
     IntegrationCounts counts = count_integrations(scene, plan, motion_bytes);
     const auto lanes = static_cast<std::size_t>(scene.study().numerics.lanes);
-    const std::array<std::size_t, 2> gearboxes{plan.threshold_gearboxes(), plan.graded_rows()};
+    const std::array<std::size_t, 2> gearboxes{plan.threshold_gearboxes(), plan.test_rows()};
     for (std::size_t g = 0; g < gearboxes.size(); ++g) {
         const std::size_t tiles = (gearboxes[g] + lanes - 1) / lanes;
         counts.integrated[g] =
@@ -47,8 +47,8 @@ double checkpoint_bytes(const BatchPlan& plan, const RowShape& shape) {
     // (docs/reference/results-file.md).
     const double row = 8.0 * (1.0 + static_cast<double>(shape.values()));
     const auto healthy = static_cast<double>(plan.threshold_batches() * plan.threshold_records());
-    const auto graded = static_cast<double>(plan.batches() - plan.threshold_batches());
-    return 24.0 * static_cast<double>(plan.batches()) + kBatchRows * row * (healthy + graded);
+    const auto test = static_cast<double>(plan.batches() - plan.threshold_batches());
+    return 24.0 * static_cast<double>(plan.batches()) + kBatchRows * row * (healthy + test);
 }
 
 double results_bytes(const BatchPlan& plan, const RowShape& shape) {
@@ -238,7 +238,7 @@ void print_step_forecast(const Scene& scene, const PeakMemory& memory) {
     } else {
         const auto lanes = static_cast<double>(scene.ensemble().lanes);
         const double tiles = std::ceil(static_cast<double>(plan.threshold_gearboxes()) / lanes) +
-                             std::ceil(static_cast<double>(plan.graded_rows()) / lanes);
+                             std::ceil(static_cast<double>(plan.test_rows()) / lanes);
         const double meshes = integrated_meshes(scene);
         print_entry(
             "time integration",

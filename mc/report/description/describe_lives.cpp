@@ -135,7 +135,7 @@ double mean_records(const LifeTiles& tiles) {
         static_cast<std::uint64_t>(tiles.plan().campaign.cracked_lives), 1, kMost);
     double sum = 0.0;
     for (std::uint64_t i = 0; i < count; ++i) {
-        sum += static_cast<double>(tiles.history({Group::graded, i}).records.size());
+        sum += static_cast<double>(tiles.history({Group::test, i}).records.size());
     }
     return sum / static_cast<double>(count);
 }
@@ -198,7 +198,7 @@ LivesForecast forecast_lives(const LifeTiles& tiles, int threads, double setup_s
     double integrating_s = 0.0, records_s = 0.0, record_count = 0.0;
     for (std::size_t b = 0; b < plan.batches(); ++b) {
         const Batch batch = plan.batch(b);
-        const bool cracked = batch.group == Group::graded;
+        const bool cracked = batch.group == Group::test;
         const double records = cracked ? cracked_records : campaign.records;
         double batch_s = 0.0;
         for (std::size_t first = 0; first < batch.gearboxes; first += tiles.lanes()) {

@@ -27,12 +27,12 @@ double compared_size(const Results& frame, std::size_t row) {
 
 // ComparedRows of both files to be compared, paired or not.
 struct ComparedRows {
-    std::vector<std::size_t> threshold_a, graded_a, threshold_b, graded_b;
+    std::vector<std::size_t> threshold_a, test_a, threshold_b, test_b;
     std::string unpaired;  // why the rows are not paired; "": they are
 };
 
 ComparedRows compared_rows(const ComparedSide& a, const ComparedSide& b) {
-    ComparedRows rows{a.threshold, a.graded, b.threshold, b.graded, ""};
+    ComparedRows rows{a.threshold, a.test, b.threshold, b.test, ""};
     const std::string seed = a.frame.provenance_value("seed");
     if (a.frame.provenance_value("kind") == kRecordingsKind ||
         b.frame.provenance_value("kind") == kRecordingsKind || seed.empty()) {
@@ -49,16 +49,16 @@ ComparedRows compared_rows(const ComparedSide& a, const ComparedSide& b) {
         return rows;
     }
     // With the same seed, rows at the same position of a group have the same random inputs.
-    const std::size_t graded = std::min(a.graded.size(), b.graded.size());
-    for (std::size_t i = 0; i < graded; ++i) {
-        if (compared_size(a.frame, a.graded[i]) != compared_size(b.frame, b.graded[i])) {
+    const std::size_t test = std::min(a.test.size(), b.test.size());
+    for (std::size_t i = 0; i < test; ++i) {
+        if (compared_size(a.frame, a.test[i]) != compared_size(b.frame, b.test[i])) {
             rows.unpaired = "their fault sizes differ";
             return rows;
         }
     }
     const std::size_t healthy = std::min(a.threshold.size(), b.threshold.size());
     // Pairing would discard more than half of the larger file.
-    if (2 * graded < std::max(a.graded.size(), b.graded.size()) ||
+    if (2 * test < std::max(a.test.size(), b.test.size()) ||
         2 * healthy < std::max(a.threshold.size(), b.threshold.size())) {
         rows.unpaired = "one has more than twice as many as the other";
         return rows;
@@ -66,8 +66,8 @@ ComparedRows compared_rows(const ComparedSide& a, const ComparedSide& b) {
     for (auto* group : {&rows.threshold_a, &rows.threshold_b}) {
         group->resize(healthy);
     }
-    for (auto* group : {&rows.graded_a, &rows.graded_b}) {
-        group->resize(graded);
+    for (auto* group : {&rows.test_a, &rows.test_b}) {
+        group->resize(test);
     }
     return rows;
 }
@@ -79,8 +79,8 @@ std::vector<std::string> differing_inputs(const ComparedSide& a, const ComparedS
     for (const ParameterResult& parameter : a.frame.parameters) {
         const ParameterResult* other = find_parameter(b.frame, parameter.name);
         std::size_t differ = 0;
-        for (std::size_t i = 0; other != nullptr && i < rows.graded_a.size(); ++i) {
-            differ += parameter.values[rows.graded_a[i]] != other->values[rows.graded_b[i]];
+        for (std::size_t i = 0; other != nullptr && i < rows.test_a.size(); ++i) {
+            differ += parameter.values[rows.test_a[i]] != other->values[rows.test_b[i]];
         }
         if (differ > 0) {
             lines.push_back(fmt::format("{} differs in {} of them", parameter.name, differ));
@@ -130,8 +130,8 @@ void add_features(analysis::ComparedFile& file, const ComparedSide& a, const Com
             }
         }
     }
-    const auto sizes_a = size_column(a.frame, rows.graded_a),
-               sizes_b = size_column(b.frame, rows.graded_b);
+    const auto sizes_a = size_column(a.frame, rows.test_a),
+               sizes_b = size_column(b.frame, rows.test_b);
     for (const FeatureResult& feature : a.frame.features) {
         const FeatureResult* other = find_result(b.frame, feature.name);
         for (std::size_t n = 0; other != nullptr && n < levels_a.size(); ++n) {
@@ -146,14 +146,13 @@ void add_features(analysis::ComparedFile& file, const ComparedSide& a, const Com
             const auto column_b = [&](const auto& of) {
                 return feature_column(*other, of, m, levels_b.size());
             };
-            const auto healthy_a = column_a(rows.threshold_a), graded_a = column_a(rows.graded_a);
-            const auto healthy_b = column_b(rows.threshold_b), graded_b = column_b(rows.graded_b);
+            const auto healthy_a = column_a(rows.threshold_a), test_a = column_a(rows.test_a);
+            const auto healthy_b = column_b(rows.threshold_b), test_b = column_b(rows.test_b);
             file.features.push_back(
                 {feature.name, levels_a[n],
-                 request.paired && same_values(healthy_a, healthy_b) &&
-                     same_values(graded_a, graded_b),
-                 compare_detection({feature.alarm, healthy_a, sizes_a, graded_a},
-                                   {other->alarm, healthy_b, sizes_b, graded_b}, request,
+                 request.paired && same_values(healthy_a, healthy_b) && same_values(test_a, test_b),
+                 compare_detection({feature.alarm, healthy_a, sizes_a, test_a},
+                                   {other->alarm, healthy_b, sizes_b, test_b}, request,
                                    thread_count())});
         }
     }
@@ -186,8 +185,8 @@ ComparedSide read_compared(const std::string& path) {
         // The bootstrap resamples gearboxes, so only the first record of each threshold gearbox is
         // used.
         const bool repeats = threshold && row % side.frame.request.threshold_records != 0;
-        if (side.frame.group[row] != kUngraded && !repeats) {
-            (threshold ? side.threshold : side.graded).push_back(row);
+        if (side.frame.group[row] != kNoGroup && !repeats) {
+            (threshold ? side.threshold : side.test).push_back(row);
         }
     }
     const auto study = read_study_text(side.frame.provenance_value("study"), "").study;
@@ -234,7 +233,7 @@ void compare_with(const ComparedSide& a, const ComparedSide& b, analysis::Compar
     request.false_alarm_rate = a.frame.request.false_alarm_rate;
     request.paired = rows.unpaired.empty();
     if (request.paired) {
-        file.pairs = static_cast<long>(rows.graded_a.size());
+        file.pairs = static_cast<long>(rows.test_a.size());
         file.differing = differing_inputs(a, b, rows);
     }
     add_features(file, a, b, rows, request, selection);

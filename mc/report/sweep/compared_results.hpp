@@ -13,8 +13,8 @@ namespace gearpod::mc {
 // Results file with the rows of its two groups.
 struct ComparedSide {
     std::string path;
-    Results frame;                               // includes the columns
-    std::vector<std::size_t> threshold, graded;  // rows
+    Results frame;                             // includes the columns
+    std::vector<std::size_t> threshold, test;  // rows
     SamplingKind sampling = SamplingKind::plain;
 };
 

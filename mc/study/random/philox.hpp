@@ -65,9 +65,9 @@ constexpr StreamPurpose with_suffix(StreamPurpose purpose, std::string_view suff
 // Contract: the words depend on (seed, group, instance, purpose) only. The same instance is the
 // same gearbox for any ranks, threads, lanes, order or restart.
 
-// Two independent samples of a study: healthy gearboxes that set the thresholds, and graded ones to
-// which the thresholds are applied.
-enum class Group : std::uint64_t { threshold = 0, graded = 1 };
+// Two independent samples of a study: healthy gearboxes that set the thresholds, and test gearboxes
+// to which the thresholds are applied.
+enum class Group : std::uint64_t { threshold = 0, test = 1 };
 
 // UniformRandomBitGenerator. Word w of a stream is word w mod 4 of block w / 4. The block is Philox
 // at counter (block, instance, purpose, 0) and key (seed, group).

@@ -21,7 +21,7 @@ constexpr double kNoiseA = 0.7, kNoiseB = 0.35;
 struct Synthetic {
     std::vector<double> healthy_a, healthy_b, size, a, b;
 
-    Synthetic(std::mt19937_64& engine, bool same_gearboxes, int healthy = 600, int graded = 600) {
+    Synthetic(std::mt19937_64& engine, bool same_gearboxes, int healthy = 600, int test = 600) {
         std::normal_distribution<double> draw;
         const auto add = [&](std::vector<double>& to_a, std::vector<double>& to_b, double fault) {
             const double gearbox_part = 0.5 * draw(engine);
@@ -32,7 +32,7 @@ struct Synthetic {
         for (int i = 0; i < healthy; ++i) {
             add(healthy_a, healthy_b, 0.0);
         }
-        for (int i = 0; i < graded; ++i) {
+        for (int i = 0; i < test; ++i) {
             size.push_back(0.5 * (i % 7));
             add(a, b, size.back());
         }

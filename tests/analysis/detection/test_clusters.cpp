@@ -177,7 +177,7 @@ TEST_CASE("Detection uses the gearbox of each recording for its intervals and re
 
 TEST_CASE("Equal records of one gearbox do not make a feature constant") {
     // First 50 gearboxes of 8 records without noise; then gearboxes that are all equal.
-    std::vector<double> values, zeros(400, 0.0), sizes{1.0}, graded{60.0};
+    std::vector<double> values, zeros(400, 0.0), sizes{1.0}, test{60.0};
     std::vector<std::size_t> gearbox;
     for (std::size_t i = 0; i < 400; ++i) {
         gearbox.push_back(i / 8);
@@ -189,7 +189,7 @@ TEST_CASE("Equal records of one gearbox do not make a feature constant") {
     const auto warning_of = [&](std::span<const double> healthy) {
         std::string text;
         for (const std::string& warning :
-             detect_clustered("f", Alarm::high, {zeros, healthy}, gearbox, {sizes, graded}, request)
+             detect_clustered("f", Alarm::high, {zeros, healthy}, gearbox, {sizes, test}, request)
                  .warnings) {
             text += warning + "\n";
         }

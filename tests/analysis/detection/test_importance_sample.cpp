@@ -209,14 +209,14 @@ TEST_CASE("With fewer than 20 gearboxes that alarm, the first records set the th
 TEST_CASE("Detection reports which thresholds come from exponentially tilted records") {
     std::mt19937_64 engine(5);
     const Records records(0.1, Law::normal, 100, 16, engine);
-    const std::vector<double> none(records.values.size(), 0.0), graded(400, 3.0), sizes(400, 1.0);
+    const std::vector<double> none(records.values.size(), 0.0), test(400, 3.0), sizes(400, 1.0);
     DetectionRequest request;
     request.noise_levels = {1.0};
     request.groups = {{1.0, 1.0}};
     request.false_alarm_rate = 1e-5;
     const FeatureDetection found =
         detect_clustered("f", Alarm::high, {none, records.values, records.gearbox, records.weights},
-                         records.gearbox, {sizes, graded}, request);
+                         records.gearbox, {sizes, test}, request);
     const LevelDetection& level = found.levels[0];
     REQUIRE(level.importance_sampled);
     CHECK(level.importance_sampled->gearboxes == 100);

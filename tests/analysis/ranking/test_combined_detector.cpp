@@ -17,12 +17,12 @@ const double kNan = std::numeric_limits<double>::quiet_NaN();
 
 // Threshold sample and test gearboxes of a study with any number of features.
 struct Study {
-    std::vector<double> healthy_size, graded_size;
-    std::vector<std::vector<double>> healthy, graded;
+    std::vector<double> healthy_size, test_size;
+    std::vector<std::vector<double>> healthy, test;
     DetectionRequest request;
 
     Study(std::size_t features, const std::vector<double>& sizes)
-        : healthy(features), graded(features) {
+        : healthy(features), test(features) {
         request.noise_levels = {1.0};
         for (const double size : sizes) {
             request.groups.push_back({size, size});
@@ -31,9 +31,9 @@ struct Study {
     CombinedDetector combine() const {
         std::vector<CombinedFeature> features;
         for (std::size_t f = 0; f < healthy.size(); ++f) {
-            features.push_back({"f" + std::to_string(f + 1), Alarm::high, healthy[f], graded[f]});
+            features.push_back({"f" + std::to_string(f + 1), Alarm::high, healthy[f], test[f]});
         }
-        return combine_features(features, healthy_size, graded_size, request);
+        return combine_features(features, healthy_size, test_size, request);
     }
 };
 
@@ -42,10 +42,10 @@ TEST_CASE("The combined detector agrees with scikit-learn on the same halves") {
     Study study(3, {0.0, 1.0, 2.0});
     study.request.false_alarm_rate = 0.1;
     for (std::size_t i = 0; i < columns[0].size(); ++i) {
-        const bool graded = columns[0][i] == 1.0;
-        (graded ? study.graded_size : study.healthy_size).push_back(columns[1][i]);
+        const bool test = columns[0][i] == 1.0;
+        (test ? study.test_size : study.healthy_size).push_back(columns[1][i]);
         for (std::size_t f = 0; f < 3; ++f) {
-            (graded ? study.graded : study.healthy)[f].push_back(columns[2 + f][i]);
+            (test ? study.test : study.healthy)[f].push_back(columns[2 + f][i]);
         }
     }
     const CombinedDetector result = study.combine();
@@ -82,8 +82,8 @@ Study disturbed(int count, double gain, unsigned seed) {
     for (int i = 0; i < count; ++i) {
         study.healthy_size.push_back(0.0);
         add(study.healthy, 0.0);
-        study.graded_size.push_back(i % 4);
-        add(study.graded, i % 4);
+        study.test_size.push_back(i % 4);
+        add(study.test, i % 4);
     }
     return study;
 }
@@ -129,9 +129,9 @@ TEST_CASE("Halves have equal sizes, and interleaved levels fall into both") {
 TEST_CASE("Constant or missing features and single classes are reported") {
     Study study = disturbed(600, 0.7, 4);
     study.healthy.push_back(std::vector<double>(600, 3.0));
-    study.graded.push_back(std::vector<double>(600, 3.0));
+    study.test.push_back(std::vector<double>(600, 3.0));
     study.healthy.push_back(std::vector<double>(600, kNan));
-    study.graded.push_back(std::vector<double>(600, kNan));
+    study.test.push_back(std::vector<double>(600, kNan));
     CombinedDetector result = study.combine();
     CHECK(result.refusal == "");
     CHECK(result.weights.size() == 2);
@@ -142,7 +142,7 @@ TEST_CASE("Constant or missing features and single classes are reported") {
     // A gearbox with a missing feature has no combined value: it counts as failed.
     study = disturbed(600, 0.7, 4);
     for (std::size_t i = 0; i < 600; i += 20) {
-        study.graded[0][i] = kNan;
+        study.test[0][i] = kNan;
     }
     result = study.combine();
     long failed = 0, missing = 0;
@@ -156,11 +156,11 @@ TEST_CASE("Constant or missing features and single classes are reported") {
 
     study = disturbed(600, 0.7, 4);
     study.healthy.pop_back();
-    study.graded.pop_back();
+    study.test.pop_back();
     CHECK_THAT(study.combine().refusal, Catch::Contains("1 usable feature, two are needed"));
 
     study = disturbed(600, 0.7, 4);
-    study.graded_size.assign(600, 0.0);
+    study.test_size.assign(600, 0.0);
     CHECK_THAT(study.combine().refusal, Catch::Contains("0 faulty training gearboxes"));
 
     CHECK_THAT(Study(2, {1.0}).combine().refusal, Catch::Contains("0 healthy and 0 faulty"));

@@ -14,7 +14,8 @@ using test::study;
 
 namespace {
 
-// Three tiles of the threshold group and four graded ones; the last tile of each group is not full.
+// Three tiles of the threshold group and four test gearboxes; the last tile of each group is not
+// full.
 const std::string kRun = "run " + study("planet-crack-ideal.toml") +
                          " --instances 50 --set ensemble.threshold_instances=35"
                          " --set sensor.noise_levels=[0,1] --quiet";

@@ -117,7 +117,7 @@ TEST_CASE("A bad recording is reported and does not stop the others; the exit co
     REQUIRE(results.group.size() == 61);
     CHECK(results.group[0] == 0);
     CHECK(results.group[59] == 1);
-    CHECK(results.group[60] == mc::kUngraded);
+    CHECK(results.group[60] == mc::kNoGroup);
     CHECK(results.request.size.unit == "m");
     // The table has the same numbers as one recording alone.
     const auto alone = single(recorded.folder.file("r50.csv"));

@@ -24,7 +24,7 @@ using namespace std::chrono_literals;
 
 namespace {
 
-// Command for three batches of the threshold group and four graded ones; the last batch of each
+// Command for three batches of the threshold group and four test gearboxes; the last batch of each
 // group is not full. Snapshots are written continuously.
 std::string run_of(const std::string& out, int instances = 50, int healthy = 35) {
     return "run " + study("planet-crack-ideal.toml") + " --instances " + std::to_string(instances) +
@@ -164,7 +164,8 @@ TEST_CASE("Signals and the time limit end a run cleanly, save its state and exit
 double children_s() {
     rusage used{};
     getrusage(RUSAGE_CHILDREN, &used);
-    return static_cast<double>(used.ru_utime.tv_sec) + 1e-6 * static_cast<double>(used.ru_utime.tv_usec);
+    return static_cast<double>(used.ru_utime.tv_sec) +
+           1e-6 * static_cast<double>(used.ru_utime.tv_usec);
 }
 
 // Every batch of this study takes a minute of processor time.
@@ -261,13 +262,13 @@ TEST_CASE("An extended ensemble computes only new gearboxes, with the bits of a 
 TEST_CASE("An extended threshold sample computes only new gearboxes, with or without graded ones") {
     const Folder folder;
     const std::string out = folder.file("r.h5");
-    for (const int graded : {50, 20}) {
-        REQUIRE(test::program(run_of(out, graded, 20) + " --quiet --force").code == 0);
+    for (const int test : {50, 20}) {
+        REQUIRE(test::program(run_of(out, test, 20) + " --quiet --force").code == 0);
         const Outcome grown = test::program(run_of(out) + " --resume");
         INFO(grown.output);
         CHECK(grown.code == 0);
-        // One of the old sample's two batches is full, and all or one of the four graded ones.
-        CHECK(grown.mentions(graded == 50 ? "r.h5: 5 of 7 batches" : "r.h5: 2 of 7 batches"));
+        // One of the old sample's two batches is full, and all or one of the four test gearboxes.
+        CHECK(grown.mentions(test == 50 ? "r.h5: 5 of 7 batches" : "r.h5: 2 of 7 batches"));
         CHECK(bits(out) == reference());
     }
     const Outcome fewer = test::program(run_of(out, 50, 20) + " --resume");

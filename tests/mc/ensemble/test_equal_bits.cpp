@@ -60,7 +60,7 @@ std::vector<mc::GearboxId> gearboxes_of(const mc::Scene& scene) {
     constexpr std::uint64_t kSearched = 64;
     std::vector<mc::GearboxId> ids;
     for (std::uint64_t i = 0; i < kSearched && ids.size() < kCount; ++i) {
-        const mc::GearboxId id{mc::Group::graded, i};
+        const mc::GearboxId id{mc::Group::test, i};
         if (scene.sampler().draw(id).inputs.fault_size > 0.0) {
             ids.push_back(id);
         }

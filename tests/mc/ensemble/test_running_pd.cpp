@@ -20,7 +20,7 @@ const std::vector<std::string> kUntil{
     "ensemble.instances=700", "ensemble.threshold_instances=40", "sensor.noise_levels=[0, 1]",
     R"(ensemble.until={half_width=0.1, feature="window_ratio", size=4.28})"};
 
-// Healthy gearboxes have 1, graded ones 2 in every feature.
+// Healthy gearboxes have 1, test gearboxes 2 in every feature.
 BatchRows rows_of(const Study& study, const EnsemblePlan& ensemble, const Batch& batch) {
     const Sampler sampler(study);
     const RowShape& shape = ensemble.shape;

@@ -46,9 +46,9 @@ TEST_CASE(
     const mc::Results single = test::run(study_of(1)), several = test::run(study_of(kRecords));
     REQUIRE(several.status.size() == kGearboxes * kRecords + kGraded);
     for (std::size_t row = 0; row < several.status.size(); ++row) {
-        const bool graded = row >= kGearboxes * kRecords;
-        const std::size_t alone = graded ? row - kGearboxes * (kRecords - 1) : row / kRecords;
-        const bool first = graded || row % kRecords == 0;
+        const bool test = row >= kGearboxes * kRecords;
+        const std::size_t alone = test ? row - kGearboxes * (kRecords - 1) : row / kRecords;
+        const bool first = test || row % kRecords == 0;
         CHECK(several.group[row] == single.group[alone]);
         for (std::size_t p = 0; p < single.parameters.size(); ++p) {
             CHECK(several.parameters[p].values[row] == single.parameters[p].values[alone]);
@@ -98,7 +98,7 @@ TEST_CASE("Records of a gearbox have the same bits for any lanes, and when simul
     const mc::GearboxId id = rows.id_of(row);
     CHECK(id.index == 4);
     CHECK(id.repeat == 2);
-    CHECK(rows.id_of(kGearboxes * kRecords).group == mc::Group::graded);
+    CHECK(rows.id_of(kGearboxes * kRecords).group == mc::Group::test);
     const mc::Simulation alone = mc::simulate(scene, id, 1);
     for (std::size_t f = 0; f < results.features.size(); ++f) {
         for (std::size_t level = 0; level < 2; ++level) {
@@ -119,8 +119,8 @@ TEST_CASE(
     REQUIRE(weight.size() == kGearboxes * kWeightedRecords + kGraded);
     double sum = 0.0;
     for (std::size_t row = 0; row < weight.size(); ++row) {
-        const bool graded = row >= kGearboxes * kWeightedRecords;
-        const bool plain_noise = graded || row % 4 == 0;
+        const bool test = row >= kGearboxes * kWeightedRecords;
+        const bool plain_noise = test || row % 4 == 0;
         INFO(row << " " << weight[row]);
         CHECK((value_of(importance_sampled, "sensor_rms", row) ==
                value_of(plain, "sensor_rms", row)) == plain_noise);
@@ -129,8 +129,8 @@ TEST_CASE(
                    value_of(plain, "window_ratio", row) ||
                !plain_noise));
         CHECK(value_of(importance_sampled, "te_rms", row) == value_of(plain, "te_rms", row));
-        CHECK((graded ? weight[row] == 1.0 : weight[row] > 0.0 && weight[row] <= 4.0));
-        sum += graded ? 0.0 : weight[row] / (kGearboxes * kWeightedRecords);
+        CHECK((test ? weight[row] == 1.0 : weight[row] > 0.0 && weight[row] <= 4.0));
+        sum += test ? 0.0 : weight[row] / (kGearboxes * kWeightedRecords);
     }
     CHECK(sum == Approx(1.0).margin(0.4));
     CHECK(importance_sampled.request.importance_sampling);

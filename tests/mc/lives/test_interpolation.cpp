@@ -179,7 +179,7 @@ TEST_CASE("Records at random loads are off by no more than stated in 95 % of 200
     for (std::uint64_t tile = 0; tile < kTiles; ++tile) {
         std::vector<mc::Realization> gearboxes;
         for (std::uint64_t lane = 0; lane < kLanes; ++lane) {  // gearboxes that were no pilots
-            gearboxes.push_back(tiles.draw({mc::Group::graded, 100 + tile * kLanes + lane}));
+            gearboxes.push_back(tiles.draw({mc::Group::test, 100 + tile * kLanes + lane}));
         }
         const auto signals = [&](double torque, double speed) {
             std::vector<Samples> all;

@@ -61,7 +61,7 @@ class TileLives {
         for (std::size_t begin = 0; begin < count; begin += lanes_) {
             std::vector<mc::Realization> gearboxes;
             for (std::size_t i = begin; i < std::min(begin + lanes_, count); ++i) {
-                gearboxes.push_back(tiles_.draw({mc::Group::graded, i}));
+                gearboxes.push_back(tiles_.draw({mc::Group::test, i}));
             }
             mc::LifeCosts costs;
             std::vector<mc::InterpolationErrors> errors(gearboxes.size());

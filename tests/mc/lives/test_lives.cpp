@@ -28,7 +28,7 @@ TEST_CASE("A record equals its gearbox integrated at that depth and torque") {
         life_study({"life.torque_scatter=0.05", "life.gain_scatter=0.1", "sensor.noise_m_s2=0",
                     "sensor.encoder_noise_arcsec=0", "features.use=[" + use + "]"}));
     const mc::LifeTiles tiles(scene);
-    const mc::GearboxId id{mc::Group::graded, 1};
+    const mc::GearboxId id{mc::Group::test, 1};
     mc::LifeCosts costs;
     const auto life = tiles.run(std::vector{tiles.draw(id)}, true, costs).front();
     REQUIRE(life.status == mc::Status::ok);
@@ -58,7 +58,7 @@ TEST_CASE("A record equals its gearbox integrated at that depth and torque") {
 TEST_CASE("A tooth breaks at the time given by Paris' integral") {
     const mc::Scene scene(life_study({"life.records=400"}));
     const mc::CrackLife crack(scene.life());
-    const mc::Realization gearbox = scene.sampler().draw({mc::Group::graded, 0});
+    const mc::Realization gearbox = scene.sampler().draw({mc::Group::test, 0});
     const mc::InstanceInputs& inputs = gearbox.inputs;
     // Carrier speed 8.87 rpm, 81 ring teeth, 31 planet teeth.
     CHECK(crack.cycles_per_hour(inputs) == Approx(60.0 * 8.87 * 81.0 / 31.0));
@@ -154,7 +154,7 @@ TEST_CASE("A change in lives equals that of the snapshot study") {
     const mc::Scene scene(shipped_study("planet-crack-ideal.toml", one)),
         snapshot(shipped_study("planet-crack-ideal.toml", both));
     const mc::LifeTiles tiles(scene);
-    const mc::GearboxId id{mc::Group::graded, 1};
+    const mc::GearboxId id{mc::Group::test, 1};
     mc::LifeCosts costs;
     const auto life = tiles.run(std::vector{tiles.draw(id)}, true, costs).front();
     REQUIRE(life.history.records.front().depth_m == Approx(2e-3));

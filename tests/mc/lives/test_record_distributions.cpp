@@ -22,7 +22,7 @@ const std::string kTorque =
     "random.operation.torque_N_m={distribution=\"uniform\",low=300,high=500,per=\"record\"}";
 
 TEST_CASE("A lognormal law per record is equivalent to the scatter key") {
-    const mc::GearboxId id{mc::Group::graded, 2};
+    const mc::GearboxId id{mc::Group::test, 2};
     const auto history = [&](const std::string& more) {
         const mc::Scene scene(life_study({more}));
         return mc::CrackLife(scene.life()).history(scene.life().sampler->draw(id), true);
@@ -109,8 +109,8 @@ TEST_CASE("A snapshot's baseline record varies the inputs per record, and only t
         "features.use=[\"change_window_ratio\"]", "sensor.noise_levels=[1]", kTorque,
         "random.sensor.gain={distribution=\"uniform\",low=1,high=2}"};
     const mc::Sampler sampler(shipped_study("planet-crack-ideal.toml", both));
-    const auto test_record = sampler.draw({mc::Group::graded, 3}).inputs;
-    const auto before = sampler.draw({mc::Group::graded, 3, mc::Record::baseline}).inputs;
+    const auto test_record = sampler.draw({mc::Group::test, 3}).inputs;
+    const auto before = sampler.draw({mc::Group::test, 3, mc::Record::baseline}).inputs;
     CHECK(test_record.torque_N_m != before.torque_N_m);
     CHECK(before.torque_N_m > 300.0);
     CHECK(before.torque_N_m < 500.0);
@@ -119,7 +119,7 @@ TEST_CASE("A snapshot's baseline record varies the inputs per record, and only t
     auto plain = both;
     plain[2].replace(plain[2].find(",per"), 13, "");
     const mc::Sampler gearbox(shipped_study("planet-crack-ideal.toml", plain));
-    CHECK(gearbox.draw({mc::Group::graded, 3}).inputs.torque_N_m == test_record.torque_N_m);
+    CHECK(gearbox.draw({mc::Group::test, 3}).inputs.torque_N_m == test_record.torque_N_m);
 }
 
 TEST_CASE("Keys of inputs per record are read, written and refused by name") {

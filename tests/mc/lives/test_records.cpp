@@ -23,7 +23,7 @@ mc::Study quiet_study(std::vector<std::string> more) {
 }
 
 mc::GearboxLife healthy_life(const mc::Scene& scene) {
-    const mc::GearboxId id{mc::Group::graded, 0};
+    const mc::GearboxId id{mc::Group::test, 0};
     mc::LifeCosts costs;
     const mc::LifeTiles tiles(scene);
     return tiles.run(std::vector{tiles.draw(id)}, false, costs).front();
@@ -97,7 +97,7 @@ TEST_CASE("Noise of a record decreases with the root of its duration") {
 TEST_CASE("A record at another speed is close to an integration at that speed") {
     const mc::Scene scene(quiet_study({"life.speed_scatter=0.001", "life.torque_scatter=0.05"}));
     const mc::LifeTiles tiles(scene);
-    const mc::GearboxId id{mc::Group::graded, 1};
+    const mc::GearboxId id{mc::Group::test, 1};
     mc::LifeCosts costs;
     mc::InterpolationErrors errors;
     const auto life =
@@ -135,7 +135,7 @@ TEST_CASE("More integrated torques and speeds reduce the interpolation error") {
                          "life.linear_torques=" + count, "life.linear_speeds=" + count}));
         const mc::LifeTiles tiles(scene);
         CHECK(tiles.load_count() == static_cast<std::size_t>(integrated * integrated));
-        const mc::GearboxId id{mc::Group::graded, 1};
+        const mc::GearboxId id{mc::Group::test, 1};
         mc::LifeCosts costs;
         mc::InterpolationErrors errors;
         tiles.run(std::vector{tiles.draw(id)}, false, costs, std::span(&errors, 1));
@@ -159,7 +159,7 @@ TEST_CASE("A crack follows the given curve at its gearbox's rate") {
     }
     all.insert(all.end(), curve.begin(), curve.end());
     const mc::Scene scene(shipped_study("planet-crack-ideal.toml", all));
-    const mc::Realization gearbox = scene.sampler().draw({mc::Group::graded, 0});
+    const mc::Realization gearbox = scene.sampler().draw({mc::Group::test, 0});
     const auto history = mc::CrackLife(scene.life()).history(gearbox, true);
     // Twice the rate: 25 h to 2 mm, 50 h to 4 mm, after six records of 5 h each.
     REQUIRE(history.end_hours);

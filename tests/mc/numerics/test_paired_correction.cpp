@@ -56,7 +56,7 @@ struct Population {
         r.features = {{"te_rms", "rad", analysis::Alarm::high, values}};
         r.request = {0.05, 0.95, {1.0}, {{0.0, 5e-3}}, {"fault_depth_m", "m"}};
         for (const double size : all.size) {
-            r.group.push_back(static_cast<int>(size > 0.0 ? Group::graded : Group::threshold));
+            r.group.push_back(static_cast<int>(size > 0.0 ? Group::test : Group::threshold));
         }
         r.status.assign(r.group.size(), 0);
         r.detection = detect_all(r, ColumnRows(r));

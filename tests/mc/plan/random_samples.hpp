@@ -31,7 +31,7 @@ inline std::vector<double> samples_of(const std::string& toml, int count) {
     std::vector<double> samples;
     for (int i = 0; i < count; ++i) {
         const auto index = static_cast<std::uint64_t>(i);
-        Philox engine(7, Group::graded, index,
+        Philox engine(7, Group::test, index,
                       with_suffix(StreamPurpose::random_input, "operation.torque_N_m"));
         samples.push_back(distribution.draw(engine, index));
     }

@@ -41,7 +41,7 @@ Pairs draw(const std::vector<std::string>& overrides, std::uint64_t count) {
     const Sampler sampler(*reading.study);
     Pairs pairs;
     for (std::uint64_t i = 0; i < count; ++i) {
-        const InstanceInputs inputs = sampler.draw({Group::graded, i}).inputs;
+        const InstanceInputs inputs = sampler.draw({Group::test, i}).inputs;
         pairs.torque.push_back(inputs.torque_N_m);
         pairs.mass.push_back(inputs.bodies[Member::planet].mass_kg);
         pairs.exponent.push_back(inputs.path_exponent);

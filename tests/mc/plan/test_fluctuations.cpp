@@ -189,8 +189,8 @@ TEST_CASE("Without inertia the transmission error follows the torque from mesh t
                  {"operation.torque_fluctuation=0.3", "operation.torque_fluctuation_order=2",
                   "operation.torque_fluctuation_phase_deg=40"});
     const Scene of_steady(steady), of_fluctuating_torque(with_fluctuation);
-    const GearboxTile a = run(of_steady, {{Group::graded, 0}}, 1);
-    const GearboxTile b = run(of_fluctuating_torque, {{Group::graded, 0}}, 1);
+    const GearboxTile a = run(of_steady, {{Group::test, 0}}, 1);
+    const GearboxTile b = run(of_fluctuating_torque, {{Group::test, 0}}, 1);
     REQUIRE(b.integration.content.size() ==
             static_cast<std::size_t>(of_fluctuating_torque.signal_meshes()));
     const int samples = of_fluctuating_torque.samples_per_mesh();
@@ -220,7 +220,7 @@ TEST_CASE("Simulated samples lie at the times of their phases") {
         with(kFast, {"operation.speed_fluctuation=0.2", "operation.speed_fluctuation_order=15.39",
                      "features.use=[\"te_rms\"]", "fault.kind=none"}));
     const Scene scene(study);
-    const Simulation out = simulate(scene, {Group::graded, 0}, 12);
+    const Simulation out = simulate(scene, {Group::test, 0}, 12);
     const auto samples = static_cast<std::size_t>(scene.samples_per_mesh());
     REQUIRE(out.columns[0].name == "time");
     const double period = 1.0 / scene.nominal_mesh_frequency_Hz();
@@ -245,7 +245,7 @@ TEST_CASE("Fluctuations and weight give the same bits in 1, 4 and 8 lanes, with 
     const Scene scene(study);
     std::vector<GearboxId> ids;
     for (std::uint64_t i = 0; i < 8; ++i) {
-        ids.push_back({Group::graded, i});
+        ids.push_back({Group::test, i});
     }
     const GearboxTile eight = run(scene, ids, 8);
     const GearboxTile four = run(scene, {ids[5], ids[2], ids[7]}, 4);

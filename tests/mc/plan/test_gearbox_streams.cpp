@@ -20,7 +20,7 @@ constexpr int kNumbers = 2000;
 constexpr std::uint64_t kSeed = 7;
 
 std::vector<double> numbers(std::uint64_t index, const std::vector<InputExchange>& exchanged = {},
-                            Group group = Group::graded) {
+                            Group group = Group::test) {
     GearboxId id{group, index};
     id.exchanged = exchanged;
     Normals normals(kSeed, id, StreamPurpose::planets);
@@ -77,7 +77,7 @@ TEST_CASE("A later exchange mixes the result of the earlier ones") {
 }
 
 TEST_CASE("Noise is exchanged number by number, separately for each record and repeat") {
-    GearboxId id{Group::graded, 4}, other{Group::graded, 100};
+    GearboxId id{Group::test, 4}, other{Group::test, 100};
     const std::vector<InputExchange> exchanged{{100, 0.1}};
     for (const Record record : {Record::test, Record::baseline}) {
         for (const std::uint64_t repeat : {0, 3}) {
@@ -110,7 +110,7 @@ TEST_CASE("Random inputs of exchanging gearboxes keep their law and change by no
         const std::vector<InputExchange> none, others{{5000 + index, 0.3}, {9000 + index, 0.6}};
         // Computed by the quantile of the input's normal number, also without exchanges.
         const auto with = [&](std::span<const InputExchange> exchanged) {
-            GearboxId id{Group::graded, index};
+            GearboxId id{Group::test, index};
             id.exchanged = exchanged;
             const auto& [own_id, inputs, random_values] = sampler.draw(id);
             CHECK(random_values[column] == inputs.path_exponent);
@@ -136,13 +136,13 @@ TEST_CASE("Inputs without an underlying normal number are exchanged as a whole")
     int taken = 0;
     for (std::uint64_t index = 0; index < 200; ++index) {
         const std::vector<InputExchange> other{{1000 + index, 0.2}};
-        GearboxId id{Group::graded, index};
+        GearboxId id{Group::test, index};
         id.exchanged = other;
         const std::uint64_t from = source_index(kSeed, id, StreamPurpose::tone_phases);
         CHECK((from == index || from == 1000 + index));
         taken += from == 1000 + index ? 1 : 0;
         CHECK(record_stream(kSeed, id, StreamPurpose::tone_phases)() ==
-              gearbox_stream(kSeed, {Group::graded, from}, StreamPurpose::tone_phases)());
+              gearbox_stream(kSeed, {Group::test, from}, StreamPurpose::tone_phases)());
     }
     CHECK(taken > 20);
     CHECK(taken < 60);

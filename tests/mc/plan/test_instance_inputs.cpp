@@ -42,7 +42,7 @@ TEST_CASE("A drawn value of any input gives the gearbox of a study with this nom
             Study other = study;
             access.set(other, value);
             const std::vector<GivenInput> given{{key.path(), value}};
-            const InstanceInputs inputs = sampler.draw({Group::graded, 0}, given).inputs;
+            const InstanceInputs inputs = sampler.draw({Group::test, 0}, given).inputs;
             CHECK(equal_inputs(inputs, nominal_inputs(other)));
             effective += equal_inputs(inputs, nominal_inputs(study)) ? 0 : 1;
         }

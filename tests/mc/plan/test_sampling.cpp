@@ -68,15 +68,15 @@ TEST_CASE("A stream consists of the blocks of its counter in order") {
         r123::Philox4x64{}(r123::Philox4x64::ctr_type{{1, 0, 0, 0}}, r123::Philox4x64::key_type{});
     CHECK(stream() == second[0]);
 
-    Philox other(5, Group::graded, 6, StreamPurpose{7});
+    Philox other(5, Group::test, 6, StreamPurpose{7});
     const auto block = r123::Philox4x64{}(r123::Philox4x64::ctr_type{{0, 6, 7, 0}},
                                           r123::Philox4x64::key_type{{5, 1}});
     CHECK(other() == block[0]);
 }
 
 TEST_CASE("Words of a stream are the same one by one and in bulk") {
-    Philox single(5, Group::graded, 6, StreamPurpose{7});
-    Philox many(5, Group::graded, 6, StreamPurpose{7});
+    Philox single(5, Group::test, 6, StreamPurpose{7});
+    Philox many(5, Group::test, 6, StreamPurpose{7});
     for (const std::size_t count : {1, 2, 9, 4, 0, 3, 16, 5}) {
         std::vector<std::uint64_t> words(count);
         many.fill(words);
@@ -95,11 +95,11 @@ TEST_CASE("Normal noise of different gearboxes, groups, purposes and seeds is un
         return values;
     };
     const std::vector<std::vector<double>> noise{
-        normals({7, Group::graded, 3, StreamPurpose{11}}),
-        normals({7, Group::graded, 4, StreamPurpose{11}}),
-        normals({7, Group::graded, 3, StreamPurpose{12}}),
+        normals({7, Group::test, 3, StreamPurpose{11}}),
+        normals({7, Group::test, 4, StreamPurpose{11}}),
+        normals({7, Group::test, 3, StreamPurpose{12}}),
         normals({7, Group::threshold, 3, StreamPurpose{11}}),
-        normals({8, Group::graded, 3, StreamPurpose{11}})};
+        normals({8, Group::test, 3, StreamPurpose{11}})};
     for (std::size_t a = 0; a < noise.size(); ++a) {
         for (std::size_t b = 0; b < a; ++b) {
             const double product =
@@ -187,8 +187,7 @@ TEST_CASE("Levels and grids alternate in the test group and are 0 in the thresho
     const Sampler sampler(study_with({}));
     const double depths_mm[] = {0, 1, 2, 3, 4.3};
     for (std::uint64_t i = 0; i < 12; ++i) {
-        CHECK(sampler.draw({Group::graded, i}).inputs.fault_size ==
-              Approx(depths_mm[i % 5] * 1e-3));
+        CHECK(sampler.draw({Group::test, i}).inputs.fault_size == Approx(depths_mm[i % 5] * 1e-3));
         CHECK(sampler.draw({Group::threshold, i}).inputs.fault_size == 0.0);
     }
     const auto grid = samples_of("{distribution='grid', low=0, high=1, count=3}", 4);
@@ -205,12 +204,12 @@ TEST_CASE("Levels and grids of several inputs form all combinations, each equall
     overrides.push_back("random.operation.torque_N_m={distribution='uniform', low=1, high=2}");
     overrides.push_back("random.gearbox.ring_mass_kg={distribution='constant', value=3}");
     const Sampler more(study_with(overrides));
-    for (const Group group : {Group::graded, Group::threshold}) {
+    for (const Group group : {Group::test, Group::threshold}) {
         std::set<std::tuple<double, double, double>> combinations;
         for (std::uint64_t i = 0; i < 64; ++i) {
             const InstanceInputs x = sampler.draw({group, i}).inputs;
             combinations.insert({x.fault_size, x.bodies[Member::sun].mass_kg, x.noise_m_s2});
-            if (group == Group::graded) {
+            if (group == Group::test) {
                 CHECK(x.fault_size == Approx(1e-3 * static_cast<double>(i % 4)));
             }
             const InstanceInputs y = more.draw({group, i}).inputs;
@@ -219,12 +218,12 @@ TEST_CASE("Levels and grids of several inputs form all combinations, each equall
             CHECK(x.bodies[Member::sun].mass_kg == y.bodies[Member::sun].mass_kg);
             CHECK(x.noise_m_s2 == y.noise_m_s2);
         }
-        CHECK(combinations.size() == (group == Group::graded ? 64 : 16));
+        CHECK(combinations.size() == (group == Group::test ? 64 : 16));
     }
     // The order of the schema determines the combinations: the mass varies faster than the noise.
-    CHECK(sampler.draw({Group::graded, 4}).inputs.bodies[Member::sun].mass_kg == 2.0);
-    CHECK(sampler.draw({Group::graded, 4}).inputs.noise_m_s2 == 0.0);
-    CHECK(sampler.draw({Group::graded, 16}).inputs.noise_m_s2 == 1.0);
+    CHECK(sampler.draw({Group::test, 4}).inputs.bodies[Member::sun].mass_kg == 2.0);
+    CHECK(sampler.draw({Group::test, 4}).inputs.noise_m_s2 == 0.0);
+    CHECK(sampler.draw({Group::test, 16}).inputs.noise_m_s2 == 1.0);
 
     // More combinations than there are instance numbers.
     overrides.clear();
@@ -233,7 +232,7 @@ TEST_CASE("Levels and grids of several inputs form all combinations, each equall
                             "={distribution='grid', low=1, high=2, count=100000}");
     }
     const InstanceInputs last =
-        Sampler(study_with(overrides)).draw({Group::graded, 999999999}).inputs;
+        Sampler(study_with(overrides)).draw({Group::test, 999999999}).inputs;
     CHECK(last.bodies[Member::sun].mass_kg == Approx(1 + 99999 / 99999.0));
     CHECK(last.bodies[Member::ring].mass_kg == 1.0);
     CHECK(last.bodies[Member::carrier].mass_kg == 1.0);
@@ -243,14 +242,14 @@ TEST_CASE("An instance does not depend on what was sampled before and how often"
     const Sampler forward(study_with({})), backward(study_with({}));
     std::vector<InstanceInputs> first;
     for (std::uint64_t i = 0; i < 50; ++i) {
-        first.push_back(forward.draw({Group::graded, i}).inputs);
+        first.push_back(forward.draw({Group::test, i}).inputs);
     }
     for (std::uint64_t i = 50; i-- > 0;) {
-        CHECK(same(backward.draw({Group::graded, i}).inputs, first[i]));
+        CHECK(same(backward.draw({Group::test, i}).inputs, first[i]));
     }
     CHECK_FALSE(same(forward.draw({Group::threshold, 5}).inputs, first[5]));
     CHECK_FALSE(
-        same(Sampler(study_with({"ensemble.seed=8"})).draw({Group::graded, 5}).inputs, first[5]));
+        same(Sampler(study_with({"ensemble.seed=8"})).draw({Group::test, 5}).inputs, first[5]));
 }
 
 TEST_CASE("A new random input leaves the random values of the others unchanged") {
@@ -259,7 +258,7 @@ TEST_CASE("A new random input leaves the random values of the others unchanged")
         {"random.gearbox.sun_mass_kg={distribution='uniform', low=0.6, high=0.8}",
          "random.operation.torque_N_m={distribution='lognormal', median=429, cv=0.05}"}));
     for (std::uint64_t i = 0; i < 50; ++i) {
-        CHECK(same(before.draw({Group::graded, i}).inputs, after.draw({Group::graded, i}).inputs));
+        CHECK(same(before.draw({Group::test, i}).inputs, after.draw({Group::test, i}).inputs));
         CHECK(same(before.draw({Group::threshold, i}).inputs,
                    after.draw({Group::threshold, i}).inputs));
     }
@@ -271,7 +270,7 @@ TEST_CASE("Different inputs of the same distribution are independent") {
                     "random.gearbox.ring_mass_kg={distribution='uniform', low=1, high=2}"}));
     double products = 0.0;
     for (std::uint64_t i = 0; i < kSamples; ++i) {
-        const InstanceInputs inputs = sampler.draw({Group::graded, i}).inputs;
+        const InstanceInputs inputs = sampler.draw({Group::test, i}).inputs;
         products += 12 * (inputs.bodies[Member::sun].mass_kg - 1.5) *
                     (inputs.bodies[Member::ring].mass_kg - 1.5);
     }
@@ -316,7 +315,7 @@ TEST_CASE("A fixed-shaft gearbox's inputs are sampled like any other's") {
     CHECK(columns[2].name == "fault_chip_m");
     std::set<double> stiffnesses;
     for (std::uint64_t i = 0; i < 6; ++i) {
-        const Realization drawn = sampler.draw({Group::graded, i});
+        const Realization drawn = sampler.draw({Group::test, i});
         const InstanceInputs& x = drawn.inputs;
         CHECK(x.fault_size == Approx(4e-3 * static_cast<double>(i % 3)));
         CHECK(x.fixed_shaft.load_torque_N_m >= 28.0);
@@ -358,7 +357,7 @@ TEST_CASE("Rows of the results hold the sampled values in SI under their names")
     CHECK(columns[2].unit == "1");
     CHECK(columns[3].name == "fault_depth_m");
     CHECK(speed_member(study) == Member::carrier);
-    for (const Group group : {Group::graded, Group::threshold}) {
+    for (const Group group : {Group::test, Group::threshold}) {
         const Realization drawn = sampler.draw({group, 3});
         std::vector<double> row;
         plan.append_inputs(drawn.random_values, 1.0, row);

@@ -68,7 +68,7 @@ TEST_CASE("Every dyadic interval of every coordinate has its share of scrambled 
     const Sobol sobol(20);
     for (const std::uint64_t seed : {1U, 2U}) {
         for (std::size_t d = 0; d < 20; ++d) {
-            const Philox tree(seed, Group::graded, 0, StreamPurpose{d});
+            const Philox tree(seed, Group::test, 0, StreamPurpose{d});
             std::set<std::uint32_t> intervals;
             for (std::uint32_t n = 0; n < 256; ++n) {
                 intervals.insert(owen_scrambled(sobol.coordinate(n, d), tree) >> 24);
@@ -85,9 +85,9 @@ TEST_CASE("The first two coordinates are equidistributed over all rectangles of 
         std::set<std::uint64_t> cells;
         for (std::uint32_t n = 0; n < 256; ++n) {
             const std::uint64_t x =
-                owen_scrambled(sobol.coordinate(n, 0), {5, Group::graded, 0, StreamPurpose{0}});
+                owen_scrambled(sobol.coordinate(n, 0), {5, Group::test, 0, StreamPurpose{0}});
             const std::uint64_t y =
-                owen_scrambled(sobol.coordinate(n, 1), {5, Group::graded, 0, StreamPurpose{1}});
+                owen_scrambled(sobol.coordinate(n, 1), {5, Group::test, 0, StreamPurpose{1}});
             cells.insert((x >> (32 - first)) << 8 | y >> (24 + first));
         }
         CHECK(cells.size() == 256);
@@ -117,7 +117,7 @@ TEST_CASE("A mean over evenly distributed gearboxes has the variance of stratifi
         const Sampler sampler(study);
         std::vector<double> shares;
         for (std::uint64_t i = 0; i < kGearboxes; ++i) {
-            shares.push_back(share_of(sampler, Group::graded, 2 + kSizes * i));
+            shares.push_back(share_of(sampler, Group::test, 2 + kSizes * i));
         }
         const double off = mean(shares) - 0.5;
         squares += off * off;
@@ -134,7 +134,7 @@ TEST_CASE("Evenly distributed inputs keep their distributions and are mutually i
     double product = 0.0;
     std::vector<double> stiffness;
     for (std::uint64_t i = 0; i < kRounds; ++i) {
-        const InstanceInputs inputs = sampler.draw({Group::graded, kSizes * i}).inputs;
+        const InstanceInputs inputs = sampler.draw({Group::test, kSizes * i}).inputs;
         const double z = std::log(inputs.bodies[Member::planet].bearing_stiffness_N_m / 1.1e8) /
                          std::sqrt(std::log1p(0.04));
         stiffness.push_back(0.5 * std::erfc(-z / std::sqrt(2.0)));
@@ -153,8 +153,8 @@ TEST_CASE("Each fault size and each group has its own scramble") {
     for (int seed = 0; seed < kSeeds; ++seed) {
         study.ensemble.seed = seed;
         const Sampler sampler(study);
-        const double one = share_of(sampler, Group::graded, 15) - 0.5;  // round 3, first size
-        const double other = share_of(sampler, Group::graded, 16) - 0.5;
+        const double one = share_of(sampler, Group::test, 15) - 0.5;  // round 3, first size
+        const double other = share_of(sampler, Group::test, 16) - 0.5;
         const double healthy = share_of(sampler, Group::threshold, 3) - 0.5;
         between_sizes += 12.0 * one * other / kSeeds;
         between_groups += 12.0 * one * healthy / kSeeds;
@@ -175,7 +175,7 @@ TEST_CASE("Healthy gearboxes are one sequence, regardless of the order of the si
 TEST_CASE(
     "A larger ensemble begins with the gearboxes of a smaller one, also if evenly distributed") {
     const auto values_of = [](const Sampler& sampler, std::uint64_t index) {
-        Realization drawn = sampler.draw({Group::graded, index});
+        Realization drawn = sampler.draw({Group::test, index});
         drawn.random_values.push_back(drawn.inputs.fault_size);
         return drawn.random_values;
     };

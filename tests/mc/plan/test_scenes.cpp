@@ -19,7 +19,7 @@ using mc::Scene;
 namespace {
 
 mc::GearboxTile run_one(const Scene& scene) {
-    const mc::GearboxId id{mc::Group::graded, 0};
+    const mc::GearboxId id{mc::Group::test, 0};
     return mc::run_gearboxes(scene, mc::sensor_paths(scene), std::span(&id, 1), 1,
                              {.records = lockstep::RecordOptions{.motion_meshes = 1}});
 }

@@ -120,12 +120,12 @@ TEST_CASE("Records of a gearbox are rows of its batch") {
 
 TEST_CASE("Parts of a plan hold every batch of the whole once, each with its own rows") {
     const int records = GENERATE(1, 5);
-    for (const auto& [thresholds, graded] : {std::pair{20, 42}, {35, 50}, {16, 16}, {3, 2}}) {
-        const BatchPlan whole(thresholds, graded, {}, records);
+    for (const auto& [thresholds, test] : {std::pair{20, 42}, {35, 50}, {16, 16}, {3, 2}}) {
+        const BatchPlan whole(thresholds, test, {}, records);
         for (const std::size_t count : {1, 2, 3, 4, 7}) {
             std::size_t batches = 0, rows = 0, threshold_rows = 0;
             for (std::size_t index = 0; index < count; ++index) {
-                const BatchPlan own(thresholds, graded, {index, count}, records);
+                const BatchPlan own(thresholds, test, {index, count}, records);
                 std::size_t row = 0;
                 for (std::size_t batch = 0; batch < own.batches(); ++batch) {
                     const Batch place = own.batch(batch), all = whole.batch(own.number(batch));
@@ -139,7 +139,7 @@ TEST_CASE("Parts of a plan hold every batch of the whole once, each with its own
                     CHECK((batch < own.threshold_batches()) == (all.group == Group::threshold));
                 }
                 CHECK(own.rows() == row);
-                CHECK(own.threshold_rows() + own.graded_rows() == row);
+                CHECK(own.threshold_rows() + own.test_rows() == row);
                 batches += own.batches();
                 rows += row;
                 threshold_rows += own.threshold_rows();

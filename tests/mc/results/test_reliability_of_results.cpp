@@ -12,8 +12,8 @@ using namespace gearpod::mc;
 
 namespace {
 
-// Four hundred healthy gearboxes set the threshold; of 600 graded ones, every third has no fault.
-// The parameter that looks like a crack depth is an input like any other.
+// Four hundred healthy gearboxes set the threshold; of 600 test gearboxes, every third has no
+// fault. The parameter that looks like a crack depth is an input like any other.
 Results example() {
     Results r;
     r.noise_levels = {1.0, 2.0};
@@ -26,7 +26,7 @@ Results example() {
     for (int row = 0; row < 1000; ++row) {
         const bool sets_threshold = row < 400;
         const double size = sets_threshold ? 0.0 : 0.5 * (row % 3);
-        r.group.push_back(static_cast<int>(sets_threshold ? Group::threshold : Group::graded));
+        r.group.push_back(static_cast<int>(sets_threshold ? Group::threshold : Group::test));
         r.status.push_back(0);
         r.parameters[0].values.push_back(1e-3 * row);
         r.parameters[1].values.push_back(size);

@@ -96,11 +96,11 @@ FeatureTable feature_table(const mc::Study& study) {
     for (const auto status : results.status) {
         REQUIRE(status == 0);
     }
-    const auto graded = [&](const char* name) {
+    const auto test = [&](const char* name) {
         const auto& values = results.features[feature_index(results, name)].values;
         return std::vector<double>(values.begin() + 1, values.end());  // 0: for the threshold
     };
-    return {graded("te_rms"), graded("te_kurtosis"), graded("te_fc"), graded("te_fm0")};
+    return {test("te_rms"), test("te_kurtosis"), test("te_fc"), test("te_fm0")};
 }
 
 bool rises(const std::vector<double>& values) {

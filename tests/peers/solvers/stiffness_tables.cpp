@@ -10,7 +10,7 @@ GearboxInputs8 inputs_of_gearboxes(const mc::Scene& scene) {
     gearboxes.faults = {&scene.pairs(), scene.pattern(), {}};
     gearboxes.faults.curve.resize(static_cast<std::size_t>(scene.fault().curves()));
     for (std::uint64_t i = 0; i < kGearboxes; ++i) {
-        const mc::InstanceInputs instance = scene.sampler().draw({mc::Group::graded, i}).inputs;
+        const mc::InstanceInputs instance = scene.sampler().draw({mc::Group::test, i}).inputs;
         gearboxes.instances.push_back(instance);
         gearboxes.inputs.push_back(scene.inputs(instance));
         for (std::size_t c = 0; c < gearboxes.faults.curve.size(); ++c) {

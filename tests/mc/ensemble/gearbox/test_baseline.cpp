@@ -60,7 +60,7 @@ class Computed {
     std::vector<std::vector<double>> values_;
 };
 
-const GearboxId kHealthy{Group::threshold, 4}, kFaulty{Group::graded, 4};
+const GearboxId kHealthy{Group::threshold, 4}, kFaulty{Group::test, 4};
 
 double rms(const std::vector<double>& values) {
     return std::sqrt(std::inner_product(values.begin(), values.end(), values.begin(), 0.0) /
@@ -114,7 +114,7 @@ TEST_CASE("The two records have independent noise") {
 
 TEST_CASE("A baseline's values do not depend on the other gearboxes of its tile") {
     const Study study = study_with({kCompared, "features.baseline_torque_scatter=0.03"});
-    const std::vector<GearboxId> ids{kHealthy, kFaulty, {Group::graded, 5}};
+    const std::vector<GearboxId> ids{kHealthy, kFaulty, {Group::test, 5}};
     const Computed together(study, ids);
     for (std::size_t i = 0; i < ids.size(); ++i) {
         CHECK(Computed(study, {ids[i]}).values()[0] == together.values()[i]);
@@ -124,7 +124,7 @@ TEST_CASE("A baseline's values do not depend on the other gearboxes of its tile"
 TEST_CASE("A baseline is the same in the tile of its record as in an earlier tile") {
     const Study study = study_with({kCompared, "features.baseline_torque_scatter=0.03"});
     const std::vector<GearboxId> ids{
-        kHealthy, kFaulty, {Group::graded, 5}, {Group::graded, 6}, {Group::threshold, 7}};
+        kHealthy, kFaulty, {Group::test, 5}, {Group::test, 6}, {Group::threshold, 7}};
     // With five of eight lanes taken there is no room for the baselines, with four there is.
     const Computed before(study, ids), fewer(study, {ids.begin(), ids.end() - 1});
     REQUIRE(fewer.values().size() == 4);
@@ -144,8 +144,8 @@ TEST_CASE("The torque of baseline records has the requested scatter on both shaf
     double sum = 0.0, squares = 0.0;
     constexpr int kGearboxes = 4000;
     for (std::uint64_t i = 0; i < kGearboxes; ++i) {
-        const InstanceInputs now = sampler.draw({Group::graded, i}).inputs;
-        const InstanceInputs then = sampler.draw({Group::graded, i, Record::baseline}).inputs;
+        const InstanceInputs now = sampler.draw({Group::test, i}).inputs;
+        const InstanceInputs then = sampler.draw({Group::test, i, Record::baseline}).inputs;
         CHECK(then.fault_size == 0.0);
         const double share = std::log(then.torque_N_m / now.torque_N_m);
         CHECK(std::log(then.fixed_shaft.load_torque_N_m / now.fixed_shaft.load_torque_N_m) ==

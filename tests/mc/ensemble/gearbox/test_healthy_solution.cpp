@@ -24,7 +24,7 @@ Study real_teeth(const std::string& convergence_tolerance) {
 TEST_CASE("A fault changes the meshes after its passage begins, and no others") {
     const Scene scene(real_teeth("1e-8"));
     const auto path = sensor_paths(scene);
-    Realization gearbox = scene.sampler().draw({Group::graded, 3});
+    Realization gearbox = scene.sampler().draw({Group::test, 3});
     gearbox.inputs.gain = 1.0;
     gearbox.inputs.fault_size = 3e-3;
     const GearboxTile all = run_realizations(scene, path, {gearbox}, 1);
@@ -46,7 +46,7 @@ TEST_CASE("A fault changes the meshes after its passage begins, and no others") 
 TEST_CASE("Few meshes are integrated for a further size of a fault") {
     const Scene scene(real_teeth("1e-4"));
     const auto path = sensor_paths(scene);
-    Realization gearbox = scene.sampler().draw({Group::graded, 5});
+    Realization gearbox = scene.sampler().draw({Group::test, 5});
     gearbox.inputs.fault_size = 0.0;
     const GearboxTile healthy = run_realizations(
         scene, path, {gearbox}, 1, {.records = lockstep::RecordOptions{.states = true}});

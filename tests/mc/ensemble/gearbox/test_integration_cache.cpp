@@ -39,7 +39,7 @@ std::vector<std::uint64_t> bits(const BatchRows& rows) {
 std::vector<Batch> graded_tiles(std::size_t count) {
     std::vector<Batch> tiles;
     for (std::size_t t = 0; t < count; ++t) {
-        tiles.push_back({Group::graded, 8 * t, 0, 8});
+        tiles.push_back({Group::test, 8 * t, 0, 8});
     }
     return tiles;
 }
@@ -71,7 +71,7 @@ TEST_CASE("Nothing is cached where every gearbox has a different response") {
     CHECK_FALSE(distinct_integrations(scene).has_value());
     const BatchTask task(scene);
     Seconds seconds;
-    BatchWorker(task).compute({Group::graded, 0, 0, 8}, seconds);
+    BatchWorker(task).compute({Group::test, 0, 0, 8}, seconds);
     CHECK(task.cache.kept() == 0);
     const Scene errors(
         study_with(kSensorOnly, {"gearbox.pitch_error_um=1", "numerics.horizon=full"}));

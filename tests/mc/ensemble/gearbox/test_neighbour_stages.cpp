@@ -61,7 +61,7 @@ TEST_CASE("The sensor picks up the stage's own signal, at the stage's time, time
     const Folder folder;
     const std::string path = stage_file(folder, "stage.toml");
     const mc::Scene scene(small_study(path, ", gain=0.5")), alone(*mc::read_study(kSmall).study);
-    const mc::GearboxId id{mc::Group::graded, 3};
+    const mc::GearboxId id{mc::Group::test, 3};
     const mc::Realization gearbox = scene.sampler().draw(id);
     const std::vector<double> with = sensor_signal(scene, gearbox),
                               without = sensor_signal(alone, gearbox);

@@ -24,7 +24,7 @@ Study study_with(std::vector<std::string> overrides) {
 }
 
 lockstep::ToothErrors errors_of(const Scene& scene, std::uint64_t index) {
-    const Realization gearbox = scene.sampler().draw({Group::graded, index});
+    const Realization gearbox = scene.sampler().draw({Group::test, index});
     return *draw_tooth_errors(scene, std::span(&gearbox, 1));
 }
 
@@ -148,8 +148,8 @@ TEST_CASE("Tooth errors belong to the gearbox: the same in any lane, for any noi
         }
         return *draw_tooth_errors(scene, gearboxes);
     };
-    const auto alone = of({}, {{Group::graded, 5}});
-    const auto other = of({"sensor.noise_m_s2=3"}, {{Group::graded, 4}, {Group::graded, 5}});
+    const auto alone = of({}, {{Group::test, 5}});
+    const auto other = of({"sensor.noise_m_s2=3"}, {{Group::test, 4}, {Group::test, 5}});
     for (std::size_t g = 0; g < alone.gears.size(); ++g) {
         for (std::size_t t = 0; t < alone.gears[g].error_m.size(); ++t) {
             CHECK(alone.gears[g].error_m[t] == other.gears[g].error_m[2 * t + 1]);

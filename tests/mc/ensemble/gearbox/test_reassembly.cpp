@@ -28,11 +28,11 @@ Study study_with(std::vector<std::string> overrides) {
 }
 
 GearboxId baseline(std::uint64_t number) {
-    GearboxId id{Group::graded, 4, Record::baseline};
+    GearboxId id{Group::test, 4, Record::baseline};
     id.baseline = number;
     return id;
 }
-const GearboxId kTest{Group::graded, 4};
+const GearboxId kTest{Group::test, 4};
 
 std::vector<double> features_of(const Study& study, const GearboxId& id) {
     const Scene scene(study);
@@ -81,9 +81,8 @@ TEST_CASE("Inputs of an assembly have their distribution in the baseline, whatev
         double sum = 0.0, product = 0.0;
         constexpr int kGearboxes = 4000;
         for (std::uint64_t i = 0; i < kGearboxes; ++i) {
-            const double now = sampler.draw({Group::graded, i}).inputs.gain - 1.0;
-            const double then =
-                sampler.draw({Group::graded, i, Record::baseline}).inputs.gain - 1.0;
+            const double now = sampler.draw({Group::test, i}).inputs.gain - 1.0;
+            const double then = sampler.draw({Group::test, i, Record::baseline}).inputs.gain - 1.0;
             sum += then;
             product += now * then;
         }

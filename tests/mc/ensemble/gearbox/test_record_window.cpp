@@ -32,7 +32,7 @@ const std::string kCompared =
 // A simulated gearbox of a study and its features.
 class Computed {
   public:
-    explicit Computed(const Study& study, GearboxId id = {Group::graded, 4})
+    explicit Computed(const Study& study, GearboxId id = {Group::test, 4})
         : scene_(study),
           path_(sensor_paths(scene_)),
           tile_(run_gearboxes(scene_, path_, std::span(&id, 1), 1)),
@@ -131,7 +131,7 @@ TEST_CASE(
     std::vector<int> count(kBins);
     std::set<int> distinct;
     for (std::uint64_t i = 0; i < kRecords; ++i) {
-        const RecordWindow window = record_window(scene, {Group::graded, i}, 10);
+        const RecordWindow window = record_window(scene, {Group::test, i}, 10);
         REQUIRE(window.first_mesh >= 0);
         REQUIRE(window.first_mesh <= scene.span_meshes());
         distinct.insert(window.first_mesh);
@@ -146,7 +146,7 @@ TEST_CASE(
     CHECK(distinct.size() > 2000);
     // Each record of a gearbox has its own start.
     const auto first = [&](GearboxId id) { return record_window(scene, id, 10).first_mesh; };
-    CHECK(first({Group::graded, 1}) != first({Group::graded, 1, Record::baseline}));
+    CHECK(first({Group::test, 1}) != first({Group::test, 1, Record::baseline}));
     CHECK(first({Group::threshold, 1}) != first({Group::threshold, 1, Record::test, 1}));
 }
 
@@ -162,7 +162,7 @@ Study real_teeth(std::vector<std::string> overrides) {
 
 TEST_CASE("Records that are integrated alone are those of the whole signal") {
     // Gearbox 16 is the first of its group, whose window is its own.
-    const GearboxId id{Group::graded, 16};
+    const GearboxId id{Group::test, 16};
     const Computed alone(real_teeth({}), id);
     REQUIRE(integrates_records_only(alone.scene()));
     const Computed whole(real_teeth({"ensemble.threshold_records=2"}), id);
@@ -174,12 +174,12 @@ TEST_CASE("Records that are integrated alone are those of the whole signal") {
     }
     CHECK(alone.meshes() < 0.25 * whole.meshes());
     // Others have the window of the first one, whatever tile computes them.
-    const Computed other(real_teeth({}), {Group::graded, 19});
+    const Computed other(real_teeth({}), {Group::test, 19});
     CHECK(other.window().first_mesh == alone.window().first_mesh);
     const SensorPaths path = sensor_paths(other.scene());
     std::vector<GearboxId> ids;
     for (std::uint64_t index = 16; index < 24; ++index) {
-        ids.push_back({Group::graded, index});
+        ids.push_back({Group::test, index});
     }
     const GearboxTile tile = run_gearboxes(other.scene(), path, ids, 8);
     const HealthyReference healthy;
@@ -190,7 +190,7 @@ TEST_CASE("Records that are integrated alone are those of the whole signal") {
     for (const std::size_t feature : {0, 1, 2, 3}) {
         CHECK(values[feature] == other[feature]);
     }
-    const Simulation simulation = simulate(other.scene(), {Group::graded, 19}, 93);
+    const Simulation simulation = simulate(other.scene(), {Group::test, 19}, 93);
     CHECK(simulation.features == values);
 }
 
@@ -227,7 +227,7 @@ TEST_CASE("Parts of a baseline record include the windows of the test record and
 TEST_CASE("The length of records changes no other random input, and no results without it") {
     const Study whole = study_with({kPlain}), cut = study_with({kPlain, "sensor.record_turns=4"});
     for (std::uint64_t i = 0; i < 5; ++i) {
-        const GearboxId id{Group::graded, i};
+        const GearboxId id{Group::test, i};
         CHECK(Sampler(whole).draw(id).random_values == Sampler(cut).draw(id).random_values);
     }
     CHECK(resolved_text(whole).find("record_") == std::string::npos);
@@ -264,7 +264,7 @@ TEST_CASE("simulate shows the samples of the record, from its first mesh period"
     const Computed record(study);
     const Scene scene(study);
     const long meshes = 10 * 31;
-    const Simulation simulation = simulate(scene, {Group::graded, 4}, meshes);
+    const Simulation simulation = simulate(scene, {Group::test, 4}, meshes);
     const auto column = [&](const std::string& name) {
         return std::ranges::find(simulation.columns, name, &SignalColumn::name)->values;
     };

@@ -15,7 +15,7 @@ namespace {
 
 // The first recorded mesh of a gearbox with real teeth after so many others.
 lockstep::MeshRecord first_mesh(const Scene& scene, int run_in) {
-    Realization gearbox = scene.sampler().draw({Group::graded, 3});
+    Realization gearbox = scene.sampler().draw({Group::test, 3});
     gearbox.inputs.fault_size = 0.0;
     const dynamics::GearboxInputs inputs = scene.inputs(gearbox.inputs);
     const auto errors = draw_tooth_errors(scene, std::span(&gearbox, 1));

@@ -39,7 +39,7 @@ class Tile {
     explicit Tile(const Study& study) : scene_(study), path_(sensor_paths(scene_)) {
         std::vector<GearboxId> ids;
         for (std::uint64_t i = 0; i < 8; ++i) {
-            ids.push_back({Group::graded, i});
+            ids.push_back({Group::test, i});
         }
         tile_ = run_gearboxes(scene_, path_, ids, 8);
     }
@@ -155,7 +155,7 @@ class ContactLimit {
         std::vector<Realization> gearboxes;
         std::vector<dynamics::GearboxInputs> inputs;
         for (std::uint64_t i = first; i < first + 8; ++i) {
-            gearboxes.push_back(scene_.sampler().draw({Group::graded, i}));
+            gearboxes.push_back(scene_.sampler().draw({Group::test, i}));
             inputs.push_back(scene_.inputs(gearboxes.back().inputs));
         }
         const auto errors = draw_tooth_errors(scene_, gearboxes);
@@ -241,7 +241,7 @@ TEST_CASE("Integrations of lives start from superposed states as from integrated
         const Scene scene(study);
         const SensorPaths path = sensor_paths(scene);
         const HealthySolution healthy_solution(scene, path,
-                                               {scene.sampler().draw({Group::graded, 1})}, 1);
+                                               {scene.sampler().draw({Group::test, 1})}, 1);
         return healthy_solution.with_fault(2e-3).lane[0].sensor;
     };
     CHECK(relative_rms(cracked("superposed"), cracked("full")) < 1e-7);

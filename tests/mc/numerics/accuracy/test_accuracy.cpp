@@ -183,7 +183,7 @@ TEST_CASE("the share of decisions that the numerical error could change is count
         r.features[0].values.push_back(0.01 * i);
     }
     for (int i = 0; i < 100; ++i) {
-        r.group.push_back(static_cast<int>(Group::graded));
+        r.group.push_back(static_cast<int>(Group::test));
         r.parameters[0].values.push_back(0.001);
         r.features[0].values.push_back(0.5 + 0.01 * i);
     }

@@ -36,7 +36,7 @@ RunCost given_costs(int threads) {
 IntegrationCounts all_integrated(const BatchPlan& plan) {
     IntegrationCounts counts;
     counts.integrated = {(plan.threshold_rows() + kLanes - 1) / kLanes,
-                         (plan.graded_rows() + kLanes - 1) / kLanes};
+                         (plan.test_rows() + kLanes - 1) / kLanes};
     return counts;
 }
 
@@ -55,7 +55,7 @@ std::vector<std::uint64_t> bits_of(const BatchRows& rows) {
 BatchRows first_tile(const Scene& scene) {
     const BatchTask task(scene);
     Seconds seconds;
-    return BatchWorker(task).compute({Group::graded, 0, 0, kLanes}, seconds);
+    return BatchWorker(task).compute({Group::test, 0, 0, kLanes}, seconds);
 }
 
 const std::vector<std::string> kFast{"operation.carrier_speed_rpm=60", "sensor.sampling_Hz=20000",
@@ -84,7 +84,7 @@ TEST_CASE(
 
 TEST_CASE("Each group has its own cost, and a thread starts once") {
     RunCost calibration = given_costs(1);
-    calibration.cost[static_cast<std::size_t>(Group::graded)].integrated.whole.integration = 5.0;
+    calibration.cost[static_cast<std::size_t>(Group::test)].integrated.whole.integration = 5.0;
     calibration.start_s = 0.25;
     CHECK(forecast_s(calibration, {16, 16}) == Approx(0.25 + 3.0 + 11.0));
     calibration.threads = 2;
@@ -243,7 +243,7 @@ TEST_CASE("Synthetic results have the run's gearboxes and values similar to comp
         }
         for (std::size_t i = 0; i < calibration.gearboxes.size(); ++i) {
             const double* values = calibration.rows.values.data() + i * shape.values();
-            if (calibration.gearboxes[i].group == Group::graded &&
+            if (calibration.gearboxes[i].group == Group::test &&
                 std::abs(values[shape.fault_size()] - size_m) < 1e-9) {
                 computed += values[shape.value_of(feature, 2)];
                 ++m;
