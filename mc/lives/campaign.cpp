@@ -220,8 +220,8 @@ Campaign campaign_of(const CampaignPlan& plan, const Results& frame, const RowSo
         campaign.interpolation.take(read.interpolation);
         campaign.failed += read.life.status == Status::ok ? 0 : 1;
         auto& lives = row.group == static_cast<int>(Group::test) ? campaign.cracked
-                      : row.index < threshold_lives                ? campaign.threshold_lives
-                                                                   : campaign.healthy;
+                      : row.index < threshold_lives              ? campaign.threshold_lives
+                                                                 : campaign.healthy;
         lives.push_back(std::move(read.life));
     });
     for (const Timing& timing : frame.timing) {

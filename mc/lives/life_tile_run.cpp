@@ -409,8 +409,8 @@ LaneSignals LifeTiles::synthetic_signals(std::uint64_t number) const {
         return static_cast<std::size_t>(of_mesh) * static_cast<std::size_t>(meshes);
     };
     LaneSignals all;
-    Philox engine = gearbox_stream(plan_.campaign.seed, {Group::test, number},
-                                   StreamPurpose::forecast_signals);
+    Philox engine =
+        gearbox_stream(plan_.campaign.seed, {Group::test, number}, StreamPurpose::forecast_signals);
     all.sensor.resize(samples(scene_.samples_per_mesh(), scene_.span_meshes()));
     signals::draw_normals(engine, std::span(all.sensor));
     all.te_turn.resize(samples(scene_.te_samples_per_mesh(), scene_.span().planet_teeth));

@@ -165,8 +165,7 @@ std::vector<analysis::FeatureDetection> detect_all(const Results& frame, const R
                 sample.weights = healthy.weight;
             }
             all.push_back(analysis::detect_clustered(feature.name, feature.alarm, sample, numbers,
-                                                     {test.size, test.values[f]},
-                                                     frame.request));
+                                                     {test.size, test.values[f]}, frame.request));
         }
     }
     return all;

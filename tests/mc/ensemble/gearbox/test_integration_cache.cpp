@@ -36,7 +36,7 @@ std::vector<std::uint64_t> bits(const BatchRows& rows) {
     return all;
 }
 
-std::vector<Batch> graded_tiles(std::size_t count) {
+std::vector<Batch> test_tiles(std::size_t count) {
     std::vector<Batch> tiles;
     for (std::size_t t = 0; t < count; ++t) {
         tiles.push_back({Group::test, 8 * t, 0, 8});
@@ -52,7 +52,7 @@ TEST_CASE("Cached responses are not integrated again, and give the same bits") {
     const BatchTask shared(scene);
     BatchWorker worker(shared);
     Seconds seconds;
-    for (const Batch& tile : graded_tiles(16)) {
+    for (const Batch& tile : test_tiles(16)) {
         const BatchRows again = worker.compute(tile, seconds);
         REQUIRE(again.count() == 8);
         const BatchTask fresh(scene);
