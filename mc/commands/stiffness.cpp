@@ -58,7 +58,7 @@ void print_summary(const GearboxPlan& gearbox) {
     }
     const std::vector<int> pairs = faulty_pairs(gearbox.fault());
     if (!pairs.empty()) {
-        const Key& size = gearbox.fault().size_key();
+        const Key& size = *gearbox.fault().plan().size_key;
         std::string names;
         for (const int pair : pairs) {
             names += fmt::format("{}{} ({})", names.empty() ? "" : " and of ",

@@ -39,7 +39,7 @@ void add_faulty(const GearboxPlan& gearbox, int pair, const stiffness::FaultyMes
     const int periods = static_cast<int>(std::ceil(start + mesh.duration()));
     for (int period = 0; period < periods; ++period) {
         table.add(fmt::format("{}_{}_period{}", gearbox.drivetrain->pair_name(pair),
-                              gearbox.fault().name(size), period + 1),
+                              gearbox.fault().plan().name_at(size), period + 1),
                   "N/m", [&](double phase) {
                       return faulty_total(gearbox.pairs(), pair, mesh, phase + period - start);
                   });
@@ -56,7 +56,7 @@ std::vector<SignalColumn> stiffness_columns(const GearboxPlan& gearbox, int poin
     }
     const std::vector<int> pairs = faulty_pairs(gearbox.fault());
     for (int curve = 0; curve < gearbox.fault().curves(); ++curve) {
-        for (const double size : gearbox.fault().sizes()) {
+        for (const double size : gearbox.fault().plan().sizes) {
             add_faulty(gearbox, pairs[static_cast<std::size_t>(curve)],
                        *gearbox.fault().mesh(curve, size), size, table);
         }

@@ -12,6 +12,7 @@
 #include "lockstep/plan/fault_schedule.hpp"
 #include "lockstep/plan/stiffness_nodes.hpp"
 #include "mc/plan/drivetrain.hpp"
+#include "mc/plan/fault_plan.hpp"
 #include "mc/study/gears.hpp"
 #include "mc/study/schema/schema.hpp"
 #include "stiffness/foundation/fillet_foundation.hpp"
@@ -51,47 +52,6 @@ lockstep::PairSet make_pairs(const std::vector<SceneMesh>& meshes, const Drivetr
 // Mean stiffness of all pairs of a gearbox with constant stiffness, N/m; also without teeth.
 std::vector<double> constant_pairs(const Study& study);
 
-// Fault of a study: which gear pairs the faulty tooth weakens, when, and by how much; or which
-// pairs have worn flanks.
-
-class SceneFault {
-  public:
-    // The meshes outlive the fault. Throws SceneError.
-    SceneFault(const Study& study, const std::vector<SceneMesh>& meshes,
-               const lockstep::PairSet& pairs);
-
-    // Passages of the faulty tooth; empty without a fault and for wear.
-    const lockstep::FaultPattern& pattern() const { return pattern_; }
-    // Number of meshes that the tooth weakens, each with its own stiffness curve.
-    int curves() const { return static_cast<int>(laws_.size()); }
-    // Pairs whose flanks wear; their depth is the fault's size.
-    const std::vector<int>& worn_pairs() const { return worn_pairs_; }
-    // Mesh with the faulty tooth of that size; null if the size is 0 or there is no fault.
-    std::shared_ptr<const stiffness::FaultyMesh> mesh(int curve, double size) const;
-    // Sizes at which curves are shown: the levels, or the edges, without 0. Ascending, SI.
-    const std::vector<double>& sizes() const { return sizes_; }
-    const Key& size_key() const { return *size_key_; }
-    // Name of the study's fault at a size: "crack_3mm", or "chip_0.1" for a pure number.
-    std::string name(double size) const;
-    // Size at which the tooth transmits no load, or above which the fault model is undefined; 0 if
-    // there is none.
-    double largest_size() const;
-    // Mesh phases at which a fault's stiffness jumps, whatever its size.
-    std::vector<double> jumps(const lockstep::PairSet& pairs) const;
-
-  private:
-    struct Law {
-        const stiffness::MeshStiffness* mesh;
-        std::unique_ptr<const stiffness::ToothFaultFamily> family;
-    };
-    std::string_view kind_;  // empty without a fault
-    const Key* size_key_;
-    std::vector<double> sizes_;
-    std::vector<Law> laws_;
-    std::vector<int> worn_pairs_;
-    lockstep::FaultPattern pattern_;
-};
-
 // Stiffness of a study's gear pairs, healthy and with the fault, and the scales of their tooth
 // errors. Scenes share it unless they differ in numerics.stiffness_tolerance or
 // numerics.face_slices.
@@ -123,9 +83,6 @@ class SceneStiffness {
     std::vector<double> mean_pairs_;
     MemberArray<gears::DeviationScales> tooth_scales_;
 };
-
-// First gear pair in which the faulty tooth engages, for each of its stiffness curves.
-std::vector<int> faulty_pairs(const SceneFault& fault);
 
 // Stiffness, N/m, of the gear pair `since` mesh periods after its faulty tooth started to engage;
 // outside its engagement, that of the healthy pair.

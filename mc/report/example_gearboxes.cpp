@@ -22,7 +22,6 @@
 #include "mc/plan/scene.hpp"
 #include "mc/results/reliability_of_results.hpp"
 #include "mc/study/fluctuations.hpp"
-#include "mc/study/schema/sizes.hpp"
 #include "signals/noise/sensor_noise.hpp"
 #include "signals/sensor/sensor_signal.hpp"
 #include "signals/spectra/fourier_transform.hpp"
@@ -540,7 +539,7 @@ Json stiffness_json(const Scene& scene) {
     }
     json["pairs"] = healthy_curves(scene);
     const std::vector<int> pairs = faulty_pairs(scene.fault());
-    const std::vector<double> sizes = fault_sizes(scene.study());
+    const std::vector<double> sizes = scene.fault().plan().sizes;
     for (int curve = 0; curve < scene.fault().curves() && !sizes.empty(); ++curve) {
         json["passages"].push_back(
             passage_json(scene, curve, pairs[static_cast<std::size_t>(curve)], sizes));

@@ -174,7 +174,7 @@ analysis::Report report_of(const Results& frame, const RowSource& rows,
         {frame.detection, reliability ? &*reliability : nullptr, frame.request, subject_of(frame),
          study && study->fault.kind ? std::string(study->fault.kind->words()) : "a fault",
          reference_level(frame.noise_levels), units, [&study](double size) {
-             return study && study->fault.kind ? study->fault.kind->share_text(*study, size) : "";
+             return study && study->fault.kind ? study->fault.kind->share(*study).text(size) : "";
          }});
     analysis::Report report;
     report.add(state_section(frame, run.failures.counts));

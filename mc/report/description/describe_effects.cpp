@@ -320,17 +320,10 @@ void print_omitted_excitation(const Study& study) {
     }
 }
 
-void print_fault(const Study& study) {
-    if (study.fault.kind == nullptr) {
-        return;
+void print_fault(const FaultPlan& fault) {
+    if (fault.given()) {
+        print_entry("fault", fmt::format("{} on {}", fault.title, fault.location));
     }
-    std::string where = fmt::format("the {}", member_name(*study.fault.member));
-    if (study.fault.side) {
-        where =
-            fmt::format("planet {}, {} side{}", study.fault.planet, choice(study, "fault", "side"),
-                        study.fault.side == FaultSide::both ? "s" : "");
-    }
-    print_entry("fault", fmt::format("{} on {}", study.fault.kind->title(), where));
 }
 
 bool has_sensor_noise(const Study& study) {
@@ -364,7 +357,7 @@ void print_omitted(const Scene& scene) {
     if (study.gearbox.helix_angle_rad > 0.0) {
         print_entry("axial motion, tilting", "helical gears move in the transverse plane only");
     }
-    if (study.fault.kind == nullptr) {
+    if (!scene.fault().plan().given()) {
         print_entry("fault", "fault.kind = \"none\"");
     }
     if (!e.quasi_static() && !has_sensor_noise(study)) {
@@ -407,7 +400,7 @@ void print_effects(const Scene& scene) {
     print_motion(study);
     print_meshes(study);
     print_excitation(study);
-    print_fault(study);
+    print_fault(scene.fault().plan());
     if (!study.effects.quasi_static()) {
         print_sensors(scene);
         if (has_sensor_noise(study)) {

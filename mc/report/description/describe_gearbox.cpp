@@ -17,7 +17,6 @@
 #include "mc/study/faults/fault_kind.hpp"
 #include "mc/study/gears.hpp"
 #include "mc/study/housing.hpp"
-#include "mc/study/schema/sizes.hpp"
 #include "stiffness/iso_6336.hpp"
 
 namespace gearpod::mc {
@@ -83,20 +82,18 @@ void print_members(const Study& study) {
 // Prints fault sizes in the unit of the study, and as fractions of the largest possible size (for a
 // crack, the whole way through the tooth root).
 void print_fault_sizes(const Scene& scene) {
-    const Study& study = scene.study();
-    const std::vector<double> all = fault_sizes(study);
-    if (study.fault.kind == nullptr || all.empty()) {
+    const FaultPlan& fault = scene.fault().plan();
+    if (fault.sizes.empty()) {
         return;
     }
-    const Unit& unit = fault_size_key(study).unit;
-    const bool groups = !size_edges(study).empty();
+    const Unit& unit = fault.unit();
     const double largest = scene.fault().largest_size();
     std::vector<std::string> sizes, shares;
-    for (const double size : all) {
+    for (const double size : fault.sizes) {
         sizes.push_back(figures(size / unit.to_si));
         shares.push_back(fmt::format("{:.3g}", 100.0 * size / largest));
     }
-    std::string text = fmt::format("{}{}", groups ? "random, in groups with the edges " : "",
+    std::string text = fmt::format("{}{}", fault.groups ? "random, in groups with the edges " : "",
                                    fmt::join(sizes, ", "));
     if (!unit.suffix.empty()) {
         text += fmt::format(" {}", unit.name);
@@ -106,7 +103,7 @@ void print_fault_sizes(const Scene& scene) {
                             fmt::join(shares, ", "), largest / unit.to_si, unit.name);
     }
     print_entry("fault sizes", text);
-    print_entry("fault origin", study.fault.kind->origin(study, all));
+    print_entry("fault origin", fault.origin);
 }
 
 void print_planetary(const PlanetaryDrivetrain& drivetrain) {

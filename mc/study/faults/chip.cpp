@@ -56,9 +56,7 @@ class ChipKind final : public FaultKind {
         return "width measured from one end of the tip, height from the tip circle down the flank";
     }
 
-    std::string share_text(const Study& study, double size) const override {
-        return face_share_text(study, size);
-    }
+    SizeShare share(const Study& study) const override { return share_of_face(study); }
 
     std::unique_ptr<const stiffness::ToothFaultFamily> family(
         const Study& study, const FaultyTooth& tooth) const override {

@@ -68,10 +68,6 @@ double critical_section_m(const Study& study) {
                : stiffness::CrackPath(tooth, crack_angle_rad(study)).thickness();
 }
 
-std::string crack_share_text(const Study& study, double depth_m) {
-    return part_text(section_share(study, depth_m)) + " of the tooth section";
-}
-
 std::string crack_origin(const Study& study, std::span<const double> depths_m) {
     std::vector<std::string> depths, shares;
     for (const double depth_m : depths_m) {
@@ -123,8 +119,8 @@ class CrackKind final : public FaultKind {
         return crack_origin(study, sizes);
     }
 
-    std::string share_text(const Study& study, double size) const override {
-        return crack_share_text(study, size);
+    SizeShare share(const Study& study) const override {
+        return {std::sin(crack_angle_rad(study)), critical_section_m(study), "the tooth section"};
     }
 
     std::unique_ptr<const stiffness::ToothFaultFamily> family(

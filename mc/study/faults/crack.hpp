@@ -39,8 +39,6 @@ double critical_section_m(const Study& study);
 // Text for the user: where the cracks start, the tooth thickness there, and the fraction of that
 // section that each of these depths takes.
 std::string crack_origin(const Study& study, std::span<const double> depths_m);
-// "70 % of the tooth section": part of that section which a crack of this depth takes.
-std::string crack_share_text(const Study& study, double depth_m);
 // "than the tooth (a crack at 45 deg leaves it after 4.2 mm)".
 std::string deeper_than_tooth_text(const Study& study);
 

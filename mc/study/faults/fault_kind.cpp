@@ -1,9 +1,16 @@
 #include "mc/study/faults/fault_kind.hpp"
 
+#include <fmt/format.h>
+
 namespace gearpod::mc {
 
-std::string FaultKind::share_text(const Study& /*study*/, double /*size*/) const {
-    return "";
+std::string SizeShare::text(double size) const {
+    if (of.empty()) {
+        return "";
+    }
+    const double percent = 100.0 * (size * factor / whole);
+    return fmt::format(fmt::runtime(percent < 10.0 ? "{:.2g} % of {}" : "{:.0f} % of {}"), percent,
+                       of);
 }
 
 std::vector<FaultKey> FaultKind::keys() const {

@@ -48,6 +48,14 @@ struct FaultyTooth {
     bool reversed;                                  // true if the mesh's first gear is driven
 };
 
+// Part of a tooth dimension that a fault size (SI) takes: size * factor / whole.
+struct SizeShare {
+    double factor = 1.0, whole = 0.0;
+    std::string of;  // "the tooth section"; "" if the size is no part of a dimension
+
+    std::string text(double size) const;  // "70 % of the tooth section", or ""
+};
+
 class FaultKind {
   public:
     virtual std::string_view name() const = 0;   // in study files, "spatial-crack"
@@ -71,9 +79,8 @@ class FaultKind {
     // (SI) are measured. Needs the tooth geometry if the kind shapes the tooth.
     virtual std::string origin(const Study& study, std::span<const double> sizes) const = 0;
 
-    // Size (SI) as a share of the tooth, for the user: "70 % of the tooth section"; "" if the size
-    // is no part of a tooth dimension. Needs what origin() needs.
-    virtual std::string share_text(const Study& study, double size) const;
+    // Part of the tooth that a size takes. Needs what origin() needs.
+    virtual SizeShare share(const Study& /*study*/) const { return {}; }
 
     // All keys of the kind, the size first.
     std::vector<FaultKey> keys() const;

@@ -39,13 +39,8 @@ void check_on_face(StudyDraft& draft) {
     check_size(draft, {face_mm, fmt::format("wider than the face, {:.6g} mm", face_mm)});
 }
 
-std::string part_text(double share) {
-    const double percent = 100.0 * share;
-    return percent < 10.0 ? fmt::format("{:.2g} %", percent) : fmt::format("{:.0f} %", percent);
-}
-
-std::string face_share_text(const Study& study, double size_m) {
-    return part_text(size_m / *study.gearbox.face_width_m) + " of the face width";
+SizeShare share_of_face(const Study& study) {
+    return {1.0, *study.gearbox.face_width_m, "the face width"};
 }
 
 void check_helical(StudyDraft& draft, const std::string& key) {

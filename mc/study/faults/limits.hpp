@@ -4,6 +4,7 @@
 #include <string>
 
 #include "mc/study/draft.hpp"
+#include "mc/study/faults/fault_kind.hpp"
 
 namespace gearpod::mc {
 
@@ -24,11 +25,8 @@ void check_size(StudyDraft& draft, const SizeLimit& limit);
 // The same with the face width as the limit.
 void check_on_face(StudyDraft& draft);
 
-// "12 %" or "0.21 %".
-std::string part_text(double share);
-
-// "12 % of the face width": part of the face width that a size along it takes.
-std::string face_share_text(const Study& study, double size_m);
+// Part of the face width that a size along it takes.
+SizeShare share_of_face(const Study& study);
 
 // Rejects a key that gives a position along the face width if the teeth are spur teeth, which touch
 // along the whole face at once.

@@ -117,9 +117,7 @@ class PittingKind final : public FaultKind {
         return "a rectangle on the working flank, its depth measured from the flank";
     }
 
-    std::string share_text(const Study& study, double size) const override {
-        return face_share_text(study, size);
-    }
+    SizeShare share(const Study& study) const override { return share_of_face(study); }
 
     std::unique_ptr<const stiffness::ToothFaultFamily> family(
         const Study& study, const FaultyTooth& tooth) const override {
