@@ -8,7 +8,6 @@
 #include "mc/library/run/command_files.hpp"
 #include "mc/numerics/accuracy/report.hpp"
 #include "mc/report/page.hpp"
-#include "mc/study/other_sources.hpp"
 
 namespace gearpod::mc {
 
@@ -34,22 +33,6 @@ int accuracy_command(const AccuracyOptions& options) {
     if (!made || !writable) {
         return kBadInput;
     }
-    const Study& study = made.scene->study();
-    if (study.effects.quasi_static()) {
-        print_problems({{options.study.path, 0, "effects.motion",
-                         "a quasi-static study has no time integration, so there are no solver "
-                         "settings to compare",
-                         "choose a motion with inertia, e.g. \"translational-torsional\""}});
-        return kBadInput;
-    }
-    if (is_coupled(study)) {
-        print_problems({{options.study.path, 0, "sensor.stages",
-                         "stages that elastic shafts couple are integrated by one method only, so "
-                         "there are no solver settings to compare",
-                         "remove shaft_stiffness_N_m_rad, or compare the settings of each stage's "
-                         "own study"}});
-        return kBadInput;
-    }
     AccuracyRequest request;
     request.repeats = options.repeats;
     request.gearboxes = options.gearboxes;
@@ -58,17 +41,19 @@ int accuracy_command(const AccuracyOptions& options) {
         request.progress = [](const std::string& text) { fmt::print(stderr, "{}\n", text); };
     }
     try {
+        const Planner planner(*made.scene);
+        planner.check_choice();
         std::vector<PeerResult> peers;
         if (!options.peers.empty()) {
             peers = read_peers(options.peers);
         }
-        AccuracyReport report = measure_accuracy(study, request);
+        AccuracyReport report = measure_accuracy(planner, request);
         report.peers = std::move(peers);
         const bool terminal = options.json == "-";
         if (!terminal) {
             fmt::print("{}", accuracy_text(report));
         }
-        const std::string json = accuracy_json(report, study);
+        const std::string json = accuracy_json(report, made.scene->study());
         if (!options.json.empty() && !write_text_to(options.json, json)) {
             return kBadInput;
         }

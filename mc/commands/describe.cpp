@@ -219,13 +219,13 @@ void print_omitted(const char* what, const DescribeOptions& options) {
 
 // Forecast where the budget is used up. `scene`: null if the pilot run that chooses the solver
 // setting took too long.
-void print_fallback(const Study& study, const std::optional<Scene>& scene,
+void print_fallback(const Planner& planner, const std::optional<Scene>& scene,
                     const PeakMemory& memory) {
     if (scene) {
         return print_step_forecast(*scene, memory);
     }
     try {
-        const Scene with_defaults(without_tolerance(study));
+        const Scene with_defaults = planner.plan(without_tolerance(planner.facts().numerics));
         print_entry("solver setting", "the default, not the one that a pilot run would choose");
         print_step_forecast(with_defaults, memory);
     } catch (const SceneError& error) {
@@ -262,6 +262,7 @@ int describe_command(const DescribeOptions& options) {
         fmt::print("\nthe study has no tooth numbers: only `gearpod modes` can use it\n");
         return kDone;
     }
+    const Planner planner(*study);
     print_false_alarms(*study);
     std::fflush(stdout);
     const auto start = WallClock::now();
@@ -294,13 +295,14 @@ int describe_command(const DescribeOptions& options) {
         print_omitted(missing, options);
         const double now_bytes = peak_memory_bytes();
         memory.computed_bytes = now_bytes > before_bytes ? now_bytes : 0.0;
-        print_fallback(*study, scene, memory);
+        print_fallback(planner, scene, memory);
         return kDone;
     }
     std::fflush(stdout);
     try {
         const Deadline deadline(options.seconds);
-        print_effect_changes(*study, *scene, kEffectsShare * options.seconds);
+        print_effect_changes(planner, scene->span(), scene->nominal_mesh_frequency_Hz(),
+                             kEffectsShare * options.seconds);
     } catch (const machine::Cancelled&) {
         print_omitted("measuring what further effects change", options);
     } catch (const SceneError& error) {

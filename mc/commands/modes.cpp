@@ -127,7 +127,7 @@ int modes_command(const ModesOptions& options) {
         modes.frequencies_Hz = natural_frequencies_Hz(plan);
         modes.speeds = frequencies_over_speed(plan, kHighestSpeed, kSpeeds);
         if (plan.coupled) {
-            modes.train_Hz = train_frequencies_Hz(Scene(resolve_numerics(*study).study).gearbox());
+            modes.train_Hz = train_frequencies_Hz(resolved_plan(*study).gearbox());
         }
     } catch (const SceneError& error) {
         print_problems({{options.study.path, 0, error.key(), error.what(), error.remedy()}});

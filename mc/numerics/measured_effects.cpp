@@ -5,132 +5,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "mc/files/input/problems.hpp"
 #include "mc/numerics/time_budget.hpp"
-#include "mc/plan/scene_error.hpp"
-#include "mc/study/fluctuations.hpp"
-#include "mc/study/gears.hpp"
 
 namespace gearpod::mc {
 namespace {
-
-bool has_bodies_in_plane(const Study& s) {
-    return s.gearbox.kind == GearboxKind::planetary && !s.effects.torsional();
-}
-bool has_real_teeth(const Study& s) {
-    return s.gearbox.tooth_profile != ToothProfile::constant &&
-           s.gearbox.tooth_profile != ToothProfile::square_wave;
-}
-bool always(const Study&) {
-    return true;
-}
-
-// Removes the distributions of keys that begin with one of `starts`.
-void give_up_random(Study& s, std::initializer_list<std::string_view> starts) {
-    std::erase_if(s.random, [&](const RandomInput& input) {
-        return std::ranges::any_of(starts,
-                                   [&](auto start) { return input.key.starts_with(start); });
-    });
-    std::erase_if(s.correlations, [&](const Correlation& c) {
-        return s.find_random(c.first) == nullptr || s.find_random(c.second) == nullptr;
-    });
-}
-
-void remove_tooth_errors(Study& s) {
-    s.errors.tooth_quality.reset();
-    s.errors.pitch_error_m = s.errors.index_wave_m = s.errors.eccentricity_m =
-        s.errors.profile_slope_m = 0.0;
-    for (MemberValues& body : s.gearbox.bodies.values) {
-        body.quality.reset();
-        body.index_m.clear();
-        body.ring_side_index_m.clear();
-    }
-    give_up_random(s, {"gearbox.tooth_quality", "gearbox.pitch_error", "gearbox.index_wave",
-                       "gearbox.eccentricity", "gearbox.profile_slope"});
-}
-
-bool has_pin_errors(const Study& s) {
-    const PlanetDifferences& p = s.planets;
-    return p.pin_tangential_rms_m > 0.0 || p.pin_radial_rms_m > 0.0 ||
-           !p.pin_tangential_m.empty() || !p.pin_radial_m.empty();
-}
-void remove_pin_errors(Study& s) {
-    s.planets.pin_tangential_m.clear();
-    s.planets.pin_radial_m.clear();
-    s.planets.pin_tangential_rms_m = s.planets.pin_radial_rms_m = 0.0;
-    give_up_random(s, {"gearbox.pin_"});
-}
-
-void remove_relief(Study& s) {
-    for (MemberValues& body : s.gearbox.bodies.values) {
-        for (auto* value : {&body.tip_relief_m, &body.tip_relief_length_m, &body.root_relief_m,
-                            &body.root_relief_length_m, &body.crowning_m}) {
-            value->reset();
-        }
-    }
-}
-
-void remove_torque_fluctuation(Study& s) {
-    Fluctuations& f = s.fluctuations;
-    f.torque.reset();
-    f.torque_order.reset();
-    f.torque_Hz.reset();
-    f.torque_noise.reset();
-    f.torque_noise_Hz.reset();
-    f.torque_phase_rad = 0.0;
-    give_up_random(s, {"operation.torque_fluctuation", "operation.torque_noise"});
-}
-void remove_speed_fluctuation(Study& s) {
-    Fluctuations& f = s.fluctuations;
-    f.speed.reset();
-    f.speed_order.reset();
-    f.speed_noise.reset();
-    f.speed_noise_Hz.reset();
-    f.speed_phase_rad = 0.0;
-    give_up_random(s, {"operation.speed_fluctuation", "operation.speed_noise"});
-}
-
-struct OptionalEffect {
-    const char* name;
-    bool (*applies)(const Study&);
-    bool (*present)(const Study&);
-    void (*remove)(Study&);
-    void (*add)(Study&) = nullptr;  // null: an effect that needs further values is not added
-};
-
-const OptionalEffect kOptionalEffects[] = {
-    {"inertial terms", has_bodies_in_plane, [](const Study& s) { return s.effects.inertial_terms; },
-     [](Study& s) { s.effects.inertial_terms = false; },
-     [](Study& s) { s.effects.inertial_terms = true; }},
-    {"gravity", always, [](const Study& s) { return s.effects.gravity; },
-     [](Study& s) { s.effects.gravity = false; }, [](Study& s) { s.effects.gravity = true; }},
-    {"extended contact", has_real_teeth,
-     [](const Study& s) { return s.effects.contact_onset == ContactOnset::extended; },
-     [](Study& s) { s.effects.contact_onset = ContactOnset::abrupt; },
-     [](Study& s) { s.effects.contact_onset = ContactOnset::extended; }},
-    {"tooth separation", always,
-     [](const Study& s) {
-         return s.effects.separation != Separation::none && !has_unilateral_teeth(s);
-     },
-     [](Study& s) { s.effects.separation = Separation::none; }},
-    {"tooth errors", always, has_tooth_errors, remove_tooth_errors},
-    {"pin errors", always, has_pin_errors, remove_pin_errors},
-    {"relief and crowning", always, has_relief, remove_relief},
-    {"elastic gear bodies", has_real_teeth,
-     [](const Study& s) { return s.effects.foundation != Foundation::none; },
-     [](Study& s) { s.effects.foundation = Foundation::none; }},
-    {"load-dependent contact", has_real_teeth,
-     [](const Study& s) { return s.effects.contact != Contact::linear; },
-     [](Study& s) { s.effects.contact = Contact::linear; }},
-    {"shear of the teeth", has_real_teeth, [](const Study& s) { return s.effects.shear; },
-     [](Study& s) { s.effects.shear = false; }, [](Study& s) { s.effects.shear = true; }},
-    {"torque fluctuation", always, torque_fluctuates, remove_torque_fluctuation},
-    {"speed fluctuation", always, speed_fluctuates, remove_speed_fluctuation},
-    {"transmission path", has_bodies_in_plane,
-     [](const Study& s) {
-         return s.effects.path != nullptr && s.effects.path != &signals::path_window("rectangular");
-     },
-     [](Study& s) { s.effects.path = &signals::path_window("rectangular"); }}};
 
 // Signals may cover fewer mesh periods after the change: both records keep the common ones.
 void keep_common(std::vector<std::vector<double>>& a, std::vector<std::vector<double>>& b) {
@@ -145,69 +23,54 @@ struct TimedPilot {
     PilotRecord record;
     double least_s = INFINITY;  // processor time of a gearbox
 };
-TimedPilot timed_pilot(const Scene& scene, int repeats) {
-    const Pilot pilot(scene);
+TimedPilot timed_pilot(const Planner& planner, int repeats) {
+    const Pilot pilot(planner);
     TimedPilot timed;
     for (int repeat = 0; repeat < repeats; ++repeat) {
-        timed.record = pilot.run(scene);
+        timed.record = pilot.run(planner.facts().numerics);
         timed.least_s = std::min(timed.least_s, timed.record.total_s);
     }
     return timed;
 }
 
-// Fills `cost` with the change from the pilot `before` when `changed` replaces its study.
-void measure(TimedPilot before, const Study& changed, int repeats, MeasuredEffect& cost) {
-    const StudyReading reading = read_study_text(resolved_text(changed), "");
-    if (!reading.study) {
-        const Problem& problem = reading.problems.front();
-        cost.refusal = problem.key + ": " + problem.what;
-        return;
-    }
+// Measures the change from the pilot `before` to that of a variant.
+MeasuredEffect measure(TimedPilot before, const EffectVariant& variant, int repeats) {
+    MeasuredEffect measured{variant.effect, variant.in_study};
     try {
-        TimedPilot after = timed_pilot(Scene(*reading.study), repeats);
-        cost.time_ratio =
-            cost.in_study ? before.least_s / after.least_s : after.least_s / before.least_s;
+        TimedPilot after = timed_pilot(variant.planner(), repeats);
+        measured.time_ratio =
+            variant.in_study ? before.least_s / after.least_s : after.least_s / before.least_s;
         keep_common(after.record.sensor, before.record.sensor);
         keep_common(after.record.te, before.record.te);
-        cost.change = pilot_error(after.record, before.record);
+        measured.change = pilot_error(after.record, before.record);
     } catch (const SceneError& error) {
-        cost.refusal = error.key() + ": " + error.what();
+        measured.refusal = error.key() + ": " + error.what();
     }
+    return measured;
 }
 
 }  // namespace
 
-EffectMeasurement measure_effects(const Scene& own, const EffectRequest& request) {
-    const Study& study = own.study();
+EffectMeasurement measure_effects(const Planner& planner, const EffectRequest& request) {
     const TimeBudget time(request.seconds);
     EffectMeasurement all;
     std::optional<TimedPilot> before;
     double slowest_s = 0.0;
-    for (const OptionalEffect& effect : kOptionalEffects) {
-        MeasuredEffect one;
-        one.effect = effect.name;
-        one.in_study = effect.present(study);
-        if (!effect.applies(study) || (!one.in_study && effect.add == nullptr)) {
-            continue;
-        }
+    for (const EffectVariant& variant : planner.effect_variants()) {
         if (!time.enough(slowest_s)) {
-            all.omitted.push_back(one.effect);
+            all.omitted.push_back(variant.effect);
             continue;
         }
-        request.progress(fmt::format("{} {}", one.in_study ? "without" : "with", effect.name));
+        request.progress(
+            fmt::format("{} {}", variant.in_study ? "without" : "with", variant.effect));
         if (!before) {
-            before = timed_pilot(own, request.repeats);
+            before = timed_pilot(planner, request.repeats);
         }
         const double start_s = thread_processor_s();
-        Study changed = study;
-        (one.in_study ? effect.remove : effect.add)(changed);
-        if (!reason_not_periodic(study).empty() && reason_not_periodic(changed).empty()) {
-            changed.numerics.horizon = Horizon::periodic;  // as without the key
-        }
-        measure(*before, changed, request.repeats, one);
+        const MeasuredEffect measured = measure(*before, variant, request.repeats);
         slowest_s = std::max(slowest_s, thread_processor_s() - start_s);
-        request.measured(one);
-        all.effects.push_back(std::move(one));
+        request.measured(measured);
+        all.effects.push_back(measured);
     }
     return all;
 }

@@ -34,8 +34,7 @@ struct EffectMeasurement {
     std::vector<std::string> omitted;  // effects for which the time did not suffice
 };
 
-// Integrates the pilot of the study of `own`, with its solver setting, with and without each
-// effect.
-EffectMeasurement measure_effects(const Scene& own, const EffectRequest& request);
+// Integrates the pilot of a study with and without each effect.
+EffectMeasurement measure_effects(const Planner& planner, const EffectRequest& request);
 
 }  // namespace gearpod::mc

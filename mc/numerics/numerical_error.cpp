@@ -14,7 +14,6 @@
 #include "mc/ensemble/gearbox/solution_choice.hpp"
 #include "mc/numerics/pilot.hpp"
 #include "mc/numerics/solver_setting.hpp"
-#include "mc/study/gears.hpp"
 
 namespace gearpod::mc {
 namespace {
@@ -23,27 +22,12 @@ constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 constexpr int kFiner = 4;
 constexpr double kConverged = 1e-10;
 
-SolverSetting setting_of(const Scene& scene) {
-    SolverSetting setting = own_setting(scene.study());
+// The setting with the number of its steps, if its integrator's own rule gives them.
+SolverSetting with_steps(SolverSetting setting, const Planner& planner) {
     if (setting.numerics.steps_per_mesh == 0) {
-        setting.numerics.steps_per_mesh = static_cast<int>(scene.plan().grid.steps.size());
+        setting.numerics.steps_per_mesh = planner.steps(setting.numerics).steps;
     }
     return setting;
-}
-
-// The same setting with finer uniform steps; for a graded grid finer than its finest step.
-SolverSetting finer_than(const Scene& scene, const SolverSetting& setting, int factor) {
-    SolverSetting finer = setting;
-    Numerics& n = finer.numerics;
-    n.convergence_tolerance = std::min(kConverged, n.convergence_tolerance);
-    double steps = n.steps_per_mesh;
-    if (scene.calibration()) {
-        n.grid = StepGrid::uniform;
-        finer.options.emplace_back("grid");
-        steps = std::ceil(1.0 / scene.calibration()->grading.first);
-    }
-    n.steps_per_mesh = static_cast<int>(std::min(1e6, factor * steps));
-    return finer;
 }
 
 constexpr int kVerified = 8;  // gearboxes, unless the study has numerics.paired_gearboxes
@@ -59,15 +43,12 @@ std::vector<GearboxId> spread(const std::vector<GearboxId>& all, std::size_t cou
     return ids;
 }
 
-// Gearboxes of a group; of the test gearboxes only those with a fault.
-std::vector<GearboxId> members(const Scene& scene, Group group) {
-    const Ensemble& ensemble = scene.study().ensemble;
-    const std::int64_t count =
-        group == Group::test ? ensemble.instances : ensemble.threshold_instances;
+// Gearboxes of a group that has so many; of the test gearboxes only those with a fault.
+std::vector<GearboxId> members(const Sampler& sampler, Group group, std::int64_t count) {
     std::vector<GearboxId> ids;
     for (std::int64_t i = 0; i < count; ++i) {
         const GearboxId id{group, static_cast<std::uint64_t>(i)};
-        if (group == Group::threshold || scene.sampler().draw(id).inputs.fault_size > 0.0) {
+        if (group == Group::threshold || sampler.draw(id).inputs.fault_size > 0.0) {
             ids.push_back(id);
         }
     }
@@ -80,8 +61,7 @@ struct Values {
     std::vector<double> size;
     std::size_t count = 0;  // of values of a gearbox
 };
-Values values_of(const Scene& scene, const BatchRows& rows) {
-    const RowShape& shape = scene.ensemble().shape;
+Values values_of(const RowShape& shape, const BatchRows& rows) {
     Values values{{}, {}, shape.features * shape.levels};
     for (std::size_t row = 0; row < rows.count(); ++row) {
         const std::span all(rows.values);
@@ -94,12 +74,12 @@ Values values_of(const Scene& scene, const BatchRows& rows) {
 
 // Adds the differences of the first `test_count` gearboxes in one value. Infinite if a gearbox has
 // it with fine steps only.
-void add_differences(const Values& own, const Values& fine, std::size_t test_count, std::size_t at,
-                     NumericalError& error) {
+void add_differences(const Values& coarse, const Values& fine, std::size_t test_count,
+                     std::size_t value, NumericalError& error) {
     double squares = 0.0, largest = 0.0;
     std::size_t compared = 0;
     for (std::size_t g = 0; g < test_count; ++g) {
-        const double here = own.features[g][at], there = fine.features[g][at];
+        const double here = coarse.features[g][value], there = fine.features[g][value];
         if (std::isfinite(there)) {
             const double difference = std::isfinite(here) ? std::abs(here - there) : INFINITY;
             squares += difference * difference;
@@ -126,23 +106,23 @@ std::vector<Counts> count_near(const Results& frame, const RowSource& rows) {
         counts.near.assign(groups.size(), 0);
         counts.tested.assign(groups.size(), 0);
     }
-    const std::size_t size_at = frame.parameter_index(frame.request.size.name).value_or(0);
+    const std::size_t size_index = frame.parameter_index(frame.request.size.name).value_or(0);
     for_each_row(rows, [&](const ResultRow& row) {
-        const bool is_test = row.group == static_cast<int>(Group::test);
-        const auto group = analysis::group_of(row.values[size_at], groups);
-        for (std::size_t at = 0; at < all.size(); ++at) {
-            const double value = row.values[shape.parameters + at];
+        const bool test = row.group == static_cast<int>(Group::test);
+        const auto group = analysis::group_of(row.values[size_index], groups);
+        for (std::size_t i = 0; i < all.size(); ++i) {
+            const double value = row.values[shape.parameters + i];
             if (!std::isfinite(value)) {
                 continue;
             }
-            if (!is_test) {
-                all[at].healthy.push_back(value);
+            if (!test) {
+                all[i].healthy.push_back(value);
             } else if (group) {
                 const double threshold =
-                    frame.detection[at / shape.levels].levels[at % shape.levels].threshold;
-                const double error = 2.0 * frame.numerical->largest[at];
-                ++all[at].tested[*group];
-                all[at].near[*group] += std::abs(value - threshold) <= error ? 1 : 0;
+                    frame.detection[i / shape.levels].levels[i % shape.levels].threshold;
+                const double error = 2.0 * frame.numerical->largest[i];
+                ++all[i].tested[*group];
+                all[i].near[*group] += std::abs(value - threshold) <= error ? 1 : 0;
             }
         }
     });
@@ -186,73 +166,81 @@ void set_size_contribution(const analysis::HitMissPod& pod, NumericalContributio
 
 }  // namespace
 
-FinerScene finer_scene(const Scene& scene) {
-    const Numerics& numerics = scene.study().numerics;
-    const bool verifies = numerics.tolerance > 0.0 || numerics.scatter_tolerance > 0.0 ||
-                          numerics.verify || numerics.paired_gearboxes > 0;
-    return verifies ? with_finer_steps(scene) : FinerScene{};
-}
-
-FinerScene with_finer_steps(const Scene& scene) {
-    const Study& study = scene.study();
-    FinerScene finer;
-    if (study.effects.quasi_static()) {
-        return finer;
+std::optional<SolverSetting> finer_setting(const Planner& planner, const Numerics& numerics) {
+    if (planner.facts().step_cost == nullptr) {
+        return std::nullopt;
     }
-    if (study.numerics.mass_scaling_Hz > 0.0) {
-        Study own_rule = study;
-        own_rule.numerics.mass_scaling_Hz = 0.0;
-        own_rule.numerics.steps_per_mesh = 0;
-        finer.setting = own_setting(own_rule);
-        finer.scene.emplace(scene.with(with_setting(study, finer.setting).numerics));
-        finer.setting = setting_of(*finer.scene);
-        return finer;
+    if (numerics.mass_scaling_Hz > 0.0) {
+        Numerics unscaled = numerics;
+        unscaled.mass_scaling_Hz = 0.0;
+        unscaled.steps_per_mesh = 0;
+        return own_setting(unscaled);
     }
-    const SolverSetting setting = setting_of(scene);
-    for (int factor = kFiner; !finer.scene && factor > 1; factor /= 2) {
-        finer.setting = finer_than(scene, setting, factor);
+    SolverSetting finer = with_steps(own_setting(numerics), planner);
+    Numerics& n = finer.numerics;
+    n.convergence_tolerance = std::min(kConverged, n.convergence_tolerance);
+    double steps = n.steps_per_mesh;
+    if (const auto finest =
+            planner.steps(numerics)
+                .finest_step) {  // uniform steps, finer than the finest one of the graded grid
+        n.grid = StepGrid::uniform;
+        finer.options.emplace_back("grid");
+        steps = std::ceil(1.0 / *finest);
+    }
+    for (int factor = kFiner; factor > 1; factor /= 2) {
+        n.steps_per_mesh = static_cast<int>(std::min(1e6, factor * steps));
         try {
-            finer.scene.emplace(scene.with(with_setting(study, finer.setting).numerics));
+            steps_of(planner, finer);
+            return finer;
         } catch (const SceneError&) {  // more steps than the program allows
             continue;
         }
     }
-    return finer;
+    return std::nullopt;
 }
 
-std::optional<NumericalError> find_numerical_error(const Scene& scene) {
-    const FinerScene finer = finer_scene(scene);
-    if (!finer.scene) {
+std::optional<NumericalError> find_numerical_error(const Scene& plan) {
+    const Planner planner(plan);
+    const Numerics& numerics = planner.facts().numerics;
+    const auto finer = planner.facts().verified ? finer_setting(planner, numerics) : std::nullopt;
+    if (!finer) {
         return std::nullopt;
     }
-    const auto pairs = static_cast<std::size_t>(scene.study().numerics.paired_gearboxes);
+    const Scene fine_plan = planner.plan(finer->numerics);
+    const EnsemblePlan& ensemble = plan.ensemble();
+    const auto pairs = static_cast<std::size_t>(numerics.paired_gearboxes);
     std::vector<GearboxId> ids, healthy;
     if (pairs > 0) {
-        ids = spread(members(scene, Group::test), pairs);
-        healthy = spread(members(scene, Group::threshold), pairs);
+        ids = spread(members(plan.sampler(), Group::test, ensemble.test_gearboxes), pairs);
+        healthy =
+            spread(members(plan.sampler(), Group::threshold, ensemble.threshold_gearboxes), pairs);
     }
     const std::size_t faulty = ids.size();
     if (ids.empty()) {  // no pairs, or no gearbox with a fault
         const auto stride = static_cast<std::uint64_t>(std::max<std::int64_t>(
-            1, scene.study().ensemble.instances / static_cast<std::int64_t>(kVerified)));
+            1, ensemble.test_gearboxes / static_cast<std::int64_t>(kVerified)));
         ids = pilot_gearboxes(stride / 2, stride);
     }
     const std::size_t test_count = ids.size();
     ids.insert(ids.end(), healthy.begin(), healthy.end());
-    const BatchRows own_rows = rows_of_gearboxes(scene, ids),
-                    fine_rows = rows_of_gearboxes(*finer.scene, ids);
-    const Values own = values_of(scene, own_rows), fine = values_of(scene, fine_rows);
-    NumericalError error{
-        setting_of(scene).text(), finer.setting.text(), static_cast<int>(test_count), {}, {}};
+    const BatchRows coarse_rows = rows_of_gearboxes(plan, ids),
+                    fine_rows = rows_of_gearboxes(fine_plan, ids);
+    const Values coarse = values_of(ensemble.shape, coarse_rows),
+                 fine = values_of(ensemble.shape, fine_rows);
+    NumericalError error{with_steps(own_setting(numerics), planner).text(),
+                         with_steps(*finer, planner).text(),
+                         static_cast<int>(test_count),
+                         {},
+                         {}};
     error.healthy_pairs = static_cast<int>(healthy.size());
     error.faulty_pairs = static_cast<int>(faulty);
-    for (std::size_t at = 0; at < own.count; ++at) {
-        add_differences(own, fine, test_count, at, error);
+    for (std::size_t value = 0; value < coarse.count; ++value) {
+        add_differences(coarse, fine, test_count, value, error);
         PairedValues values;
         for (std::size_t g = 0; g < ids.size(); ++g) {
-            values.own.push_back(own.features[g][at]);
-            values.fine.push_back(fine.features[g][at]);
-            values.size.push_back(g < test_count ? own.size[g] : 0.0);
+            values.own.push_back(coarse.features[g][value]);
+            values.fine.push_back(fine.features[g][value]);
+            values.size.push_back(g < test_count ? coarse.size[g] : 0.0);
         }
         if (pairs > 0) {
             error.corrections.push_back(fit_correction(values));
@@ -271,22 +259,22 @@ std::vector<NumericalContribution> numerical_contributions(
     const std::size_t levels = frame.noise_levels.size();
     const std::vector<Counts> counts = count_near(frame, rows);
     const std::vector<CorrectedDetection> corrected = corrected_detection(frame, rows);
-    for (std::size_t at = 0; at < counts.size(); ++at) {
-        const std::size_t f = at / levels, level = at % levels;
+    for (std::size_t i = 0; i < counts.size(); ++i) {
+        const std::size_t f = i / levels, level = i % levels;
         NumericalContribution contribution;
         contribution.feature = frame.features[f].name;
         contribution.noise_level = frame.noise_levels[level];
-        contribution.rms = frame.numerical->rms[at];
-        contribution.spread = standard_deviation(counts[at].healthy);
-        set_rate_contribution(frame.detection[f].levels[level], counts[at], contribution);
+        contribution.rms = frame.numerical->rms[i];
+        contribution.spread = standard_deviation(counts[i].healthy);
+        set_rate_contribution(frame.detection[f].levels[level], counts[i], contribution);
         if (reliability) {
             set_size_contribution(reliability->features[f].levels[level].hit_miss, contribution);
         } else {
             contribution.a90 = contribution.a90_interval = kNaN;
         }
         if (!corrected.empty()) {
-            contribution.corrected = corrected[at];
-            contribution.correction = frame.numerical->corrections[at];
+            contribution.corrected = corrected[i];
+            contribution.correction = frame.numerical->corrections[i];
         }
         contribution.numerical_dominates =
             std::isfinite(contribution.pd)
@@ -314,31 +302,22 @@ struct Squares {
     // Relative root mean square error; `about_mean`: relative to the reference without its mean,
     // for signals whose mean has no meaning.
     double relative(bool about_mean) const {
-        const double own = squares - (about_mean ? sum * sum / std::max(1.0, count) : 0.0);
-        return own > 0.0 ? std::sqrt(deviation / own) : 0.0;
+        const double size = squares - (about_mean ? sum * sum / std::max(1.0, count) : 0.0);
+        return size > 0.0 ? std::sqrt(deviation / size) : 0.0;
     }
 };
 
-class StepPilot {
-  public:
-    explicit StepPilot(const Scene& scene) {
-        for (const GearboxId& id : pilot_gearboxes()) {
-            gearboxes_.push_back(scene.sampler().draw(id));
-        }
+// Test records of the pilot's gearboxes with the numerics of a plan.
+GearboxTile pilot_tile(const Scene& plan) {
+    std::vector<Realization> gearboxes;
+    for (const GearboxId& id : pilot_gearboxes()) {
+        gearboxes.push_back(plan.sampler().draw(id));
     }
-
-    GearboxTile run(const Scene& scene) const {
-        const int lanes =
-            lockstep::lanes_for(scene.plan().precision, static_cast<int>(gearboxes_.size()));
-        return run_realizations(scene, sensor_paths(scene), gearboxes_, lanes,
-                                {.records = lockstep::RecordOptions{}});
-    }
-
-    std::size_t size() const { return gearboxes_.size(); }
-
-  private:
-    std::vector<Realization> gearboxes_;
-};
+    const int lanes =
+        lockstep::lanes_for(plan.plan().precision, static_cast<int>(gearboxes.size()));
+    return run_realizations(plan, sensor_paths(plan), std::move(gearboxes), lanes,
+                            {.records = lockstep::RecordOptions{}});
+}
 
 const lockstep::MeshRecord& record_of(const GearboxTile& tile, int mesh) {
     const std::vector<int>& content = tile.integration.content;
@@ -356,38 +335,39 @@ void add_lane(const machine::AlignedVector& values, std::size_t lanes,
 
 }  // namespace
 
-std::optional<StepError> find_step_error(const Scene& scene, double most_meshes) {
-    if (scene.study().effects.quasi_static() || !teeth_can_separate(scene.study())) {
+std::optional<StepError> find_step_error(const Scene& plan, double most_meshes) {
+    if (!dynamics::separates(plan.plan().mesh_law)) {
         return std::nullopt;
     }
-    FinerScene finer = with_finer_steps(scene);
-    if (!finer.scene) {
+    const Planner planner(plan);
+    const auto finer = finer_setting(planner, planner.facts().numerics);
+    if (!finer) {
         return std::nullopt;
     }
-    Numerics in_double_precision = finer.scene->study().numerics;
+    Numerics in_double_precision = finer->numerics;
     in_double_precision.precision = Precision::double_precision;
-    const Scene coarse = scene.recording_at_most(kMeshes);
-    const Scene fine = finer.scene->with(in_double_precision).recording_at_most(kMeshes);
-    const double ratio = static_cast<double>(fine.plan().grid.steps.size()) /
-                         static_cast<double>(coarse.plan().grid.steps.size());
+    const Scene coarse = plan.recording_at_most(kMeshes);
+    const Scene fine = planner.plan(in_double_precision).recording_at_most(kMeshes);
+    const std::size_t steps = coarse.plan().grid.steps.size(),
+                      finer_steps = fine.plan().grid.steps.size();
+    const double ratio = static_cast<double>(finer_steps) / static_cast<double>(steps);
     if (integrated_meshes(coarse) * (1.0 + ratio) > most_meshes) {
         return std::nullopt;
     }
-    const StepPilot pilot(scene);
-    const GearboxTile own = pilot.run(coarse), reference = pilot.run(fine);
+    const GearboxTile tile = pilot_tile(coarse), reference = pilot_tile(fine);
     Squares sensor, te;
     StepError error;
     error.meshes = std::min(kMeshes, coarse.recorded_meshes());
-    for (std::size_t lane = 0; lane < pilot.size(); ++lane) {
-        if (own.status[lane] != Status::ok || reference.status[lane] != Status::ok) {
+    for (std::size_t lane = 0; lane < lockstep::kPilotLanes; ++lane) {
+        if (tile.status[lane] != Status::ok || reference.status[lane] != Status::ok) {
             continue;
         }
         ++error.gearboxes;
         for (int mesh = 0; mesh < error.meshes; ++mesh) {
-            const lockstep::MeshRecord &a = record_of(own, mesh), &b = record_of(reference, mesh);
-            add_lane(a.acceleration, own.realizations.size(), b.acceleration,
+            const lockstep::MeshRecord &a = record_of(tile, mesh), &b = record_of(reference, mesh);
+            add_lane(a.acceleration, tile.realizations.size(), b.acceleration,
                      reference.realizations.size(), lane, sensor);
-            add_lane(a.te, own.realizations.size(), b.te, reference.realizations.size(), lane, te);
+            add_lane(a.te, tile.realizations.size(), b.te, reference.realizations.size(), lane, te);
         }
     }
     if (error.gearboxes == 0) {
@@ -395,15 +375,15 @@ std::optional<StepError> find_step_error(const Scene& scene, double most_meshes)
     }
     error.sensor = sensor.relative(false);
     error.te = te.relative(true);
-    error.steps = static_cast<int>(coarse.plan().grid.steps.size());
-    error.finer_steps = static_cast<int>(fine.plan().grid.steps.size());
+    error.steps = static_cast<int>(steps);
+    error.finer_steps = static_cast<int>(finer_steps);
     return error;
 }
 
-std::optional<StepError> find_step_error_of_run(const Scene& scene, std::size_t gearboxes) {
+std::optional<StepError> find_step_error_of_run(const Scene& plan, std::size_t gearboxes) {
     constexpr double kShare = 0.02;
-    const double tiles = static_cast<double>(gearboxes) / scene.study().numerics.lanes;
-    return find_step_error(scene, kShare * tiles * integrated_meshes(scene));
+    const double tiles = static_cast<double>(gearboxes) / plan.ensemble().lanes;
+    return find_step_error(plan, kShare * tiles * integrated_meshes(plan));
 }
 
 std::string step_error_text(const StepError& error) {

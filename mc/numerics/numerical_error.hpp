@@ -15,22 +15,17 @@
 
 namespace gearpod::mc {
 
-// Scene with four times the steps (or as many as the integrator allows), converged to 1e-10; with
-// mass scaling instead without it, with the steps of the integrator's own rule. Empty for a
-// quasi-static study.
-struct FinerScene {
-    SolverSetting setting;
-    std::optional<Scene> scene;
-};
-FinerScene with_finer_steps(const Scene& scene);
-// The same; empty unless the study has a tolerance, numerics.verify or numerics.paired_gearboxes.
-FinerScene finer_scene(const Scene& scene);
+// Setting with four times the steps of these numerics (or as many as the integrator allows),
+// converged to 1e-10; with mass scaling instead without it, with the steps of the integrator's own
+// rule. Empty for a quasi-static study.
+std::optional<SolverSetting> finer_setting(const Planner& planner, const Numerics& numerics);
 
 // Integrates eight test gearboxes, spread over the ensemble, as the run did and again with
-// finer_scene(); with numerics.paired_gearboxes that many, and as many healthy ones. For methods of
-// order 2 and above, the difference is the error of the run's own steps to within a sixteenth.
-// Empty if there is no finer scene.
-std::optional<NumericalError> find_numerical_error(const Scene& scene);
+// finer_setting(); with numerics.paired_gearboxes that many, and as many healthy ones. For
+// methods of order 2 and above, the difference is the error of the run's own steps to within a
+// sixteenth. Empty unless the
+// study has a tolerance, numerics.verify or numerics.paired_gearboxes (SolverFacts::verified).
+std::optional<NumericalError> find_numerical_error(const Scene& plan);
 
 // Numerical and statistical uncertainty of one feature at one noise level.
 struct NumericalContribution {
@@ -64,10 +59,10 @@ std::vector<NumericalContribution> numerical_contributions(
 // Integrates eight test gearboxes over a few mesh periods as a run does, and again with finer
 // steps in double precision. Empty if teeth cannot separate, if the study is quasi-static, or if no
 // gearbox of the pilot succeeds. Also empty if the pilot costs more than `most_meshes` mesh periods
-// of a tile with the scene's own steps.
-std::optional<StepError> find_step_error(const Scene& scene, double most_meshes);
+// of a tile with the steps of `plan`.
+std::optional<StepError> find_step_error(const Scene& plan, double most_meshes);
 // The same for a run of this many gearboxes; it may cost a fiftieth of their work.
-std::optional<StepError> find_step_error_of_run(const Scene& scene, std::size_t gearboxes);
+std::optional<StepError> find_step_error_of_run(const Scene& plan, std::size_t gearboxes);
 
 // "3.5e-03 of the sensor signal, ... (rms; 8 gearboxes, 16 mesh periods, 240 against 960 steps)".
 std::string step_error_text(const StepError& error);

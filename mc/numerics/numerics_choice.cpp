@@ -34,14 +34,10 @@ constexpr int kMostTries = 6;  // of a limit of the mass scaling
 // Half of normally distributed errors lie within this share of their root mean square.
 constexpr double kHalf = 0.6745;
 
-void check_free(const Study& study) {
+void check_free(const Numerics& n) {
     const auto refuse = [](const char* key, const std::string& what) {
         throw SceneError(key, what, "remove it, or numerics.scatter_tolerance");
     };
-    const Numerics& n = study.numerics;
-    if (study.effects.quasi_static()) {
-        refuse("effects.motion", "a quasi-static gearbox has no time steps to be chosen");
-    }
     if (n.integrator && !lockstep::facts(*n.integrator).scales_mass) {
         refuse("numerics.integrator",
                fmt::format("numerics.scatter_tolerance chooses steps of {}",
@@ -57,16 +53,29 @@ void check_free(const Study& study) {
     }
 }
 
+// Central differences with the steps of their own rule, without mass scaling.
+Numerics unscaled(Numerics numerics) {
+    numerics.integrator = lockstep::Integrator::central_difference;
+    numerics.scatter_tolerance = numerics.mass_scaling_Hz = 0.0;
+    numerics.steps_per_mesh = 0;
+    return numerics;
+}
+
 class ScatterChoice {
   public:
-    explicit ScatterChoice(const Study& study)
-        : study_(study), shape_(EnsemblePlan(study).shape), own_(own_study(study)) {
+    ScatterChoice(const Planner& planner, const Numerics& numerics)
+        : planner_(planner),
+          given_(numerics),
+          unscaled_(unscaled(numerics)),
+          unscaled_steps_(planner.steps(unscaled_)) {
         for (std::uint64_t i = 0; i < kHealthyPilots; ++i) {
             ids_.push_back({Group::threshold, i});
         }
-        reference_ = rows_of_gearboxes(own_, ids_);
-        for (std::size_t at = 0; at < shape_.features * shape_.levels; ++at) {
-            scatter_.push_back(standard_deviation(column(reference_, at)));
+        const Scene plan = planner.plan(unscaled_);
+        shape_ = plan.ensemble().shape;
+        reference_ = rows_of_gearboxes(plan, ids_);
+        for (std::size_t value = 0; value < shape_.features * shape_.levels; ++value) {
+            scatter_.push_back(standard_deviation(column(reference_, value)));
         }
     }
 
@@ -74,18 +83,17 @@ class ScatterChoice {
         NumericsChoice made;
         made.gearboxes = static_cast<int>(ids_.size());
         made.of_scatter = true;
-        made.setting = {own_.study().numerics, {}};
-        const auto keeps = [&](const Scene& scene) {
-            const auto [error, feature] = error_of(scene);
+        made.setting = {unscaled_, {}};
+        const NumericsChoice without_scaling = made;
+        const auto keeps = [&](const Numerics& numerics) {
+            const auto [error, feature] = error_of(numerics);
             made.error = error;
-            made.worst_feature = study_.features.use[feature];
-            made.setting = {scene.study().numerics, {"mass_scaling_Hz"}};
-            return error <= study_.numerics.scatter_tolerance;
+            made.worst_feature = planner_.facts().features[feature];
+            made.setting = {numerics, {"mass_scaling_Hz"}};
+            return error <= given_.scatter_tolerance;
         };
-        if (study_.numerics.mass_scaling_Hz > 0.0) {
-            Numerics given = study_.numerics;
-            given.scatter_tolerance = 0.0;
-            if (!keeps(own_.with(given))) {
+        if (given_.mass_scaling_Hz > 0.0) {
+            if (!keeps(without_tolerance(given_))) {
                 throw SceneError("numerics.scatter_tolerance",
                                  fmt::format("the steps given change {} by {:.2g} of its scatter",
                                              made.worst_feature, made.error),
@@ -94,34 +102,22 @@ class ScatterChoice {
             }
             return made;
         }
-        const NumericsChoice own = made;
-        const int own_steps = steps_of(own_), samples = own_.samples_per_mesh();
-        for (int a_sample = 1; a_sample * samples < own_steps; ++a_sample) {
-            const auto numerics = scaled_numerics(own_, a_sample * samples);
-            if (numerics && keeps(own_.with(*numerics))) {
+        const double fastest_Hz = planner_.fastest_mode_Hz(unscaled_);
+        for (int steps = unscaled_steps_.samples; steps < unscaled_steps_.steps;
+             steps += unscaled_steps_.samples) {
+            const auto numerics = scaled_numerics(planner_, unscaled_, fastest_Hz, steps);
+            if (numerics && keeps(*numerics)) {
                 return made;
             }
         }
-        made = own;
-        return made;
+        return without_scaling;
     }
 
   private:
-    static Study own_study(Study study) {
-        study.numerics.integrator = lockstep::Integrator::central_difference;
-        study.numerics.scatter_tolerance = study.numerics.mass_scaling_Hz = 0.0;
-        study.numerics.steps_per_mesh = 0;
-        return study;
-    }
-
-    static int steps_of(const Scene& scene) {
-        return static_cast<int>(scene.plan().grid.steps.size());
-    }
-
-    std::vector<double> column(const BatchRows& rows, std::size_t at) const {
+    std::vector<double> column(const BatchRows& rows, std::size_t value) const {
         std::vector<double> values;
         for (std::size_t row = 0; row < rows.count(); ++row) {
-            values.push_back(rows.values[row * shape_.values() + shape_.parameters + at]);
+            values.push_back(rows.values[row * shape_.values() + shape_.parameters + value]);
         }
         return values;
     }
@@ -133,11 +129,11 @@ class ScatterChoice {
         double error = 0.0;
         std::size_t feature = 0;
     };
-    Error error_of(const Scene& scene) const {
-        const BatchRows rows = rows_of_gearboxes(scene, ids_);
+    Error error_of(const Numerics& numerics) const {
+        const BatchRows rows = rows_of_gearboxes(planner_.plan(numerics), ids_);
         Error worst;
-        for (std::size_t at = 0; at < scatter_.size(); ++at) {
-            const std::vector<double> here = column(rows, at), there = column(reference_, at);
+        for (std::size_t value = 0; value < scatter_.size(); ++value) {
+            const std::vector<double> here = column(rows, value), there = column(reference_, value);
             std::vector<double> errors;
             for (std::size_t i = 0; i < here.size(); ++i) {
                 if (std::isfinite(there[i])) {
@@ -145,66 +141,39 @@ class ScatterChoice {
                                                             : INFINITY);
                 }
             }
-            if (errors.empty() || !(scatter_[at] > 0.0)) {
+            if (errors.empty() || !(scatter_[value] > 0.0)) {
                 continue;
             }
             const auto middle = errors.begin() + static_cast<std::ptrdiff_t>(errors.size() / 2);
             std::ranges::nth_element(errors, middle);
-            const double error = *middle / kHalf / scatter_[at];
+            const double error = *middle / kHalf / scatter_[value];
             if (error > worst.error) {
-                worst = {error, at / shape_.levels};
+                worst = {error, value / shape_.levels};
             }
         }
         return worst;
     }
 
-    const Study& study_;
-    const RowShape shape_;
-    const Scene own_;
+    const Planner& planner_;
+    const Numerics given_, unscaled_;
+    const PlannedSteps unscaled_steps_;
+    RowShape shape_;
     std::vector<GearboxId> ids_;
     BatchRows reference_;
     std::vector<double> scatter_;  // by feature and noise level
 };
 
-double fastest_mode_Hz(const Scene& scene) {
-    return dynamics::natural_frequencies_Hz(
-               dynamics::assemble(scene.plan().layout, scene.inputs(nominal_inputs(scene.study())),
-                                  scene.mean_pairs()))
-        .back();
-}
-
-}  // namespace
-
-std::optional<Numerics> scaled_numerics(const Scene& own, int steps) {
-    Numerics numerics = own.study().numerics;
-    numerics.steps_per_mesh = 0;
-    double limit_Hz = fastest_mode_Hz(own);
-    for (int i = 0; i < kMostTries && limit_Hz > own.study().sensor.low_pass_Hz + 1.0; ++i) {
-        numerics.mass_scaling_Hz = limit_Hz;
-        const double needed = 1.0 / own.with(numerics).longest_step();
-        if (needed <= steps) {
-            numerics.steps_per_mesh = steps;
-            numerics.mass_scaling_Hz = std::floor(limit_Hz);
-            return numerics;
-        }
-        limit_Hz *= 0.98 * steps / needed;
-    }
-    return std::nullopt;
-}
-
-NumericsChoice choose_by_scatter(const Study& study) {
-    check_free(study);
+NumericsChoice choose_by_scatter(const Planner& planner, const Numerics& numerics) {
+    check_free(numerics);
     try {
-        return ScatterChoice(study).run();
+        return ScatterChoice(planner, numerics).run();
     } catch (const SceneError& error) {
-        if (error.key() == "numerics.mass_scaling_Hz" && study.numerics.mass_scaling_Hz == 0.0) {
+        if (error.key() == "numerics.mass_scaling_Hz" && numerics.mass_scaling_Hz == 0.0) {
             throw SceneError("numerics.scatter_tolerance", error.what(), error.remedy());
         }
         throw;
     }
 }
-
-namespace {
 
 constexpr double kNever = std::numeric_limits<double>::infinity();
 // The reference changes by at most this fraction of the tolerance when its steps are halved.
@@ -223,26 +192,22 @@ struct Trial {
 
 class Search {
   public:
-    explicit Search(const Study& study)
-        : study_(study),
-          tolerance_(study.numerics.tolerance),
-          own_(with_setting(study, own_setting(study))),
-          last_(std::make_unique<const Scene>(own_)),
-          pilot_(own_) {
+    Search(const Planner& planner, const Numerics& numerics)
+        : planner_(planner), given_(numerics), tolerance_(numerics.tolerance), pilot_(planner) {
         ReferenceRequest request;
         request.agreement = kReferenceShare * tolerance_;
         request.convergence_tolerance = std::min(1e-10, 1e-3 * tolerance_);
-        reference_ = self_converged_reference(study, pilot_, request);
+        reference_ = self_converged_reference(pilot_, numerics, request);
         if (!reference_.reached) {
             refuse_tolerance(request);
         }
     }
 
     NumericsChoice run() {
-        std::vector<SolverFamily> all = solver_families(study_, kBeyondOwnRule);
+        std::vector<SolverFamily> all = solver_families(planner_, given_, kBeyondOwnRule);
         std::erase_if(all, [&](const SolverFamily& f) {
             const bool never_chosen = lockstep::facts(*f.common.numerics.integrator).never_chosen;
-            return f.size() == 0 || (never_chosen && !study_.numerics.integrator);
+            return f.size() == 0 || (never_chosen && !given_.integrator);
         });
         // The least expensive families first: candidates that cost more than the best so far are
         // not tried.
@@ -285,7 +250,7 @@ class Search {
     }
 
     double cost_of(const SolverFamily& family) const {
-        return step_cost(study_, family.common).value();
+        return step_cost(planner_.facts(), family.common).value();
     }
 
     Trial trial(const SolverFamily& family, std::size_t step, double convergence) {
@@ -305,14 +270,13 @@ class Search {
     }
 
     Trial run(const SolverFamily& family, const SolverSetting& setting) {
-        const Numerics numerics = with_setting(study_, setting).numerics;
+        planner_.check(setting.numerics, setting.keys());
         Trial result;
         try {
-            last_ = std::make_unique<const Scene>(last_->with(numerics));
-            if (family.graded() && !is_affordable(family, last_->plan().grid.steps.size())) {
+            if (family.graded() && !is_affordable(family, planner_.steps(setting.numerics).steps)) {
                 return result;
             }
-            const PilotRecord record = pilot_.run(*last_);
+            const PilotRecord record = pilot_.run(setting.numerics);
             const PilotError error = pilot_error(record, reference_.record);
             result.error = error.largest_feature();
             result.worst = error.worst_feature(reference_.record.levels);
@@ -366,8 +330,7 @@ class Search {
     // would already be too expensive.
     void search_graded(const SolverFamily& family) {
         constexpr double kNear = 30.0;
-        if (!is_affordable(family,
-                           static_cast<std::size_t>(kFewestGradedFraction * family.own_steps))) {
+        if (!is_affordable(family, static_cast<int>(kFewestGradedFraction * family.own_steps))) {
             return;
         }
         for (std::size_t i = 0; i < family.size(); ++i) {
@@ -388,35 +351,32 @@ class Search {
     // Lower bound of the cost: with the loosest convergence tolerance, at least this many mesh
     // periods are integrated.
     bool may_be_cheapest(const SolverFamily& family, std::size_t step) {
-        return is_affordable(family, static_cast<std::size_t>(family.steps[step]));
+        return is_affordable(family, family.steps[step]);
     }
 
-    bool is_affordable(const SolverFamily& family, std::size_t steps) {
+    bool is_affordable(const SolverFamily& family, int steps) {
         if (least_meshes_ == 0.0) {
-            SolverSetting setting = own_setting(study_);
-            setting.numerics.convergence_tolerance = convergence_tolerances().back();
-            const Scene loose = own_.with(with_setting(study_, setting).numerics);
-            least_meshes_ = pilot_.run(loose).meshes_per_tile();
+            SolverSetting loose = own_setting(given_);
+            loose.numerics.convergence_tolerance = convergence_tolerances().back();
+            planner_.check(loose.numerics, loose.keys());
+            least_meshes_ = pilot_.run(loose.numerics).meshes_per_tile();
         }
-        return cost_of(family) * static_cast<double>(steps) * least_meshes_ < best_.cost;
+        return cost_of(family) * steps * least_meshes_ < best_.cost;
     }
 
     NumericsChoice choice() const {
         NumericsChoice made;
         made.setting = best_setting_;
         made.error = best_.error;
-        made.worst_feature = study_.features.use[static_cast<std::size_t>(best_.worst)];
+        made.worst_feature = planner_.facts().features[static_cast<std::size_t>(best_.worst)];
         made.cost = best_.cost;
         made.gearboxes = static_cast<int>(pilot_.size());
         return made;
     }
 
-    const Study& study_;
+    const Planner& planner_;
+    const Numerics given_;
     const double tolerance_;
-    const Scene own_;  // steps by the integrator's own rule
-    // Last scene tried: the next one often differs only in its convergence tolerance and shares the
-    // plan.
-    std::unique_ptr<const Scene> last_;
     const Pilot pilot_;
     Reference reference_;
     std::vector<std::pair<SolverSetting, Trial>> trials_;
@@ -427,25 +387,42 @@ class Search {
 
 }  // namespace
 
-ResolvedStudy resolve_numerics(Study study) {
-    std::optional<NumericsChoice> choice;
-    const double tolerance = study.numerics.tolerance, share = study.numerics.scatter_tolerance;
-    if (share > 0.0) {
-        choice = choose_by_scatter(study);
-    } else if (tolerance > 0.0) {
-        choice = Search(study).run();
+std::optional<Numerics> scaled_numerics(const Planner& planner, const Numerics& unscaled,
+                                        double fastest_Hz, int steps) {
+    Numerics numerics = unscaled;
+    numerics.steps_per_mesh = 0;
+    double limit_Hz = fastest_Hz;
+    for (int i = 0; i < kMostTries && limit_Hz > planner.facts().low_pass_Hz + 1.0; ++i) {
+        numerics.mass_scaling_Hz = limit_Hz;
+        const double needed = 1.0 / planner.steps(numerics).longest_step;
+        if (needed <= steps) {
+            numerics.steps_per_mesh = steps;
+            numerics.mass_scaling_Hz = std::floor(limit_Hz);
+            return numerics;
+        }
+        limit_Hz *= 0.98 * steps / needed;
     }
-    if (choice) {
-        study.numerics = choice->setting.numerics;
-        study.numerics.tolerance = tolerance;
-        study.numerics.scatter_tolerance = share;
-    }
-    return {std::move(study), std::move(choice)};
+    return std::nullopt;
 }
 
-Study without_tolerance(Study study) {
-    study.numerics.tolerance = study.numerics.scatter_tolerance = 0.0;
-    return study;
+ResolvedNumerics resolve_numerics(const Planner& planner, const Numerics& numerics) {
+    ResolvedNumerics resolved{numerics, std::nullopt};
+    if (numerics.scatter_tolerance > 0.0) {
+        resolved.choice = choose_by_scatter(planner, numerics);
+    } else if (numerics.tolerance > 0.0) {
+        resolved.choice = Search(planner, numerics).run();
+    }
+    if (resolved.choice) {
+        resolved.numerics = resolved.choice->setting.numerics;
+        resolved.numerics.tolerance = numerics.tolerance;
+        resolved.numerics.scatter_tolerance = numerics.scatter_tolerance;
+    }
+    return resolved;
+}
+
+Scene resolved_plan(const Study& study) {
+    const Planner planner(study);
+    return planner.plan(resolve_numerics(planner, study.numerics).numerics);
 }
 
 }  // namespace gearpod::mc

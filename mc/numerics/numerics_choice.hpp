@@ -5,7 +5,6 @@
 #include <string>
 
 #include "mc/numerics/solver_setting.hpp"
-#include "mc/study/study.hpp"
 
 namespace gearpod::mc {
 
@@ -21,34 +20,29 @@ struct NumericsChoice {
     std::string text() const;
 };
 
-// Chooses steps and selective mass scaling for numerics.scatter_tolerance: the fewest steps per
-// mesh period with which no feature changes by more than that share of its scatter.
-
 // Numerics with at most this many steps per mesh period, apart from those at contact transitions,
-// and the highest limit of the mass scaling found that allows them; empty if none does. `own`:
-// central differences without mass scaling. Throws SceneError if it cannot be used.
-std::optional<Numerics> scaled_numerics(const Scene& own, int steps);
+// and the highest limit of the mass scaling found that allows them; empty if none does.
+// `unscaled`: central differences without mass scaling. `fastest_Hz`:
+// Planner::fastest_mode_Hz(). Throws SceneError if they cannot be used.
+std::optional<Numerics> scaled_numerics(const Planner& planner, const Numerics& unscaled,
+                                        double fastest_Hz, int steps);
 
-// Integrates the first sixteen healthy gearboxes of the study, with the steps of the integrator's
-// own rule and with fewer steps and more mass scaling. If the study gives both, they are the only
-// candidate. Depends on the study only. Throws SceneError if the study gives one of them, or both
-// and they do not keep the tolerance.
-NumericsChoice choose_by_scatter(const Study& study);
-
-// Chooses the numerics for numerics.tolerance: the least expensive candidate setting that keeps
-// every feature of a pilot within the tolerance. choose_by_scatter() serves
-// numerics.scatter_tolerance.
-
-// Study with resolved numerics, and how they were chosen; `choice` is empty without a tolerance.
-struct ResolvedStudy {
-    Study study;
+// Numerics with the steps of a tolerance, and how they were chosen; `choice` is empty without one.
+struct ResolvedNumerics {
+    Numerics numerics;
     std::optional<NumericsChoice> choice;
 };
-// Depends on the study only, not on timing, lanes, threads or instruction set. Throws SceneError if
-// no candidate keeps the tolerance.
-ResolvedStudy resolve_numerics(Study study);
 
-// The study with its own numerics, not those that a tolerance would choose.
-Study without_tolerance(Study study);
+// Chooses the numerics of a study for the tolerance in `numerics`. With numerics.tolerance: the
+// least expensive candidate setting that keeps every feature of a pilot within it. With
+// numerics.scatter_tolerance: integrates the first sixteen healthy gearboxes with the steps of the
+// integrator's own rule, and with fewer steps and more mass scaling. If both are given, they are
+// the only candidate. The choice depends on the study only, not on timing, lanes, threads or
+// instruction set. Throws SceneError if no candidate keeps the tolerance, or if a key that would be
+// chosen is given.
+ResolvedNumerics resolve_numerics(const Planner& planner, const Numerics& numerics);
+
+// Plan of a study with resolved numerics. Throws SceneError.
+Scene resolved_plan(const Study& study);
 
 }  // namespace gearpod::mc

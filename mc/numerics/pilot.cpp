@@ -33,17 +33,17 @@ struct Sums {
 };
 
 // Adds the error of one feature at one noise level over the gearboxes that the reference has.
-void add_feature(const PilotRecord& record, const PilotRecord& reference, std::size_t at,
+void add_feature(const PilotRecord& record, const PilotRecord& reference, std::size_t value,
                  PilotError& error) {
     Sums sums;
     double largest = 0.0;
     int compared = 0;
     for (std::size_t g = 0; g < reference.ok.size(); ++g) {
-        if (!reference.ok[g] || !std::isfinite(reference.features[g][at])) {
+        if (!reference.ok[g] || !std::isfinite(reference.features[g][value])) {
             continue;
         }
-        const double here = record.ok[g] ? record.features[g][at] : kUnbounded;
-        const double there = reference.features[g][at];
+        const double here = record.ok[g] ? record.features[g][value] : kUnbounded;
+        const double there = reference.features[g][value];
         const double difference = std::isfinite(here) ? std::abs(here - there) : kUnbounded;
         sums.difference += difference * difference;
         sums.reference += there * there;
@@ -102,33 +102,37 @@ std::vector<GearboxId> pilot_gearboxes(std::uint64_t first, std::uint64_t stride
     return ids;
 }
 
-Pilot::Pilot(const Scene& scene, std::vector<GearboxId> ids)
-    : ids_(std::move(ids)), path_(sensor_paths(scene)) {}
+Pilot::Pilot(Planner planner, std::vector<GearboxId> ids)
+    : planner_(std::move(planner)), ids_(std::move(ids)) {
+    constexpr int kMostSignalMeshes = 200;
+    const Scene plan = planner_.plan(without_tolerance(planner_.facts().numerics));
+    path_ = sensor_paths(plan);
+    signal_meshes_ = std::clamp(plan.pattern().length, 1, kMostSignalMeshes);
+}
 
-PilotRecord Pilot::run(const Scene& scene) const {
-    const lockstep::Precision precision = scene.plan().precision;
-    const int lanes = lockstep::lanes_for(precision, full_lanes(precision));
-    return record(scene, lanes, [&](std::span<const GearboxId> some) {
-        return run_gearboxes(scene, path_, filled(some, lanes), lanes,
+PilotRecord Pilot::run(const Numerics& numerics) const {
+    const Scene plan = planner_.plan(numerics);
+    const int lanes = lockstep::lanes_for(numerics.precision, full_lanes(numerics.precision));
+    return record(plan, lanes, [&](std::span<const GearboxId> some) {
+        return run_gearboxes(plan, path_, filled(some, lanes), lanes,
                              {.records = lockstep::RecordOptions{}});
     });
 }
 
-PilotRecord Pilot::record_of_integration(const Scene& scene,
-                                         const ForeignIntegrator& integrate) const {
-    return record(scene, lockstep::kPilotLanes, [&](std::span<const GearboxId> some) {
-        return complete_tile(scene, path_, some, integrate(some));
+PilotRecord Pilot::record_of_integration(const ForeignIntegrator& integrate) const {
+    const Scene plan = planner_.plan(planner_.facts().numerics);
+    return record(plan, lockstep::kPilotLanes, [&](std::span<const GearboxId> some) {
+        return complete_tile(plan, path_, some, integrate(some));
     });
 }
 
-PilotRecord Pilot::record(const Scene& scene, int lanes, const Tile& tile_of) const {
+PilotRecord Pilot::record(const Scene& plan, int lanes, const Tile& tile_of) const {
     PilotRecord record;
-    record.features_used = static_cast<int>(scene.study().features.use.size());
-    record.levels = static_cast<int>(scene.study().sensor.noise_levels.size());
-    record.steps = static_cast<int>(scene.plan().grid.steps.size());
-    const HealthyReference healthy = healthy_reference(scene, path_);
-    RealizationFeatures features(scene, &healthy);
-    const int meshes = std::clamp(scene.pattern().length, 1, kMostSignalMeshes);
+    record.features_used = static_cast<int>(planner_.facts().features.size());
+    record.levels = static_cast<int>(planner_.facts().noise_levels.size());
+    record.steps = static_cast<int>(plan.plan().grid.steps.size());
+    const HealthyReference healthy = healthy_reference(plan, path_);
+    RealizationFeatures features(plan, &healthy);
     double tiles_s = 0.0, features_s = 0.0, lanes_run = 0.0;
     for (std::size_t first = 0; first < ids_.size(); first += lockstep::kPilotLanes) {
         const auto some = std::span(ids_).subspan(
@@ -152,16 +156,16 @@ PilotRecord Pilot::record(const Scene& scene, int lanes, const Tile& tile_of) co
             }
             const double features_start = thread_processor_s();
             record.features.back() = features.compute(
-                lane_signals(scene, path_, tile, lane, features.meshes()), realization);
+                lane_signals(plan, path_, tile, lane, features.meshes()), realization);
             features_s += thread_processor_s() - features_start;
             const lockstep::SpanPart part =
-                tile.parts.empty() ? lockstep::SpanPart{0, meshes} : tile.parts.front();
-            const int count = std::min(meshes, part.end - part.first);
+                tile.parts.empty() ? lockstep::SpanPart{0, signal_meshes_} : tile.parts.front();
+            const int count = std::min(signal_meshes_, part.end - part.first);
             record.sensor.back() = signals::synthesize(
-                tile.views, lane, tile.integration.content, scene.span(), path_[0][0],
+                tile.views, lane, tile.integration.content, plan.span(), path_[0][0],
                 realization.inputs.path_exponent, part.first, count);
             record.te.back() =
-                recorded_te(scene, tile, lane, part.first, count, scene.samples_per_mesh());
+                recorded_te(plan, tile, lane, part.first, count, plan.samples_per_mesh());
             remove_mean(record.te.back());
         }
     }
@@ -188,8 +192,8 @@ PilotError pilot_error(const PilotRecord& record, const PilotRecord& reference) 
     error.te = te.relative();
     const std::size_t values = static_cast<std::size_t>(reference.features_used) *
                                static_cast<std::size_t>(reference.levels);
-    for (std::size_t at = 0; at < values; ++at) {
-        add_feature(record, reference, at, error);
+    for (std::size_t value = 0; value < values; ++value) {
+        add_feature(record, reference, value, error);
     }
     return error;
 }

@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "mc/ensemble/gearbox/gearbox_tile.hpp"
+#include "mc/plan/planner.hpp"
 #include "mc/plan/sampling.hpp"
-#include "mc/plan/scene.hpp"
 
 namespace gearpod::mc {
 
@@ -34,28 +34,29 @@ struct PilotRecord {
 // numerics.lanes, so that results do not depend on it.
 std::vector<GearboxId> pilot_gearboxes(std::uint64_t first = 0, std::uint64_t stride = 1);
 
-// Signals cover the fault's pattern (one mesh period without a fault), at most this many mesh
-// periods.
-inline constexpr int kMostSignalMeshes = 200;
-
-// Gearboxes of a study that are computed with several solver settings.
+// Gearboxes of a study that are computed with several solver settings. Signals cover the fault's
+// pattern (one mesh period without a fault), at most 200 mesh periods.
 class Pilot {
   public:
-    // Uses the study of `scene`, independent of its numerics.
-    explicit Pilot(const Scene& scene, std::vector<GearboxId> ids = pilot_gearboxes());
+    explicit Pilot(Planner planner, std::vector<GearboxId> ids = pilot_gearboxes());
+    const Planner& planner() const { return planner_; }
     std::size_t size() const { return ids_.size(); }
-    // Precondition: the study of `scene` differs from the pilot's only in its numerics.
-    PilotRecord run(const Scene& scene) const;
+    // Mesh periods of PilotRecord::sensor and te.
+    int signal_meshes() const { return signal_meshes_; }
+    // Throws SceneError.
+    PilotRecord run(const Numerics& numerics) const;
     // Record of motions integrated by another program; one tile of eight lanes at a time.
     using ForeignIntegrator = std::function<lockstep::TileResult(std::span<const GearboxId>)>;
-    PilotRecord record_of_integration(const Scene& scene, const ForeignIntegrator& integrate) const;
+    PilotRecord record_of_integration(const ForeignIntegrator& integrate) const;
 
   private:
     using Tile = std::function<GearboxTile(std::span<const GearboxId>)>;
-    PilotRecord record(const Scene& scene, int lanes, const Tile& tile_of) const;
+    PilotRecord record(const Scene& plan, int lanes, const Tile& tile_of) const;
 
+    Planner planner_;
     std::vector<GearboxId> ids_;
     SensorPaths path_;
+    int signal_meshes_ = 0;
 };
 
 // Error of a record relative to a reference.

@@ -30,21 +30,20 @@ void extrapolate(const PilotRecord& coarse, double order, PilotRecord& fine) {
 // Successive refinement: one method with its steps halved repeatedly.
 class Refinement {
   public:
-    Refinement(const Study& study, std::optional<lockstep::Integrator> integrator,
-               const ReferenceRequest& request)
-        : study_(study), setting_(own_setting(study)), request_(request) {
+    Refinement(const Pilot& pilot, const Numerics& numerics,
+               std::optional<lockstep::Integrator> integrator, const ReferenceRequest& request)
+        : pilot_(pilot), setting_(own_setting(numerics)), request_(request) {
         setting_.numerics.integrator = integrator;
         setting_.numerics.steps_per_mesh = 0;
         setting_.numerics.convergence_tolerance = request.convergence_tolerance;
         try {
-            scene_.emplace(with_setting(study, setting_));
-            setting_.numerics.steps_per_mesh = static_cast<int>(scene_->plan().grid.steps.size());
+            setting_.numerics.steps_per_mesh = steps_of(pilot.planner(), setting_).steps;
         } catch (const SceneError&) {  // the study is too stiff for this explicit method
-            scene_.reset();
+            stopped_ = true;
         }
     }
 
-    bool stopped() const { return !scene_.has_value(); }
+    bool stopped() const { return stopped_; }
     bool has_result() const { return best_.has_value(); }
     const PilotRecord& finest() const { return *last_; }  // as integrated
     const PilotRecord& best() const { return *best_; }    // extrapolated
@@ -56,15 +55,16 @@ class Refinement {
     // Cost of the next integration, in rk4 steps per mesh period. cost_s(): processor time of one
     // such step in the last one.
     double next_cost() const {
-        return step_cost(study_, setting_).value_or(1.0) * setting_.numerics.steps_per_mesh;
+        return step_cost(pilot_.planner().facts(), setting_).value_or(1.0) *
+               setting_.numerics.steps_per_mesh;
     }
     double cost_s() const { return has_result() ? last_s_ / (0.5 * next_cost()) : 0.0; }
-    void stop() { scene_.reset(); }
+    void stop() { stopped_ = true; }
 
     // Expected cost, in rk4 steps, of the refinement at which halving the steps changes the result
     // by the requested agreement; infinite before the first halving.
     double expected_cost() const {
-        const auto step = step_cost(study_, setting_);
+        const auto step = step_cost(pilot_.planner().facts(), setting_);
         if (!step || !has_result() || !(change_ > 0.0)) {
             return INFINITY;
         }
@@ -73,9 +73,9 @@ class Refinement {
                std::pow(std::max(1.0, change_ / request_.agreement), 1.0 / order);
     }
 
-    void integrate(const Pilot& pilot) {
+    void integrate() {
         const double start_s = thread_processor_s();
-        PilotRecord record = pilot.run(*scene_);
+        PilotRecord record = pilot_.run(setting_.numerics);
         last_s_ = thread_processor_s() - start_s;
         done_ = setting_;
         best_ = record;
@@ -98,21 +98,21 @@ class Refinement {
   private:
     void refine(double tile_steps) {
         setting_.numerics.steps_per_mesh *= 2;
-        if (tile_steps > request_.most_tile_steps) {
-            scene_.reset();
-            return;
-        }
         try {
-            scene_.emplace(scene_->with(with_setting(study_, setting_).numerics));
+            if (tile_steps > request_.most_tile_steps) {
+                stopped_ = true;
+            } else {
+                steps_of(pilot_.planner(), setting_);
+            }
         } catch (const SceneError&) {
-            scene_.reset();
+            stopped_ = true;
         }
     }
 
-    const Study& study_;
+    const Pilot& pilot_;
     SolverSetting setting_, done_;
     const ReferenceRequest request_;
-    std::optional<Scene> scene_;  // empty: stopped
+    bool stopped_ = false;
     std::optional<PilotRecord> last_, best_;
     double change_ = 0.0, order_ = 0.0, last_s_ = 0.0;
 };
@@ -180,18 +180,18 @@ void choose_pair(const std::vector<Refinement>& methods, const ReferenceRequest&
 
 }  // namespace
 
-Reference self_converged_reference(const Study& study, const Pilot& pilot,
+Reference self_converged_reference(const Pilot& pilot, const Numerics& numerics,
                                    const ReferenceRequest& request) {
     // Method that the study would use without a tolerance: explicit unless the study is too stiff.
-    Refinement method(study, study.numerics.integrator, request);
+    Refinement method(pilot, numerics, numerics.integrator, request);
     if (method.stopped()) {
-        const Scene refused(with_setting(study, method.next_setting()));  // throws the reason
+        steps_of(pilot.planner(), method.next_setting());  // throws the reason
     }
     Reference reference;
     while (!reference.reached && !method.stopped()) {
         const bool first = !method.has_result();
         PilotRecord before = first ? PilotRecord{} : method.finest();
-        method.integrate(pilot);
+        method.integrate();
         if (!first) {
             reference.agreement = pilot_error(before, method.finest());
             reference.reached = reference.agreement.largest_feature() <= request.agreement;
@@ -203,11 +203,11 @@ Reference self_converged_reference(const Study& study, const Pilot& pilot,
     return reference;
 }
 
-Reference converged_reference(const Study& study, const Pilot& pilot,
+Reference converged_reference(const Pilot& pilot, const Numerics& numerics,
                               const ReferenceRequest& request) {
     std::vector<Refinement> methods;
     for (const lockstep::Integrator integrator : lockstep::all_integrators()) {
-        methods.emplace_back(study, integrator, request);
+        methods.emplace_back(pilot, numerics, integrator, request);
     }
     Reference reference;
     double least = INFINITY;
@@ -224,7 +224,7 @@ Reference converged_reference(const Study& study, const Pilot& pilot,
                 method.stop();
             }
             if (!method.stopped()) {
-                method.integrate(pilot);
+                method.integrate();
                 cost_s = std::max(cost_s, method.cost_s());
             }
         }

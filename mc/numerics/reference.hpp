@@ -32,13 +32,13 @@ struct Reference {
 // Reference with signals to `agreement`. All methods are integrated with their own steps and half
 // of them. The two that are expected to agree at the lowest cost, judged by their orders and step
 // costs, are refined further. Throws SceneError if no two methods can integrate the study.
-Reference converged_reference(const Study& study, const Pilot& pilot,
+Reference converged_reference(const Pilot& pilot, const Numerics& numerics,
                               const ReferenceRequest& request);
 
 // Reference with features to `agreement` from one method, compared with itself at half the steps.
 // Used to choose how to run, where a wrong method would be visible in every gearbox anyway. Uses
-// the study's own integrator.
-Reference self_converged_reference(const Study& study, const Pilot& pilot,
+// the integrator of the study.
+Reference self_converged_reference(const Pilot& pilot, const Numerics& numerics,
                                    const ReferenceRequest& request);
 
 }  // namespace gearpod::mc

@@ -29,6 +29,12 @@ bool SolverSetting::chooses(std::string_view option) const {
     return std::ranges::find(options, option) != options.end();
 }
 
+std::vector<std::string_view> SolverSetting::keys() const {
+    std::vector<std::string_view> all{"integrator", "steps_per_mesh", "settle_tolerance"};
+    all.insert(all.end(), options.begin(), options.end());
+    return all;
+}
+
 std::string_view SolverSetting::integrator() const {
     return numerics.integrator ? lockstep::name(*numerics.integrator) : kAutomatic.text;
 }
@@ -55,25 +61,18 @@ std::string SolverSetting::text() const {
     return text;
 }
 
-SolverSetting own_setting(const Study& study) {
-    SolverSetting setting{study.numerics};
+SolverSetting own_setting(const Numerics& numerics) {
+    SolverSetting setting{numerics};
     setting.numerics.tolerance = 0.0;
-    if (study.numerics.mass_scaling_Hz > 0.0) {
+    if (numerics.mass_scaling_Hz > 0.0) {
         setting.options.emplace_back("mass_scaling_Hz");
     }
     return setting;
 }
 
-Study with_setting(const Study& study, const SolverSetting& setting) {
-    Study changed = study;
-    changed.numerics = setting.numerics;
-    std::vector<std::string_view> keys{"integrator", "steps_per_mesh", "settle_tolerance"};
-    keys.insert(keys.end(), setting.options.begin(), setting.options.end());
-    if (const Problems problems = numerics_problems(changed, keys); !problems.empty()) {
-        const Problem& first = problems.front();
-        throw SceneError(first.key, first.what, first.remedy);
-    }
-    return changed;
+PlannedSteps steps_of(const Planner& planner, const SolverSetting& setting) {
+    planner.check(setting.numerics, setting.keys());
+    return planner.steps(setting.numerics);
 }
 
 namespace {
@@ -82,13 +81,13 @@ namespace {
 constexpr double kStepRatio = 1.25;
 
 // Candidate numbers of steps. A grid has at least one step per sample, and equally many for every
-// sample.
-std::vector<int> candidate_steps(const Scene& own_rule, double beyond) {
-    const int samples = own_rule.samples_per_mesh();
-    const int least = (own_rule.least_steps() + samples - 1) / samples;
+// sample. `rule`: steps by the integrator's own rule.
+std::vector<int> candidate_steps(const PlannedSteps& rule, double beyond) {
+    const int samples = rule.samples;
+    const int least = (rule.least + samples - 1) / samples;
     // The rule of an explicit method ensures stability only.
-    const double further = own_rule.least_steps() > 1 ? 2.0 * beyond : beyond;
-    const double most = further * static_cast<double>(own_rule.plan().grid.steps.size()) / samples;
+    const double further = rule.least > 1 ? 2.0 * beyond : beyond;
+    const double most = further * static_cast<double>(rule.steps) / samples;
     std::vector<int> steps;
     for (int a_sample = least; a_sample <= std::max<double>(most, least);
          a_sample = std::max(a_sample + 1, static_cast<int>(std::lround(kStepRatio * a_sample)))) {
@@ -103,25 +102,24 @@ const std::vector<double> kGridTolerances{3e-2, 1e-2, 3e-3, 1e-3, 3e-4, 1e-4};
 // Cost of single precision relative to double, eight lanes each.
 constexpr double kSingleCost = 0.65;
 
-void add_families(const Study& study, const SolverSetting& common, double beyond,
-                  std::vector<SolverFamily>& all) {
-    const Numerics& n = study.numerics;
+void add_families(const Planner& planner, const Numerics& n, const SolverSetting& common,
+                  double beyond, std::vector<SolverFamily>& all) {
     SolverFamily family{common, {}, {}, 0, ""};
     bool may_be_graded = false;
     try {
-        const Scene scene(with_setting(study, common));
-        family.own_steps = static_cast<int>(scene.plan().grid.steps.size());
+        const PlannedSteps rule = steps_of(planner, common);
+        family.own_steps = rule.steps;
         if (n.grid == StepGrid::graded) {
             family.grid_tolerances = {n.grid_tolerance};
         } else if (n.steps_per_mesh > 0) {
             family.steps = {n.steps_per_mesh};
         } else {
-            family.steps = candidate_steps(scene, beyond);
+            family.steps = candidate_steps(rule, beyond);
         }
         // Steps of an explicit method are limited by stability, which is the same everywhere, so
         // grading does not help.
-        may_be_graded = n.steps_per_mesh == 0 && n.grid == StepGrid::uniform &&
-                        !is_explicit(scene.plan().integrator);
+        may_be_graded =
+            n.steps_per_mesh == 0 && n.grid == StepGrid::uniform && !is_explicit(rule.integrator);
     } catch (const SceneError& error) {
         family.refusal = error.what();
     }
@@ -137,31 +135,32 @@ void add_families(const Study& study, const SolverSetting& common, double beyond
 
 }  // namespace
 
-SolverSetting SolverFamily::setting(std::size_t place, double convergence_tolerance) const {
+SolverSetting SolverFamily::setting(std::size_t index, double convergence_tolerance) const {
     SolverSetting setting = common;
-    setting.numerics.steps_per_mesh = graded() ? 0 : steps[place];
+    setting.numerics.steps_per_mesh = graded() ? 0 : steps[index];
     setting.numerics.convergence_tolerance = convergence_tolerance;
     if (graded()) {
-        setting.numerics.grid_tolerance = grid_tolerances[place];
+        setting.numerics.grid_tolerance = grid_tolerances[index];
         setting.options.emplace_back("grid_tolerance");
     }
     return setting;
 }
 
-std::vector<SolverFamily> solver_families(const Study& study, double beyond) {
+std::vector<SolverFamily> solver_families(const Planner& planner, const Numerics& numerics,
+                                          double beyond) {
     std::vector<SolverFamily> all;
     for (const lockstep::Integrator integrator : lockstep::all_integrators()) {
-        if (study.numerics.integrator.value_or(integrator) != integrator) {
+        if (numerics.integrator.value_or(integrator) != integrator) {
             continue;
         }
-        SolverSetting setting = own_setting(study);
+        SolverSetting setting = own_setting(numerics);
         setting.numerics.integrator = integrator;
         if (setting.numerics.precision == Precision::double_precision) {
-            add_families(study, setting, beyond, all);
+            add_families(planner, numerics, setting, beyond, all);
         }
         setting.numerics.precision = Precision::single_precision;
         setting.options.emplace_back("precision");
-        add_families(study, setting, beyond, all);
+        add_families(planner, numerics, setting, beyond, all);
     }
     return all;
 }
@@ -171,15 +170,12 @@ const std::vector<double>& convergence_tolerances() {
     return all;
 }
 
-std::optional<double> step_cost(const Study& study, const SolverSetting& setting) {
+std::optional<double> step_cost(const SolverFacts& facts, const SolverSetting& setting) {
     if (!setting.numerics.integrator || setting.chooses("horizon")) {
         return std::nullopt;
     }
-    const lockstep::StepCost& cost = lockstep::facts(*setting.numerics.integrator).cost;
     return (setting.chooses("precision") ? kSingleCost : 1.0) *
-           (study.gearbox.kind == GearboxKind::fixed_shaft ? cost.fixed_shaft
-            : study.effects.torsional()                    ? cost.rotations
-                                                           : cost.planetary);
+           lockstep::facts(*setting.numerics.integrator).cost.*facts.step_cost;
 }
 
 }  // namespace gearpod::mc

@@ -6,8 +6,7 @@
 #include <string_view>
 #include <vector>
 
-#include "mc/plan/scene.hpp"
-#include "mc/study/study.hpp"
+#include "mc/plan/planner.hpp"
 
 namespace gearpod::mc {
 
@@ -18,17 +17,19 @@ struct SolverSetting {
     std::vector<std::string_view> options = {};
 
     bool chooses(std::string_view option) const;
+    // Keys of [numerics] that the setting chooses.
+    std::vector<std::string_view> keys() const;
     std::string_view integrator() const;         // as a study file spells it
     std::vector<std::string> overrides() const;  // "numerics.integrator=sdirk3", ..., for --set
     std::string text() const;                    // "sdirk3, 864 steps, converged to 1e-06"
     bool operator==(const SolverSetting&) const = default;
 };
 
-// Setting that the study uses without a tolerance.
-SolverSetting own_setting(const Study& study);
+// Setting of these numerics without a tolerance.
+SolverSetting own_setting(const Numerics& numerics);
 
-// Study with the numerics of a setting. Throws SceneError if the setting is invalid for the study.
-Study with_setting(const Study& study, const SolverSetting& setting);
+// Steps of the plan with a setting. Throws SceneError if the setting is invalid for the study.
+PlannedSteps steps_of(const Planner& planner, const SolverSetting& setting);
 
 // Candidate solver settings of a study, and a deterministic model of their cost.
 
@@ -44,10 +45,12 @@ struct SolverFamily {
 
     bool graded() const { return !grid_tolerances.empty(); }
     std::size_t size() const { return graded() ? grid_tolerances.size() : steps.size(); }
-    SolverSetting setting(std::size_t place, double convergence_tolerance) const;
+    SolverSetting setting(std::size_t index, double convergence_tolerance) const;
 };
-// `beyond`: largest number of steps, as a multiple of the steps of an integrator's own rule.
-std::vector<SolverFamily> solver_families(const Study& study, double beyond);
+// `numerics`: those that the user gives. `beyond`: largest number of steps, as a multiple of the
+// steps of an integrator's own rule.
+std::vector<SolverFamily> solver_families(const Planner& planner, const Numerics& numerics,
+                                          double beyond);
 
 // Smallest number of steps of a graded grid, as a fraction of the uniform steps of the integrator's
 // own rule. Used as a bound, so that hopeless grids are not made.
@@ -58,6 +61,6 @@ const std::vector<double>& convergence_tolerances();
 
 // Cost of one step of one gearbox according to lockstep::StepCost of the integrator. Empty for
 // settings whose integrator is not given, and for those that choose the strategy of integration.
-std::optional<double> step_cost(const Study& study, const SolverSetting& setting);
+std::optional<double> step_cost(const SolverFacts& facts, const SolverSetting& setting);
 
 }  // namespace gearpod::mc

@@ -23,10 +23,10 @@ void choose_numerics_of_stages(Study& study) {
     const std::vector<Study> studies = stage_studies(study);
     for (std::size_t i = 0; i < studies.size(); ++i) {
         NeighbourStage& stage = study.sensor.stages[i];
-        Study own = *stage.study;
-        own.numerics = resolve_numerics(studies[i]).study.numerics;
-        stage.text = resolved_text(own);
-        stage.study = std::make_shared<const Study>(std::move(own));
+        Study resolved = *stage.study;
+        resolved.numerics = resolve_numerics(Planner(studies[i]), studies[i].numerics).numerics;
+        stage.text = resolved_text(resolved);
+        stage.study = std::make_shared<const Study>(std::move(resolved));
     }
 }
 
@@ -76,14 +76,15 @@ StudyScene make_scene(const std::string& name, StudyReading reading) {
                 "\"double\" and, if needed, steps_per_mesh");
         }
         choose_numerics_of_stages(*reading.study);
-        ResolvedStudy resolved = resolve_numerics(*std::move(reading.study));
-        StudyScene made{std::make_unique<const Scene>(resolved.study),
+        const Planner planner(*reading.study);
+        ResolvedNumerics resolved = resolve_numerics(planner, numerics);
+        StudyScene made{std::make_unique<const Scene>(planner.plan(resolved.numerics)),
                         std::move(resolved.choice),
                         {},
                         std::move(reading.notices)};
-        check_stages(resolved.study, *made.scene);
-        add_torque_notices(resolved.study, name, made.notices);
-        for (Problem& warning : load_warnings(resolved.study, name)) {
+        check_stages(made.scene->study(), *made.scene);
+        add_torque_notices(*reading.study, name, made.notices);
+        for (Problem& warning : load_warnings(*reading.study, name)) {
             made.notices.push_back(std::move(warning));
         }
         return made;

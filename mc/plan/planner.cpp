@@ -4,25 +4,31 @@
 #include <cmath>
 #include <utility>
 
-#include "mc/plan/feature_needs.hpp"
+#include "mc/plan/feature_plan.hpp"
 #include "mc/study/fluctuations.hpp"
 #include "mc/study/other_sources.hpp"
 
 namespace gearpod::mc {
+
+std::vector<EffectVariant> effect_variants(const Study& study);  // effect_variants.cpp
+
 namespace {
 
 SolverFacts facts_of(const Study& study) {
     const bool integrates_every_mesh =
         study.numerics.horizon != Horizon::superposed && !reason_not_periodic(study).empty();
-    return {study.numerics,
+    const Numerics& n = study.numerics;
+    return {n,
             study.effects.quasi_static()                     ? nullptr
             : study.gearbox.kind == GearboxKind::fixed_shaft ? &lockstep::StepCost::fixed_shaft
             : study.effects.torsional()                      ? &lockstep::StepCost::rotations
                                                              : &lockstep::StepCost::planetary,
             integrates_every_mesh ? std::nullopt : std::optional(Horizon::full),
+            n.tolerance > 0.0 || n.scatter_tolerance > 0.0 || n.verify || n.paired_gearboxes > 0,
             study.sensor.low_pass_Hz,
             study.features.use,
-            study.sensor.noise_levels};
+            study.sensor.noise_levels,
+            static_cast<long>(study.ensemble.instances + study.ensemble.threshold_instances)};
 }
 
 Study with_numerics(Study study, const Numerics& numerics) {
@@ -32,36 +38,61 @@ Study with_numerics(Study study, const Numerics& numerics) {
 
 }  // namespace
 
-Planner::Planner(const Study& study) : Planner(study, nullptr) {}
+struct Planner::Plans {
+    const Study study;
+    const SolverFacts facts;
+    std::shared_ptr<const Scene> last;  // with uniform steps; may be null
+    std::vector<std::shared_ptr<const Scene>> graded;
 
-Planner::Planner(const Scene& plan) : Planner(plan.study(), std::make_shared<const Scene>(plan)) {}
+    const Scene& with(const Numerics& numerics) {
+        const auto shares = [&](const std::shared_ptr<const Scene>& plan) {
+            return share_steps(plan->study().numerics, numerics);
+        };
+        const auto known = std::ranges::find_if(graded, shares);
+        const std::shared_ptr<const Scene> base = known != graded.end() ? *known : last;
+        const auto made = base ? std::make_shared<const Scene>(base->with(numerics))
+                               : std::make_shared<const Scene>(with_numerics(study, numerics));
+        if (numerics.grid == StepGrid::graded && known == graded.end()) {
+            graded.push_back(made);
+        }
+        if (numerics.grid == StepGrid::uniform || !last) {
+            last = made;
+        }
+        return *made;
+    }
+};
 
-Planner::Planner(const Study& study, std::shared_ptr<const Scene> last)
-    : study_(std::make_shared<const Study>(study)),
-      facts_(facts_of(study)),
-      last_(std::move(last)) {}
+Planner::Planner(const Study& study) : plans_(new Plans{study, facts_of(study), nullptr, {}}) {}
+
+Planner::Planner(const Scene& plan) {
+    SolverFacts facts = facts_of(plan.study());
+    facts.numerics = without_tolerance(facts.numerics);
+    plans_.reset(new Plans{with_numerics(plan.study(), facts.numerics),
+                           facts,
+                           std::make_shared<const Scene>(plan),
+                           {}});
+}
+
+const SolverFacts& Planner::facts() const {
+    return plans_->facts;
+}
 
 Scene Planner::plan(const Numerics& numerics) const {
-    const auto shares_grid = [&](const std::shared_ptr<const Scene>& other) {
-        Numerics same = other->study().numerics;
-        same.convergence_tolerance = numerics.convergence_tolerance;
-        return same == numerics;
-    };
-    const auto known = std::ranges::find_if(graded_, shares_grid);
-    const std::shared_ptr<const Scene> base = known != graded_.end() ? *known : last_;
-    const auto made = std::make_shared<const Scene>(base ? base->with(numerics)
-                                                         : Scene(with_numerics(*study_, numerics)));
-    if (numerics.grid == StepGrid::uniform || !last_) {
-        last_ = made;
-    }
-    if (numerics.grid == StepGrid::graded && known == graded_.end()) {
-        graded_.push_back(made);
-    }
-    return *made;
+    return plans_->with(numerics);
+}
+
+PlannedSteps Planner::steps(const Numerics& numerics) const {
+    const Scene& plan = plans_->with(numerics);
+    return {plan.plan().integrator,
+            plan.samples_per_mesh(),
+            static_cast<int>(plan.plan().grid.steps.size()),
+            plan.least_steps(),
+            plan.longest_step(),
+            plan.calibration() ? std::optional(plan.calibration()->grading.first) : std::nullopt};
 }
 
 void Planner::check(const Numerics& numerics, std::span<const std::string_view> keys) const {
-    const Problems problems = numerics_problems(with_numerics(*study_, numerics), keys);
+    const Problems problems = numerics_problems(with_numerics(plans_->study, numerics), keys);
     if (!problems.empty()) {
         const Problem& first = problems.front();
         throw SceneError(first.key, first.what, first.remedy);
@@ -69,13 +100,13 @@ void Planner::check(const Numerics& numerics, std::span<const std::string_view> 
 }
 
 void Planner::check_choice() const {
-    if (study_->effects.quasi_static()) {
+    if (plans_->study.effects.quasi_static()) {
         throw SceneError("effects.motion",
                          "a quasi-static study has no time integration, so there are no solver "
                          "settings to compare",
                          "choose a motion with inertia, e.g. \"translational-torsional\"");
     }
-    if (is_coupled(*study_)) {
+    if (is_coupled(plans_->study)) {
         throw SceneError("sensor.stages",
                          "stages that elastic shafts couple are integrated by one method only, so "
                          "there are no solver settings to compare",
@@ -84,8 +115,16 @@ void Planner::check_choice() const {
     }
 }
 
+double Planner::fastest_mode_Hz(const Numerics& numerics) const {
+    const Scene& plan = plans_->with(numerics);
+    return dynamics::natural_frequencies_Hz(
+               dynamics::assemble(plan.plan().layout, plan.inputs(nominal_inputs(plans_->study)),
+                                  plan.mean_pairs()))
+        .back();
+}
+
 Planner Planner::with_gearboxes(long gearboxes) const {
-    Study fewer = *study_;
+    Study fewer = plans_->study;
     Ensemble& e = fewer.ensemble;
     e.until = {};
     const double share =
@@ -100,22 +139,26 @@ Planner Planner::with_gearboxes(long gearboxes) const {
     return Planner(fewer);
 }
 
-Scene Planner::plan_with_short_records(const signals::SpanLayout& span,
-                                       double mesh_frequency_Hz) const {
-    const Numerics numerics = without_tolerance(facts_.numerics);
-    if (reason_not_periodic(*study_).empty()) {
-        return plan(numerics);
+Planner Planner::with_short_records(const signals::SpanLayout& span,
+                                    double mesh_frequency_Hz) const {
+    const Study plain = with_numerics(plans_->study, without_tolerance(facts().numerics));
+    if (reason_not_periodic(plain).empty()) {
+        return Planner(Scene(plain));
     }
-    Study brief = with_numerics(*study_, numerics);
+    Study brief = plain;
     brief.sensor.record_turns.reset();
     // Half a mesh period more, because whole turns are taken.
     brief.sensor.record_s =
         (kLeastRecordTurns * span.planet_teeth + 0.5) / std::abs(mesh_frequency_Hz);
     try {
-        return Scene(brief);
+        return Planner(Scene(brief));
     } catch (const SceneError&) {
-        return plan(numerics);
+        return Planner(Scene(plain));
     }
+}
+
+std::vector<EffectVariant> Planner::effect_variants() const {
+    return mc::effect_variants(plans_->study);
 }
 
 Numerics without_tolerance(Numerics numerics) {

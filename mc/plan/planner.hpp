@@ -1,6 +1,7 @@
 // Makes the plans of one study that differ only in its numerics or in the number of its gearboxes.
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <optional>
 #include <span>
@@ -20,46 +21,69 @@ struct SolverFacts {
     double lockstep::StepCost::*step_cost = nullptr;
     // Strategy that integrates every mesh period; empty if the study's strategy does so.
     std::optional<Horizon> every_mesh;
+    bool verified = false;  // a run integrates some gearboxes again with finer steps
     double low_pass_Hz = 0.0;
     std::vector<std::string> features;  // names
     std::vector<double> noise_levels;
+    long gearboxes = 0;  // of both groups
+};
+
+class Planner;
+
+// Study without one of its optional effects, or with one that it lacks.
+struct EffectVariant {
+    std::string effect;
+    bool in_study = false;
+    std::function<Planner()> planner;  // throws SceneError if the study is then invalid
+};
+
+// Steps per mesh period of a plan.
+struct PlannedSteps {
+    lockstep::Integrator integrator = lockstep::kUsualExplicit;
+    int samples = 0;                    // of the sensor, per mesh period
+    int steps = 0;                      // per mesh period
+    int least = 1;                      // Stepping::least
+    double longest_step = 1.0;          // Stepping::longest_step
+    std::optional<double> finest_step;  // of a graded grid, in mesh periods
 };
 
 // Plans share equal parts with the last plan made and with those of graded grids, each of which
-// costs a pilot. Not thread-safe.
+// costs a pilot. Copies make the same plans. Not thread-safe.
 class Planner {
   public:
     explicit Planner(const Study& study);
-    // For the study of a plan, which is shared.
+    // For the study of a plan, which is shared. Its tolerances are resolved, so it has none.
     explicit Planner(const Scene& plan);
 
-    const SolverFacts& facts() const { return facts_; }
-    // Plan with these numerics, whose tolerances are not resolved. Throws SceneError.
+    const SolverFacts& facts() const;
+    // Plan with these numerics, whose tolerances are not resolved; steps(): its steps. Throw
+    // SceneError.
     Scene plan(const Numerics& numerics) const;
+    PlannedSteps steps(const Numerics& numerics) const;
     // Throws SceneError if reading would reject the keys of [numerics] named in `keys`.
     void check(const Numerics& numerics, std::span<const std::string_view> keys) const;
     // Throws SceneError if there is no choice of solver settings: nothing is integrated, or shafts
     // couple the gearbox to other stages.
     void check_choice() const;
+    // Highest natural frequency of the nominal gearbox without additional inertia.
+    double fastest_mode_Hz(const Numerics& numerics) const;
 
     // The same study with at most `gearboxes` gearboxes, in its proportion of the two groups, and
     // without a stopping rule.
     Planner with_gearboxes(long gearboxes) const;
-    // Plan without a tolerance and, where every mesh period is integrated and the features allow
-    // it, with the shortest records. `span` and `mesh_frequency_Hz`: those of any plan of the
-    // study.
-    Scene plan_with_short_records(const signals::SpanLayout& span, double mesh_frequency_Hz) const;
+    // The same study without a tolerance and, where every mesh period is integrated and the
+    // features allow it, with the shortest records. `span` and `mesh_frequency_Hz` are those of any
+    // plan of the study.
+    Planner with_short_records(const signals::SpanLayout& span, double mesh_frequency_Hz) const;
+    // Plans of the study without each optional effect that it has, and with each that it lacks.
+    std::vector<EffectVariant> effect_variants() const;
 
   private:
-    Planner(const Study& study, std::shared_ptr<const Scene> last);
-
-    std::shared_ptr<const Study> study_;
-    SolverFacts facts_;
-    mutable std::shared_ptr<const Scene> last_;  // with uniform steps; may be null
-    mutable std::vector<std::shared_ptr<const Scene>> graded_;
+    struct Plans;
+    std::shared_ptr<Plans> plans_;
 };
 
-// Numerics without tolerances, so that nothing is chosen.
+// Numerics without tolerances for which others would be chosen.
 Numerics without_tolerance(Numerics numerics);
 
 }  // namespace gearpod::mc

@@ -17,12 +17,14 @@ const Study& with_gears(const Study& study) {
     return study;
 }
 
-bool differ_only_in_convergence_tolerance(Numerics a, const Numerics& b) {
+}  // namespace
+
+bool share_steps(Numerics a, const Numerics& b) {
     a.convergence_tolerance = b.convergence_tolerance;
+    a.tolerance = b.tolerance;
+    a.scatter_tolerance = b.scatter_tolerance;
     return a == b;
 }
-
-}  // namespace
 
 Scene::Scene(const Study& study)
     : study_(with_gears(study)),
@@ -72,7 +74,7 @@ Scene Scene::with(const Numerics& numerics) const {
         gearbox->stages = gearbox_->stages;
         scene.gearbox_ = std::move(gearbox);
     }
-    if (!differ_only_in_convergence_tolerance(given, numerics)) {
+    if (!share_steps(given, numerics)) {
         scene.plan_ = std::make_shared<const ScenePlan>(
             make_plan(scene.study_, *scene.sampler_, *scene.gearbox_));
     }

@@ -19,6 +19,9 @@
 
 namespace gearpod::mc {
 
+// True if plans with these numerics have the same steps: they differ at most in their tolerances.
+bool share_steps(Numerics a, const Numerics& b);
+
 // Immutable. Copies, and scenes derived from it, share the parts that are equal.
 class Scene {
   public:
@@ -28,7 +31,7 @@ class Scene {
     Scene& operator=(const Scene&) = delete;
 
     // Scene of the same gearboxes with other numerics. The stiffness is recomputed only for another
-    // stiffness_tolerance or face_slices; the plan is shared if only settle_tolerance differs.
+    // stiffness_tolerance or face_slices; the plan is shared if share_steps().
     // Throws SceneError.
     Scene with(const Numerics& numerics) const;
     // The same scene with at most this many recorded mesh periods, which the signal repeats. Used

@@ -15,7 +15,7 @@ std::unique_ptr<mc::Scene> study_scene(const std::string& study,
     if (!reading.study) {
         throw std::runtime_error(mc::format(reading.problems));
     }
-    return std::make_unique<mc::Scene>(mc::resolve_numerics(*reading.study).study);
+    return std::make_unique<mc::Scene>(mc::resolved_plan(*reading.study));
 }
 
 std::unique_ptr<mc::Scene> reference_scene(int planets, std::vector<std::string> overrides) {

@@ -107,7 +107,7 @@ std::string reason_for_failure(const std::string& text, Shared& shared) {
     // Repeats what `describe` does.
     try {
         if (reading.study->gearbox.has_teeth() && reading.study->gearbox.module_m) {
-            const mc::Scene scene(mc::resolve_numerics(*reading.study).study);
+            const mc::Scene scene = mc::resolved_plan(*reading.study);
             ++shared.scenes;
         }
     } catch (const mc::SceneError&) {

@@ -19,17 +19,6 @@
 
 namespace gearpod::mc {
 
-// Fills SettingResult::detection of the most relevant solver settings (the Pareto frontier, the
-// study's own and the chosen ones), compared with the most accurate setting. Uses the requested
-// number of gearboxes, or as many as there is time for, and records what was omitted.
-void measure_detection(const Study& study, const AccuracyRequest& request, const TimeBudget& time,
-                       AccuracyReport& report);
-
-// Measures AccuracyReport::effects for the study of `own`, with its solver setting, in a quarter of
-// `time`, and records what was omitted.
-void measure_effect_costs(const Scene& own, const AccuracyRequest& request, const TimeBudget& time,
-                          AccuracyReport& report);
-
 namespace {
 
 // Number of gearboxes of the pilot ensemble, both groups: default, and smallest for which results
@@ -48,34 +37,33 @@ std::size_t most_accurate_setting(const AccuracyReport& report) {
 }
 
 std::vector<std::size_t> relevant_settings(const AccuracyReport& report) {
-    std::vector<std::size_t> places{0};
+    std::vector<std::size_t> indices{0};
     for (std::size_t i = 0; i < report.settings.size(); ++i) {
         if (report.settings[i].frontier) {
-            places.push_back(i);
+            indices.push_back(i);
         }
     }
     for (const ChoiceCheck& check : report.choices) {
         if (check.chosen >= 0) {
-            places.push_back(static_cast<std::size_t>(check.chosen));
+            indices.push_back(static_cast<std::size_t>(check.chosen));
         }
     }
-    std::sort(places.begin(), places.end());
-    places.erase(std::unique(places.begin(), places.end()), places.end());
-    return places;
+    std::sort(indices.begin(), indices.end());
+    indices.erase(std::unique(indices.begin(), indices.end()), indices.end());
+    return indices;
 }
 
 // Number of gearboxes for which there is time; 0 if too few for a result.
-long pilot_size(const Study& study, const AccuracyRequest& request, const TimeBudget& time,
-                const std::vector<std::size_t>& places, AccuracyReport& report) {
+long pilot_size(const Planner& planner, const AccuracyRequest& request, const TimeBudget& time,
+                const std::vector<std::size_t>& indices, AccuracyReport& report) {
     if (request.gearboxes) {
         return *request.gearboxes;
     }
     double gearbox_s = report.settings[most_accurate_setting(report)].total_s;
-    for (const std::size_t place : places) {
-        gearbox_s += report.settings[place].total_s;
+    for (const std::size_t i : indices) {
+        gearbox_s += report.settings[i].total_s;
     }
-    const Ensemble& e = study.ensemble;
-    const long all = std::min<long>(kPilotGearboxes, e.instances + e.threshold_instances);
+    const long all = std::min(kPilotGearboxes, planner.facts().gearboxes);
     const double needed_s = gearbox_s * static_cast<double>(all);
     if (time.enough(needed_s)) {
         return all;
@@ -84,7 +72,7 @@ long pilot_size(const Study& study, const AccuracyRequest& request, const TimeBu
     report.left_out.push_back(fmt::format(
         "detection rates of {} gearboxes with each of {} settings{} (to get them, use "
         "--gearboxes {}: about {:.0f} s on one processor)",
-        all, places.size(),
+        all, indices.size(),
         some >= kFewestGearboxes ? fmt::format("; {} gearboxes are used instead", some) : "", all,
         needed_s));
     return some >= kFewestGearboxes ? some : 0;
@@ -110,46 +98,48 @@ std::vector<double> scatter_of(const Results& results) {
     return all;
 }
 
-}  // namespace
-
-void measure_detection(const Study& study, const AccuracyRequest& request, const TimeBudget& time,
-                       AccuracyReport& report) {
-    const std::vector<std::size_t> places = relevant_settings(report);
-    const long gearboxes = pilot_size(study, request, time, places, report);
+// Fills SettingResult::detection of the most relevant solver settings (the Pareto frontier, the
+// study's own and the chosen ones), compared with the most accurate setting. Uses the requested
+// number of gearboxes, or as many as there is time for, and records what was omitted.
+void measure_detection(const Planner& planner, const AccuracyRequest& request,
+                       const TimeBudget& time, AccuracyReport& report) {
+    const std::vector<std::size_t> indices = relevant_settings(report);
+    const long gearboxes = pilot_size(planner, request, time, indices, report);
     if (gearboxes == 0) {
         return;
     }
-    const Study pilot = pilot_ensemble_study(study, gearboxes);
-    const PilotEnsemble reference = run_pilot_ensemble(
-        with_setting(pilot, report.settings[most_accurate_setting(report)].setting));
+    const Planner pilot = planner.with_gearboxes(gearboxes);
+    const auto run = [&](const SolverSetting& setting) {
+        pilot.check(setting.numerics, setting.keys());
+        return run_pilot_ensemble(pilot.plan(setting.numerics));
+    };
+    const PilotEnsemble reference = run(report.settings[most_accurate_setting(report)].setting);
     if (!has_rates(reference)) {
         return;
     }
     report.scatter = scatter_of(reference.results);
-    for (const std::size_t place : places) {
-        SettingResult& result = report.settings[place];
+    for (const std::size_t i : indices) {
+        SettingResult& result = report.settings[i];
         request.progress(fmt::format("detection rates with {}", result.setting.text()));
-        result.detection =
-            detection_change(run_pilot_ensemble(with_setting(pilot, result.setting)), reference);
+        result.detection = detection_change(run(result.setting), reference);
     }
 }
 
-void measure_effect_costs(const Scene& own, const AccuracyRequest& request, const TimeBudget& time,
-                          AccuracyReport& report) {
+// Measures AccuracyReport::effects in a quarter of `time`, and records what was omitted.
+void measure_effect_costs(const Planner& planner, const AccuracyRequest& request,
+                          const TimeBudget& time, AccuracyReport& report) {
     constexpr double kTimeShare = 0.25;
     // A budget of 0 would have no limit.
     const double seconds =
         std::isfinite(time.seconds()) ? std::max(1e-9, kTimeShare * time.seconds()) : 0.0;
     EffectMeasurement measured = measure_effects(
-        own, {.repeats = request.repeats, .seconds = seconds, .progress = request.progress});
+        planner, {.repeats = request.repeats, .seconds = seconds, .progress = request.progress});
     report.effects = std::move(measured.effects);
     if (!measured.omitted.empty()) {
         report.left_out.push_back(
             fmt::format("cost of effects: {}", fmt::join(measured.omitted, ", ")));
     }
 }
-
-namespace {
 
 // Settings slower than equally accurate ones by more than this factor are timed only once.
 constexpr double kNearFrontier = 3.0;
@@ -163,29 +153,33 @@ constexpr double kStiffnessTolerances[] = {1e-8, 1e-6, 1e-5, 1e-4, 1e-3};
 
 class AccuracyMeasurement {
   public:
-    AccuracyMeasurement(const Study& study, const AccuracyRequest& request)
-        : study_(without_tolerance(study)),
+    AccuracyMeasurement(const Planner& planner, const AccuracyRequest& request)
+        : planner_(planner),
+          facts_(planner.facts()),
           request_(request),
           time_(request.seconds),
-          scenes_(study_),
-          pilot_(scenes_.own()) {
-        const Scene& scene = scenes_.own();
-        report_.features = study_.features.use;
-        report_.noise_levels = study_.sensor.noise_levels;
+          pilot_(planner) {
+        const Scene plan = planner.plan(facts_.numerics);
+        report_.features = facts_.features;
+        report_.noise_levels = facts_.noise_levels;
         report_.gearboxes = static_cast<int>(pilot_.size());
-        report_.signal_meshes = std::clamp(scene.pattern().length, 1, kMostSignalMeshes);
-        report_.span_meshes = scene.span_meshes();
-        report_.mesh_frequency_Hz = scene.nominal_mesh_frequency_Hz();
-        report_.explicit_limit.steps = scene.explicit_steps();
+        report_.signal_meshes = pilot_.signal_meshes();
+        report_.span_meshes = plan.span_meshes();
+        report_.mesh_frequency_Hz = plan.nominal_mesh_frequency_Hz();
+        report_.explicit_limit.steps = plan.explicit_steps();
+        own_steps_ = planner.steps(facts_.numerics);
+        stability_case_ = {plan.plan().layout, plan.inputs(nominal_inputs(plan.study())),
+                           plan.stiffest_pairs()};
     }
 
     AccuracyReport run() {
         request_.progress("reference: refining two methods until they agree");
         ReferenceRequest reference;
         reference.seconds = kReferenceErrorShare * time_.seconds();
-        report_.reference = converged_reference(without_setting(study_), pilot_, reference);
-        measure_effect_costs(scenes_.own(), request_, time_, report_);
-        for (const ListedSetting& listed : listed_settings(study_)) {
+        report_.reference =
+            converged_reference(pilot_, without_setting(facts_.numerics), reference);
+        measure_effect_costs(planner_, request_, time_, report_);
+        for (const ListedSetting& listed : listed_settings(planner_)) {
             add(listed.setting, listed.refusal);
         }
         times_.resize(report_.settings.size());
@@ -213,8 +207,8 @@ class AccuracyMeasurement {
         mark_frontier();
         measure_explicit_limit();
         check_step_costs();
-        report_.stability = stability_map(scenes_.own());
-        measure_detection(study_, request_, time_, report_);
+        report_.stability = stability_map(stability_case_, own_steps_);
+        measure_detection(planner_, request_, time_, report_);
         return std::move(report_);
     }
 
@@ -299,15 +293,15 @@ class AccuracyMeasurement {
     // Lower bound of the processor time of a setting, s; only known where every mesh period is
     // integrated.
     double least_s(const SolverSetting& setting) const {
-        const SettingResult& own = report_.settings[0];
-        return integrates_every_mesh(setting) && own.meshes > 0.0 && !times_[0].run.empty()
-                   ? times_[0].run.front() * report_.gearboxes * report_.span_meshes / own.meshes
+        const double meshes = report_.settings[0].meshes;
+        return integrates_every_mesh(setting) && meshes > 0.0 && !times_[0].run.empty()
+                   ? times_[0].run.front() * report_.gearboxes * report_.span_meshes / meshes
                    : 0.0;
     }
 
     void measure_new(std::size_t from) {
         int untried = 0;
-        for (const std::size_t i : cheapest_first(study_, report_.settings, from)) {
+        for (const std::size_t i : cheapest_first(facts_, report_.settings, from)) {
             SettingResult& result = report_.settings[i];
             if (i > 0 && result.refusal.empty() && !time_.enough(least_s(result.setting))) {
                 result.refusal = kNotTried;
@@ -334,15 +328,16 @@ class AccuracyMeasurement {
         return true;
     }
 
-    void measure_setting(std::size_t place, bool first) {
-        SettingResult& result = report_.settings[place];
+    void measure_setting(std::size_t index, bool first) {
+        SettingResult& result = report_.settings[index];
         if (!result.refusal.empty() || (integrates_every_mesh(result.setting) && !first)) {
             return;
         }
         try {
-            const PilotRecord record = pilot_.run(scenes_.of(result.setting));
-            times_[place].run.push_back(record.integration_s);
-            times_[place].total.push_back(record.total_s);
+            planner_.check(result.setting.numerics, result.setting.keys());
+            const PilotRecord record = pilot_.run(result.setting.numerics);
+            times_[index].run.push_back(record.integration_s);
+            times_[index].total.push_back(record.total_s);
             if (first) {
                 fill(record, result);
             }
@@ -358,8 +353,8 @@ class AccuracyMeasurement {
         result.error = pilot_error(record, report_.reference.record);
         SolverSetting setting = result.setting;
         // The integrator of the study's own setting may be chosen by the program.
-        setting.numerics.integrator = setting.numerics.integrator.value_or(own_integrator_);
-        result.cost = step_cost(study_, setting).value_or(0.0) * result.steps * result.meshes;
+        setting.numerics.integrator = setting.numerics.integrator.value_or(own_steps_.integrator);
+        result.cost = step_cost(facts_, setting).value_or(0.0) * result.steps * result.meshes;
     }
 
     bool holds(const SettingResult& r, double tolerance) const {
@@ -377,16 +372,16 @@ class AccuracyMeasurement {
             report_.choices.push_back(check);
             return;
         }
-        Study study = without_setting(study_);
-        study.numerics.tolerance = tolerance;
+        Numerics numerics = without_setting(facts_.numerics);
+        numerics.tolerance = tolerance;
         try {
-            const SolverSetting setting = resolve_numerics(study).choice->setting;
-            const std::size_t place = index_of(setting, report_.settings);
-            check.chosen = static_cast<int>(place);
-            if (place == report_.settings.size()) {
+            const SolverSetting setting = resolve_numerics(planner_, numerics).choice->setting;
+            const std::size_t index = index_of(setting, report_.settings);
+            check.chosen = static_cast<int>(index);
+            if (index == report_.settings.size()) {
                 add(setting);
                 times_.emplace_back();
-                measure_setting(place, true);
+                measure_setting(index, true);
             }
         } catch (const SceneError& error) {
             check.refusal = error.what();
@@ -412,13 +407,13 @@ class AccuracyMeasurement {
         contenders.erase(std::unique(contenders.begin(), contenders.end()), contenders.end());
         request_.progress(fmt::format("repeat {} of the fastest settings", contenders.size()));
         for (int repeat = 0; repeat < kContenderRepeats; ++repeat) {
-            for (const std::size_t place : contenders) {
+            for (const std::size_t index : contenders) {
                 if (!time_.enough()) {
                     record_omission(
                         fmt::format("repeated timings ({} of {} done)", repeat, kContenderRepeats));
                     return;
                 }
-                measure_setting(place, false);
+                measure_setting(index, false);
             }
         }
     }
@@ -476,7 +471,7 @@ class AccuracyMeasurement {
 
     void measure_explicit_limit() {
         ExplicitLimit& limit = report_.explicit_limit;
-        limit.step_s = explicit_step_s(scenes_.of(own_setting(study_)));
+        limit.step_s = explicit_step_s(planner_.plan(facts_.numerics));
         limit.meshes = report_.settings[0].meshes;
         limit.refused = std::ranges::none_of(report_.settings, [](const auto& r) {
             return r.setting.numerics.integrator == lockstep::kUsualExplicit && r.refusal.empty();
@@ -494,7 +489,7 @@ class AccuracyMeasurement {
             if (r.steps > 0 && r.setting.numerics.integrator && r.setting.options.empty()) {
                 StepCosts& costs = all[r.setting.integrator()];
                 costs.measured.push_back(r.mesh_s / r.steps);
-                costs.modelled = step_cost(study_, r.setting).value();
+                costs.modelled = step_cost(facts_, r.setting).value();
             }
         }
         for (auto& [integrator, costs] : all) {
@@ -508,20 +503,21 @@ class AccuracyMeasurement {
     struct Times {
         std::vector<double> run, total;
     };
-    const Study study_;
+    const Planner& planner_;
+    const SolverFacts& facts_;
     const AccuracyRequest& request_;
     const TimeBudget time_;
-    SettingScenes scenes_;
-    const lockstep::Integrator own_integrator_ = scenes_.own().plan().integrator;
     const Pilot pilot_;
+    PlannedSteps own_steps_;
+    StabilityCase stability_case_;
     AccuracyReport report_;
     std::vector<Times> times_;
 };
 
 }  // namespace
 
-AccuracyReport measure_accuracy(const Study& study, const AccuracyRequest& request) {
-    return AccuracyMeasurement(study, request).run();
+AccuracyReport measure_accuracy(const Planner& planner, const AccuracyRequest& request) {
+    return AccuracyMeasurement(planner, request).run();
 }
 
 }  // namespace gearpod::mc

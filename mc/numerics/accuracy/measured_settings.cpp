@@ -7,7 +7,6 @@
 
 #include "mc/numerics/numerics_choice.hpp"
 #include "mc/numerics/solver_setting.hpp"
-#include "mc/study/fluctuations.hpp"
 
 namespace gearpod::mc {
 namespace {
@@ -20,14 +19,14 @@ constexpr double kListedGridTolerances[] = {1e-2, 1e-3, 1e-4};
 constexpr double kWorthGrading = 3.0;
 
 // Cost of the integrator's own uniform steps, in rk4 steps.
-double own_cost(const Study& study, const SolverFamily& family) {
-    const auto cost = step_cost(study, family.common);
+double own_cost(const SolverFacts& facts, const SolverFamily& family) {
+    const auto cost = step_cost(facts, family.common);
     return cost && family.own_steps > 0 ? *cost * family.own_steps : INFINITY;
 }
 
-void add_graded(const Study& study, const SolverFamily& family, double least_cost,
+void add_graded(const SolverFacts& facts, const SolverFamily& family, double least_cost,
                 std::vector<ListedSetting>& all) {
-    const double over = kFewestGradedFraction * own_cost(study, family) / least_cost;
+    const double over = kFewestGradedFraction * own_cost(facts, family) / least_cost;
     if (over > kWorthGrading) {
         all.push_back({family.common,
                        fmt::format("not measured: even with an eighth of its {} uniform steps it "
@@ -46,9 +45,9 @@ void add_graded(const Study& study, const SolverFamily& family, double least_cos
 
 // Longer steps of central differences by mass scaling, in both precisions; none for a study that
 // cannot use it.
-void add_scaled(const Study& study, std::vector<ListedSetting>& all) {
+void add_scaled(const Planner& planner, std::vector<ListedSetting>& all) {
     constexpr int kMostScaledSteps = 8;  // per sample
-    SolverSetting setting = own_setting(without_setting(study));
+    SolverSetting setting = own_setting(without_setting(planner.facts().numerics));
     setting.numerics.integrator = lockstep::Integrator::central_difference;
     setting.numerics.convergence_tolerance = convergence_tolerances().front();
     setting.options.emplace_back("mass_scaling_Hz");
@@ -58,12 +57,13 @@ void add_scaled(const Study& study, std::vector<ListedSetting>& all) {
             setting.options.emplace_back("precision");
         }
         try {
-            const Scene own(with_setting(study, setting));
-            const int samples = own.samples_per_mesh();
+            const PlannedSteps unscaled = steps_of(planner, setting);
+            const double fastest_Hz = planner.fastest_mode_Hz(setting.numerics);
             for (int a_sample = 1;
-                 a_sample <= kMostScaledSteps && a_sample * samples < own.least_steps();
+                 a_sample <= kMostScaledSteps && a_sample * unscaled.samples < unscaled.least;
                  ++a_sample) {
-                if (const auto numerics = scaled_numerics(own, a_sample * samples)) {
+                if (const auto numerics = scaled_numerics(planner, setting.numerics, fastest_Hz,
+                                                          a_sample * unscaled.samples)) {
                     all.push_back({{*numerics, setting.options}, ""});
                 }
             }
@@ -74,27 +74,27 @@ void add_scaled(const Study& study, std::vector<ListedSetting>& all) {
 
 }  // namespace
 
-Study without_setting(const Study& study) {
-    Study free = study;
-    free.numerics.integrator.reset();
-    free.numerics.steps_per_mesh = 0;
-    free.numerics.mass_scaling_Hz = 0.0;
-    free.numerics.precision = Precision::double_precision;
-    free.numerics.lanes = std::min(free.numerics.lanes, full_lanes(Precision::double_precision));
-    return free;
+Numerics without_setting(Numerics numerics) {
+    numerics.integrator.reset();
+    numerics.steps_per_mesh = 0;
+    numerics.mass_scaling_Hz = 0.0;
+    numerics.precision = Precision::double_precision;
+    numerics.lanes = std::min(numerics.lanes, full_lanes(Precision::double_precision));
+    return numerics;
 }
 
-std::vector<ListedSetting> listed_settings(const Study& study) {
+std::vector<ListedSetting> listed_settings(const Planner& planner) {
+    const SolverFacts& facts = planner.facts();
     const std::vector<SolverFamily> all_families =
-        solver_families(without_setting(study), kListedBeyondOwnRule);
+        solver_families(planner, without_setting(facts.numerics), kListedBeyondOwnRule);
     double least_cost = INFINITY;
     for (const SolverFamily& family : all_families) {
-        least_cost = family.graded() ? least_cost : std::min(least_cost, own_cost(study, family));
+        least_cost = family.graded() ? least_cost : std::min(least_cost, own_cost(facts, family));
     }
-    std::vector<ListedSetting> all{{own_setting(study), ""}};
+    std::vector<ListedSetting> all{{own_setting(facts.numerics), ""}};
     for (const SolverFamily& family : all_families) {
         if (family.graded()) {
-            add_graded(study, family, least_cost, all);
+            add_graded(facts, family, least_cost, all);
             continue;
         }
         if (family.size() == 0) {
@@ -104,10 +104,10 @@ std::vector<ListedSetting> listed_settings(const Study& study) {
             all.push_back({family.setting(i, convergence_tolerances().front()), ""});
         }
     }
-    add_scaled(study, all);
-    if (study.numerics.horizon == Horizon::superposed || reason_not_periodic(study).empty()) {
-        SolverSetting full = own_setting(study);
-        full.numerics.horizon = Horizon::full;
+    add_scaled(planner, all);
+    if (facts.every_mesh) {
+        SolverSetting full = own_setting(facts.numerics);
+        full.numerics.horizon = *facts.every_mesh;
         full.options.emplace_back("horizon");
         all.push_back({full, ""});
     }
@@ -123,49 +123,23 @@ std::size_t index_of(const SolverSetting& setting, const std::vector<SettingResu
     return static_cast<std::size_t>(same - settings.begin());
 }
 
-std::vector<std::size_t> cheapest_first(const Study& study,
+std::vector<std::size_t> cheapest_first(const SolverFacts& facts,
                                         const std::vector<SettingResult>& settings,
                                         std::size_t from) {
     std::vector<std::pair<double, std::size_t>> costs;
     for (std::size_t i = from; i < settings.size(); ++i) {
         const SolverSetting& setting = settings[i].setting;
-        const auto step = step_cost(study, setting);
+        const auto step = step_cost(facts, setting);
         const int steps = setting.numerics.steps_per_mesh;
         const double cost = step && steps > 0 ? *step * steps : INFINITY;
         costs.emplace_back(i == 0 ? 0.0 : cost, i);
     }
     std::sort(costs.begin(), costs.end());
-    std::vector<std::size_t> places;
-    for (const auto& [cost, place] : costs) {
-        places.push_back(place);
+    std::vector<std::size_t> order;
+    for (const auto& [cost, index] : costs) {
+        order.push_back(index);
     }
-    return places;
-}
-
-SettingScenes::SettingScenes(const Study& study)
-    : own_(study), last_(std::make_unique<const Scene>(own_)) {}
-
-const Scene& SettingScenes::of(const SolverSetting& setting) {
-    const Numerics numerics = with_setting(own_.study(), setting).numerics;
-    if (numerics.grid == StepGrid::graded) {
-        graded_scene_ = std::make_unique<const Scene>(graded(setting).with(numerics));
-        return *graded_scene_;
-    }
-    last_ = std::make_unique<const Scene>(last_->with(numerics));
-    return *last_;
-}
-
-// The convergence tolerance does not affect the grid.
-const Scene& SettingScenes::graded(const SolverSetting& setting) {
-    SolverSetting grid = setting;
-    grid.numerics.convergence_tolerance = own_.study().numerics.convergence_tolerance;
-    const auto known = std::ranges::find(graded_, grid, [](const auto& one) { return one.first; });
-    if (known != graded_.end()) {
-        return *known->second;
-    }
-    auto scene =
-        std::make_unique<const Scene>(own_.with(with_setting(own_.study(), grid).numerics));
-    return *graded_.emplace_back(std::move(grid), std::move(scene)).second;
+    return order;
 }
 
 }  // namespace gearpod::mc

@@ -27,9 +27,9 @@ double share_of_alarms_changed(const Results& a, const Results& b) {
                 continue;
             }
             for (std::size_t level = 0; level < levels; ++level) {
-                const std::size_t at = row * levels + level;
-                changed += alarm(a.detection[f], level, a.features[f].values[at]) !=
-                                   alarm(b.detection[f], level, b.features[f].values[at])
+                const std::size_t value = row * levels + level;
+                changed += alarm(a.detection[f], level, a.features[f].values[value]) !=
+                                   alarm(b.detection[f], level, b.features[f].values[value])
                                ? 1
                                : 0;
                 ++all;
@@ -64,13 +64,13 @@ void compare_sizes(const analysis::Reliability& here, const analysis::Reliabilit
     for (std::size_t f = 0; f < reference.features.size(); ++f) {
         for (std::size_t level = 0; level < reference.features[f].levels.size(); ++level) {
             const auto& there = reference.features[f].levels[level].hit_miss;
-            const auto& own = here.features[f].levels[level].hit_miss;
-            if (!there.refusal.empty() || !own.refusal.empty() || !reached(there.a90.estimate) ||
-                !reached(own.a90.estimate)) {
+            const auto& compared = here.features[f].levels[level].hit_miss;
+            if (!there.refusal.empty() || !compared.refusal.empty() ||
+                !reached(there.a90.estimate) || !reached(compared.a90.estimate)) {
                 continue;
             }
             const double a90 = there.a90.estimate.size;
-            const double moved = std::abs(own.a90.estimate.size - a90) / a90;
+            const double moved = std::abs(compared.a90.estimate.size - a90) / a90;
             if (moved > change.a90) {
                 change.a90 = moved;
                 change.a90_interval =
@@ -82,30 +82,13 @@ void compare_sizes(const analysis::Reliability& here, const analysis::Reliabilit
 
 }  // namespace
 
-Study pilot_ensemble_study(const Study& study, long gearboxes) {
-    Study pilot = study;
-    Ensemble& e = pilot.ensemble;
-    e.until = {};
-    const double share =
-        static_cast<double>(gearboxes) / static_cast<double>(e.instances + e.threshold_instances);
-    if (share < 1.0) {
-        const auto part = [share](std::int64_t all) {
-            return std::max<std::int64_t>(1, std::llround(share * static_cast<double>(all)));
-        };
-        e.instances = part(e.instances);
-        e.threshold_instances = part(e.threshold_instances);
-    }
-    return pilot;
-}
-
-PilotEnsemble run_pilot_ensemble(const Study& study) {
-    const Scene scene(study);
+PilotEnsemble run_pilot_ensemble(const Scene& plan) {
     Progress silent(1, true);
     PilotEnsemble pilot;
-    pilot.results = run_ensemble(scene, silent);
+    pilot.results = run_ensemble(plan, silent);
     pilot.results.detection = detect_all(pilot.results);
-    pilot.reliability = reliability_of(pilot.results, ColumnRows(pilot.results), "",
-                                       thread_count(scene.ensemble()));
+    pilot.reliability =
+        reliability_of(pilot.results, ColumnRows(pilot.results), "", thread_count(plan.ensemble()));
     return pilot;
 }
 

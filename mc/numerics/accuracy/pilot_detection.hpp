@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "analysis/reliability.hpp"
+#include "mc/plan/scene.hpp"
 #include "mc/results/results_file.hpp"
-#include "mc/study/study.hpp"
 
 namespace gearpod::mc {
 
@@ -16,9 +16,7 @@ struct PilotEnsemble {
     std::optional<analysis::Reliability> reliability;
 };
 
-// Study with at most `gearboxes` gearboxes, in the study's proportion of the two groups.
-Study pilot_ensemble_study(const Study& study, long gearboxes);
-PilotEnsemble run_pilot_ensemble(const Study& study);
+PilotEnsemble run_pilot_ensemble(const Scene& plan);
 
 // True if the healthy sample is large enough for thresholds.
 bool has_rates(const PilotEnsemble& pilot);

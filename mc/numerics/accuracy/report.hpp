@@ -106,8 +106,8 @@ struct AccuracyRequest {
     std::function<void(const std::string&)> progress = [](const std::string&) {};
 };
 
-// Throws SceneError.
-AccuracyReport measure_accuracy(const Study& study, const AccuracyRequest& request);
+// `planner`: made of a plan. Throws SceneError.
+AccuracyReport measure_accuracy(const Planner& planner, const AccuracyRequest& request);
 
 // Time and error of the study's own setting, and the fastest one whose errors are small compared
 // with the features' scatter. Sentences, separated by spaces.

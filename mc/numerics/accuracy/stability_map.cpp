@@ -26,9 +26,8 @@ struct HardSystem {
 };
 
 // The nominal gearbox with the properties of tests/hard that change its stable steps.
-std::vector<HardSystem> hard_systems(const Scene& scene, const dynamics::GearboxInputs& nominal) {
-    const dynamics::GearboxLayout& layout = scene.plan().layout;
-    const std::vector<double>& pairs = scene.stiffest_pairs();
+std::vector<HardSystem> hard_systems(const StabilityCase& gearbox) {
+    const auto& [layout, nominal, pairs] = gearbox;
     dynamics::GearboxInputs stiff = nominal, undamped = nominal;
     stiffen_bearings(stiff, 100.0);
     std::visit([](auto& kind) { kind.mesh_damping = {}; }, undamped);
@@ -41,23 +40,22 @@ std::vector<HardSystem> hard_systems(const Scene& scene, const dynamics::Gearbox
 
 }  // namespace
 
-StabilityMap stability_map(const Scene& scene) {
+StabilityMap stability_map(const StabilityCase& gearbox, const PlannedSteps& own) {
     constexpr int kFactors = 13;  // from 0.01 to 100, three in a decade
-    const dynamics::GearboxInputs nominal = scene.inputs(nominal_inputs(scene.study()));
-    const double period_s = dynamics::mesh_period_s(nominal);
+    const double period_s = dynamics::mesh_period_s(gearbox.nominal);
     StabilityMap map;
-    map.own = lockstep::name(scene.plan().integrator);
-    map.own_steps = static_cast<double>(scene.plan().grid.steps.size());
+    map.own = lockstep::name(own.integrator);
+    map.own_steps = own.steps;
     std::vector<dynamics::GearboxMatrices> systems;
     for (int i = 0; i < kFactors; ++i) {
         map.factors.push_back(std::pow(10.0, (i - kFactors / 2) / 3.0));
-        std::vector<double> pairs = scene.stiffest_pairs();
+        std::vector<double> pairs = gearbox.stiffest_pairs;
         for (double& stiffness : pairs) {
             stiffness *= map.factors.back();
         }
-        systems.push_back(dynamics::assemble(scene.plan().layout, nominal, pairs));
+        systems.push_back(dynamics::assemble(gearbox.layout, gearbox.nominal, pairs));
     }
-    const std::vector<HardSystem> hard = hard_systems(scene, nominal);
+    const std::vector<HardSystem> hard = hard_systems(gearbox);
     for (const HardSystem& system : hard) {
         map.hard.push_back({system.name, {}});
     }

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "mc/plan/scene.hpp"
+#include "mc/plan/planner.hpp"
 
 namespace gearpod::mc {
 
@@ -29,7 +29,14 @@ struct StabilityMap {
     double own_steps = 0.0;
 };
 
-// Map of the nominal gearbox. Bearings and masses stay; mesh damping follows the study's law.
-StabilityMap stability_map(const Scene& scene);
+// Gearbox of which a map is made: the nominal one, with the largest stiffness of every gear pair.
+struct StabilityCase {
+    dynamics::GearboxLayout layout;
+    dynamics::GearboxInputs nominal;
+    std::vector<double> stiffest_pairs;
+};
+// Bearings and masses stay; mesh damping follows the study's law. `own`: integrator and steps of
+// the study.
+StabilityMap stability_map(const StabilityCase& gearbox, const PlannedSteps& own);
 
 }  // namespace gearpod::mc

@@ -382,14 +382,17 @@ double gearboxes_s(const RunCost& calibration, const BatchPlan& plan, std::size_
 
 double verification_s(const Scene& scene, const RunCost& calibration) {
     const auto start = WallClock::now();
-    const FinerScene finer = finer_scene(scene);
-    if (!finer.scene) {
+    const Planner planner(scene);
+    const auto finer =
+        planner.facts().verified ? finer_setting(planner, planner.facts().numerics) : std::nullopt;
+    if (!finer) {
         return 0.0;
     }
+    const Scene finer_plan = planner.plan(finer->numerics);
     const double setup_s = seconds_since(start);
     const TileCost& own = calibration.cost[static_cast<std::size_t>(Group::test)].integrated;
     const auto lanes = static_cast<std::size_t>(scene.study().numerics.lanes);
-    const double integration_s = mesh_period_s(*finer.scene) * integrated_meshes(*finer.scene);
+    const double integration_s = mesh_period_s(finer_plan) * integrated_meshes(finer_plan);
     const std::int64_t pairs = scene.study().numerics.paired_gearboxes;
     const auto batches = static_cast<double>((2 * pairs + kBatchRows - 1) / kBatchRows);
     const double tiles = pairs > 0 ? std::ceil(batches / calibration.threads) * kBatchRows /

@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "mc/plan/scene.hpp"
+#include "mc/plan/planner.hpp"
 #include "mc/study/study.hpp"
 
 namespace gearpod::mc {
@@ -21,7 +21,8 @@ void print_effects(const Scene& scene);
 // Prints one entry for each optional effect: its computing time, and whether it changes a feature
 // by more than numerics.tolerance, or 1 % without it. Uses the study's own solver setting, short
 // records where every mesh period is integrated, and about `seconds` of processor time. May throw
-// machine::Cancelled and SceneError. `chosen`: scene of the study with any numerics.
-void print_effect_changes(const Study& study, const Scene& chosen, double seconds);
+// machine::Cancelled and SceneError. `span`, `mesh_frequency_Hz`: those of any plan of the study.
+void print_effect_changes(const Planner& planner, const signals::SpanLayout& span,
+                          double mesh_frequency_Hz, double seconds);
 
 }  // namespace gearpod::mc

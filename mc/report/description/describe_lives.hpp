@@ -14,8 +14,8 @@ void print_life(const Scene& scene);
 // Forecast of a study's `lives`: time, memory and file size, before any gearbox is integrated.
 
 // Forecast for this machine and one process. The integration time follows from the time of one mesh
-// period and the number of mesh periods that the damping requires (solution_choice.hpp). The time of a
-// record is measured with artificial signals.
+// period and the number of mesh periods that the damping requires (solution_choice.hpp). The time
+// of a record is measured with artificial signals.
 struct LivesForecast {
     int threads = 0;
     double gearbox_s = 0.0;  // processor time to integrate a gearbox, mean over all

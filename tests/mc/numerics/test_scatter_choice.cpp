@@ -42,15 +42,16 @@ std::vector<double> values(const Scene& scene, const BatchRows& rows, std::size_
 }  // namespace
 
 TEST_CASE("Steps for a share of the scatter keep it on other gearboxes, with fewer steps") {
-    const ResolvedStudy resolved = resolve_numerics(real_teeth({"numerics.scatter_tolerance=0.2"}));
+    const Planner planner(real_teeth({"numerics.scatter_tolerance=0.2"}));
+    const ResolvedNumerics resolved = resolve_numerics(planner, planner.facts().numerics);
     REQUIRE(resolved.choice);
     CHECK(resolved.choice->of_scatter);
     CHECK(resolved.choice->error <= 0.2);
-    CHECK(resolved.study.numerics.mass_scaling_Hz > 0.0);
-    Numerics own = resolved.study.numerics;
+    CHECK(resolved.numerics.mass_scaling_Hz > 0.0);
+    Numerics own = resolved.numerics;
     own.scatter_tolerance = own.mass_scaling_Hz = 0.0;
     own.steps_per_mesh = 0;
-    const Scene chosen(resolved.study), reference = chosen.with(own);
+    const Scene chosen = planner.plan(resolved.numerics), reference = chosen.with(own);
     CHECK(2 * chosen.plan().grid.steps.size() < reference.plan().grid.steps.size());
     std::vector<GearboxId> others;
     for (std::uint64_t i = 16; i < 32; ++i) {
@@ -72,18 +73,16 @@ TEST_CASE("Steps for a share of the scatter keep it on other gearboxes, with few
 
 TEST_CASE("A tighter share of the scatter takes more steps, and the choice can be written out") {
     const auto steps_for = [](const char* tolerance) {
-        const Study study =
-            resolve_numerics(real_teeth({std::string("numerics.scatter_tolerance=") + tolerance}))
-                .study;
-        return Scene(study).plan().grid.steps.size();
+        const Study study = real_teeth({std::string("numerics.scatter_tolerance=") + tolerance});
+        return resolved_plan(study).plan().grid.steps.size();
     };
     CHECK(steps_for("0.005") > steps_for("0.3"));
-    const Study study = resolve_numerics(real_teeth({"numerics.scatter_tolerance=0.3"})).study;
+    const Study study = resolved_plan(real_teeth({"numerics.scatter_tolerance=0.3"})).study();
     const StudyReading back = read_study_text(resolved_text(study), "resolved");
     INFO(format(back.problems));
     REQUIRE(back.study.has_value());
     CHECK(*back.study == study);
-    CHECK(resolve_numerics(*back.study).study == study);
+    CHECK(resolved_plan(*back.study).study() == study);
 }
 
 TEST_CASE("Features with mass scaling have the same bits for any lanes") {
@@ -135,7 +134,7 @@ TEST_CASE("Mass scaling and its choice are refused where they cannot work") {
             return format(reading.problems);
         }
         try {
-            Scene scene(resolve_numerics(*reading.study).study);
+            resolved_plan(*reading.study);
         } catch (const SceneError& error) {
             return error.key() + ": " + error.what();
         }

@@ -186,14 +186,14 @@ Signals read_signals(const mc::Scene& scene, const std::string& argument) {
 
 void grade(const mc::Study& study, const std::vector<std::string>& arguments) {
     const mc::Scene scene(study);
-    const mc::Pilot pilot(scene);
-    const mc::Reference reference = mc::converged_reference(study, pilot, {});
+    const mc::Pilot pilot{mc::Planner(scene)};
+    const mc::Reference reference = mc::converged_reference(pilot, study.numerics, {});
     fmt::print("name,command,integration_s,mesh_s,sensor,te,{}\n",
                fmt::join(study.features.use, ","));
     for (const std::string& argument : arguments) {
         const Signals signals = read_signals(scene, argument);
         const mc::PilotRecord record =
-            pilot.record_of_integration(scene, [&](auto) { return signals.tile; });
+            pilot.record_of_integration([&](auto) { return signals.tile; });
         const mc::PilotError error = mc::pilot_error(record, reference.record);
         fmt::print("\"{}\",see tests/peers/solver-settings/README.md,{:.4g},{:.4g},{:.3g},{:.3g}",
                    signals.name, signals.integration_s, signals.mesh_s, error.sensor, error.te);

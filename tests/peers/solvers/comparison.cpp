@@ -23,7 +23,7 @@ mc::PilotRecord some_of(const mc::PilotRecord& all, int first, int last) {
 
 mc::PilotError error_of(const mc::Scene& scene, const std::vector<lockstep::MeshRecord>& records,
                         int first, int last, const mc::PilotRecord& reference) {
-    const mc::PilotRecord all = mc::Pilot(scene).record_of_integration(scene, [&](auto) {
+    const mc::PilotRecord all = mc::Pilot(mc::Planner(scene)).record_of_integration([&](auto) {
         lockstep::TileResult integration;
         integration.records = records;
         integration.content.resize(records.size());

@@ -17,13 +17,18 @@ constexpr const char* kFeatures =
 
 }  // namespace
 
-mc::ResolvedStudy study_of(const Options& options, std::vector<std::string> overrides) {
+ResolvedStudy study_of(const Options& options, std::vector<std::string> overrides) {
     overrides.emplace_back(kFeatures);
     const mc::StudyReading reading = mc::read_study(options.study, overrides);
     if (!reading.study) {
         throw std::runtime_error(mc::format(reading.problems));
     }
-    return mc::resolve_numerics(*reading.study);
+    ResolvedStudy resolved{*reading.study, std::nullopt};
+    mc::ResolvedNumerics numerics =
+        mc::resolve_numerics(mc::Planner(resolved.study), resolved.study.numerics);
+    resolved.study.numerics = numerics.numerics;
+    resolved.choice = std::move(numerics.choice);
+    return resolved;
 }
 
 namespace {

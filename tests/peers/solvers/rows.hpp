@@ -25,7 +25,11 @@ struct Options {
 
 // The study with the compared features and resolved numerics. Throws std::runtime_error with its
 // problems.
-mc::ResolvedStudy study_of(const Options& options, std::vector<std::string> overrides);
+struct ResolvedStudy {
+    mc::Study study;
+    std::optional<mc::NumericsChoice> choice;
+};
+ResolvedStudy study_of(const Options& options, std::vector<std::string> overrides);
 
 // A solver with its settings. `times`: seconds per realization, over the span or a step, by round.
 struct Row {

@@ -1,5 +1,6 @@
 // Compares time and error of gearpod and other solvers on the same gearbox (README.md).
-// Usage: peer_solvers [STUDY] [--rounds N] [--error E] [--try-s S] [--csv FILE] [--json FILE] [--steps-only]
+// Usage: peer_solvers [STUDY] [--rounds N] [--error E] [--try-s S] [--csv FILE] [--json FILE]
+// [--steps-only]
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
@@ -13,9 +14,10 @@ namespace {
 
 void compare(const Options& options) {
     GearpodSolver own(options);
-    const mc::Pilot pilot(own.scene());
+    const mc::Pilot pilot{mc::Planner(own.scene())};
     fmt::print(stderr, "reference: two methods until they agree\n");
-    const mc::Reference reference = mc::converged_reference(own.scene().study(), pilot, {});
+    const mc::Reference reference =
+        mc::converged_reference(pilot, own.scene().study().numerics, {});
     StepTable steps(own, reference);
     steps.measure_errors();
     SpanTable span(options, own, pilot, reference);

@@ -26,7 +26,7 @@ SpanTable::SpanTable(const Options& options, GearpodSolver& own, const mc::Pilot
       resolved_(study_of(options, {fmt::format("numerics.tolerance={}", options.error)})),
       chosen_(resolved_.study) {
     span_ = kRunIn + own.scene().span_meshes();
-    const mc::PilotRecord record = pilot.run(chosen_);
+    const mc::PilotRecord record = pilot.run(chosen_.study().numerics);
     rows_.push_back({"gearpod, " + resolved_.choice->setting.text(),
                      {},
                      record.meshes_per_tile(),
@@ -153,9 +153,9 @@ void SpanTable::add_to(nlohmann::ordered_json& part) const {
         };
         rows.push_back({row.name, row.tolerance > 0.0 ? fmt::format("{:.0e}", row.tolerance) : "",
                         fmt::format("{:.0f}", row.steps), median(row.times), i == 0 ? one() : whole,
-                        i == 0 ? one() : mesh,
-                        error([](const auto& e) { return e.largest_feature(); }) +
-                            (row.within ? "" : " (above)"),
+                        i == 0 ? one() : mesh, error([](const auto& e) {
+                                                   return e.largest_feature();
+                                               }) + (row.within ? "" : " (above)"),
                         error([](const auto& e) { return e.sensor; })});
         if (i > 0) {
             part["ratios"]["gearbox: " + row.name] = whole;

@@ -35,7 +35,7 @@ class SpanTable {
     GearpodSolver& own_;
     const mc::Pilot& pilot_;
     const mc::Reference& reference_;
-    const mc::ResolvedStudy resolved_;
+    const ResolvedStudy resolved_;
     const mc::Scene chosen_;  // for the allowed error
     double span_ = 0.0;       // mesh periods
     std::vector<Row> rows_;

@@ -33,11 +33,16 @@ Study tian(std::vector<std::string> more = {}) {
     return shipped_study("published/tian-fig-4-9.toml", more);
 }
 
+ResolvedNumerics resolved_tian(const std::vector<std::string>& more) {
+    const Study study = tian(more);
+    return resolve_numerics(Planner(study), study.numerics);
+}
+
 Reference tian_reference() {
-    const Scene scene(tian());
+    const Study study = tian();
     ReferenceRequest request;
     request.agreement = 1e-6;
-    return converged_reference(tian(), Pilot(scene), request);
+    return converged_reference(Pilot(Planner(study)), study.numerics, request);
 }
 
 PilotRecord record(std::vector<double> sensor, std::vector<double> te,
@@ -82,10 +87,11 @@ TEST_CASE("the reference is the limit of two independent methods", "[accuracy]")
 TEST_CASE("Single and double precision agree except for rounding", "[accuracy]") {
     const auto yang = [](std::vector<std::string> more) {
         more.insert(more.end(), {"numerics.integrator=rk4", "numerics.steps_per_mesh=384"});
-        return Scene(shipped_study("published/yang-fig-15.toml", more));
+        return shipped_study("published/yang-fig-15.toml", more);
     };
-    const Scene doubles = yang({}), singles = yang({"numerics.precision=single"});
-    const Pilot pilot(doubles);
+    const Study study = yang({});
+    const Numerics doubles = study.numerics, singles = yang({"numerics.precision=single"}).numerics;
+    const Pilot pilot{Planner(study)};
     const PilotRecord first = pilot.run(doubles), second = pilot.run(singles);
     CHECK(second.sensor.size() == first.sensor.size());
     const PilotError error = pilot_error(second, first);
@@ -97,49 +103,48 @@ TEST_CASE("Single and double precision agree except for rounding", "[accuracy]")
 
 TEST_CASE("numerics.tolerance keeps the features and reduces the cost", "[accuracy]") {
     const Reference reference = tian_reference();
-    const Scene own(tian());
-    const Pilot pilot(own);
-    const PilotRecord before = pilot.run(own);
+    const Planner planner(tian());
+    const Pilot pilot(planner);
+    const PilotRecord before = pilot.run(planner.facts().numerics);
     double cost = std::numeric_limits<double>::infinity();
     for (const double tolerance : {1e-4, 1e-3, 1e-2}) {
-        const ResolvedStudy resolved =
-            resolve_numerics(tian({"numerics.tolerance=" + std::to_string(tolerance)}));
+        const ResolvedNumerics resolved =
+            resolved_tian({"numerics.tolerance=" + std::to_string(tolerance)});
         REQUIRE(resolved.choice.has_value());
-        const PilotRecord found = pilot.run(Scene(resolved.study));
+        const PilotRecord found = pilot.run(resolved.numerics);
         CHECK(pilot_error(found, reference.record).largest_feature() <= 1.1 * tolerance);
         const NumericsChoice& choice = *resolved.choice;
         CHECK(choice.error <= tolerance);
         CHECK(choice.cost <= cost);  // a looser tolerance never costs more
         cost = choice.cost;
     }
-    SolverSetting sdirk3 = own_setting(own.study());
+    SolverSetting sdirk3 = own_setting(planner.facts().numerics);
     sdirk3.numerics.integrator = lockstep::Integrator::sdirk3;
-    CHECK(cost <
-          0.3 * step_cost(own.study(), sdirk3).value() * before.steps * before.meshes_per_tile());
+    CHECK(cost < 0.3 * step_cost(planner.facts(), sdirk3).value() * before.steps *
+                     before.meshes_per_tile());
 }
 
 TEST_CASE("a tolerance leads to the same choice on any lanes and instruction set", "[accuracy]") {
-    const NumericsChoice choice = *resolve_numerics(tian({"numerics.tolerance=1e-3"})).choice;
+    const NumericsChoice choice = *resolved_tian({"numerics.tolerance=1e-3"}).choice;
     for (const char* other : {"numerics.lanes=1", "numerics.instruction_set=baseline"}) {
-        const NumericsChoice again =
-            *resolve_numerics(tian({"numerics.tolerance=1e-3", other})).choice;
+        const NumericsChoice again = *resolved_tian({"numerics.tolerance=1e-3", other}).choice;
         CHECK(again.setting.text() == choice.setting.text());
         CHECK(again.error == choice.error);
     }
 }
 
 TEST_CASE("a study with its choice written out leads to the same choice", "[accuracy]") {
-    const Study study = resolve_numerics(tian({"numerics.tolerance=1e-3"})).study;
+    const Study study = resolved_plan(tian({"numerics.tolerance=1e-3"})).study();
     const StudyReading back = read_study_text(resolved_text(study), "resolved");
     INFO(format(back.problems));
     REQUIRE(back.study.has_value());
     CHECK(*back.study == study);
-    CHECK(resolve_numerics(*back.study).study == study);
+    CHECK(resolved_plan(*back.study).study() == study);
 }
 
 TEST_CASE("A study in single precision is compared with double precision too", "[accuracy]") {
     const auto listed =
-        listed_settings(tian({"numerics.integrator=rk4", "numerics.precision=single"}));
+        listed_settings(Planner(tian({"numerics.integrator=rk4", "numerics.precision=single"})));
     CHECK(std::ranges::any_of(listed, [](const ListedSetting& one) {
         return one.setting.numerics.precision == Precision::double_precision;
     }));
@@ -148,8 +153,8 @@ TEST_CASE("A study in single precision is compared with double precision too", "
 TEST_CASE("a tolerance that the given steps cannot meet is refused", "[accuracy]") {
     const Study study = tian(
         {"numerics.tolerance=1e-3", "numerics.integrator=newmark", "numerics.steps_per_mesh=120"});
-    CHECK_THROWS_AS(resolve_numerics(study), SceneError);
-    CHECK_THROWS_WITH(resolve_numerics(study),
+    CHECK_THROWS_AS(resolved_plan(study), SceneError);
+    CHECK_THROWS_WITH(resolved_plan(study),
                       Catch::Contains("no solver setting keeps the features within 0.001"));
 }
 
@@ -161,8 +166,10 @@ TEST_CASE("the numerical error from finer steps equals the error against a refer
     const auto found = find_numerical_error(scene);
     REQUIRE(found.has_value());
     CHECK(found->gearboxes == 8);
-    const Pilot pilot(scene);  // the study has two kinds of gearboxes, and both pilots contain them
-    const PilotError error = pilot_error(pilot.run(scene), tian_reference().record);
+    const Pilot pilot{
+        Planner(scene)};  // the study has two kinds of gearboxes, and both pilots contain them
+    const PilotError error =
+        pilot_error(pilot.run(scene.study().numerics), tian_reference().record);
     const auto& use = scene.study().features.use;
     const auto rms =
         static_cast<std::size_t>(std::find(use.begin(), use.end(), "sensor_rms") - use.begin());
@@ -326,16 +333,15 @@ TEST_CASE("the cost of an effect is the change of the pilot without it", "[accur
     AccuracyReport report;
     report.features = study.features.use;
     report.noise_levels = study.sensor.noise_levels;
-    const Scene own(study);
-    report.effects = measure_effects(own, {}).effects;
+    const Planner planner(study);
+    report.effects = measure_effects(planner, {}).effects;
     const auto shear =
         std::ranges::find(report.effects, "shear of the teeth", &MeasuredEffect::effect);
     REQUIRE(shear != report.effects.end());
     CHECK(shear->in_study);
     CHECK(shear->time_ratio > 0.0);
-    const Pilot pilot(own);
-    const PilotError direct =
-        pilot_error(pilot.run(Scene(tian({"effects.shear=false"}))), pilot.run(own));
+    const Pilot with{planner}, without{Planner(tian({"effects.shear=false"}))};
+    const PilotError direct = pilot_error(without.run(study.numerics), with.run(study.numerics));
     CHECK(direct.sensor > 0.0);
     CHECK(shear->change.sensor == direct.sensor);
     CHECK(shear->change.largest_feature() == direct.largest_feature());
@@ -348,7 +354,7 @@ TEST_CASE("the cost of an effect is the change of the pilot without it", "[accur
               report.effects.end());
     }
 
-    const EffectMeasurement late = measure_effects(own, {.seconds = 1e-9});
+    const EffectMeasurement late = measure_effects(planner, {.seconds = 1e-9});
     CHECK(late.effects.empty());
     CHECK(std::ranges::count(late.omitted, "shear of the teeth") == 1);
 }
@@ -357,7 +363,7 @@ TEST_CASE("the cost of an effect is the change of the pilot without it", "[accur
 TEST_CASE("accuracy omits what it has no time for, and reports this", "[accuracy]") {
     AccuracyRequest request;
     request.seconds = 1e-3;
-    const AccuracyReport report = measure_accuracy(tian(), request);
+    const AccuracyReport report = measure_accuracy(Planner(tian()), request);
     CHECK(!report.reference.reached);
     CHECK(report.reference.agreement.sensor < 0.1);
     CHECK(report.settings[0].refusal.empty());

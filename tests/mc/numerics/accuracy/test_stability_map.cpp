@@ -11,13 +11,16 @@ using namespace gearpod::mc;
 
 TEST_CASE("the stability map has the steps of hard cases next to those of the study",
           "[accuracy]") {
-    const StabilityMap map =
-        stability_map(Scene(test::shipped_study("published/tian-fig-4-9.toml", {})));
+    const Study study = test::shipped_study("published/tian-fig-4-9.toml", {});
+    const Scene plan(study);
+    const StabilityMap map = stability_map(
+        {plan.plan().layout, plan.inputs(nominal_inputs(study)), plan.stiffest_pairs()},
+        Planner(plan).steps(study.numerics));
     const std::size_t own = map.factors.size() / 2;
     REQUIRE(map.factors[own] == Approx(1.0));
     REQUIRE(map.hard.size() == 3);
-    for (const HardCase& one : map.hard) {
-        REQUIRE(one.steps.size() == map.curves.size());
+    for (const HardCase& hard : map.hard) {
+        REQUIRE(hard.steps.size() == map.curves.size());
     }
     for (std::size_t i = 0; i < map.curves.size(); ++i) {
         INFO(map.curves[i].integrator);
