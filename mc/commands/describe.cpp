@@ -157,7 +157,7 @@ void print_cost(const Scene& scene, const std::optional<NumericsChoice>& choice)
             fmt::format("to the periodic orbit within {:g} (requested: {:g})",
                         convergence_tolerance(study), study.numerics.convergence_tolerance));
     }
-    print_entry("record", record_length_text(scene));
+    print_entry("record", record_length_text(scene.record()));
     print_entry("mesh periods integrated",
                 fmt::format("about {:.0f}; the signals span {}{}{}", integrated_meshes(scene),
                             scene.span_meshes(),

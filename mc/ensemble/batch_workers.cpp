@@ -52,7 +52,7 @@ BatchRows BatchWorker::compute(std::span<const GearboxId> ids, std::size_t recor
     BatchRows rows;
     const auto lanes = static_cast<std::size_t>(task_.scene.ensemble().lanes);
     while (!ids.empty()) {
-        const std::size_t count = shared_records(task_.scene.study(), ids, lanes);
+        const std::size_t count = shared_records(task_.scene.record(), ids, lanes);
         add_rows(ids.first(count), records, rows, seconds);
         ids = ids.subspan(count);
     }

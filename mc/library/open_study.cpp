@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include "mc/files/input/problems.hpp"
-#include "mc/plan/feature_needs.hpp"
 #include "mc/results/result_rows.hpp"
 
 namespace gearpod::mc {
@@ -49,7 +48,7 @@ Simulation simulate_row(const Scene& scene, long row, long meshes) {
     const auto rows = static_cast<long>(scene.ensemble().batches().rows());
     const long simulated = meshes > 0 ? meshes : scene.span().planet_teeth;
     // A record of given length begins within the span.
-    const int most = scene.signal_meshes() - (has_record_length(study) ? scene.span_meshes() : 0);
+    const int most = scene.signal_meshes() - (scene.record().length ? scene.span_meshes() : 0);
     std::string problems;
     if (row < 0 || row >= rows) {
         problems =

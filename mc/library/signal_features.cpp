@@ -5,8 +5,6 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
-#include "mc/plan/feature_needs.hpp"
-
 namespace gearpod::mc {
 namespace {
 

@@ -13,7 +13,7 @@
 #include "mc/lives/interpolation.hpp"
 #include "mc/lives/life_tile.hpp"
 #include "mc/lives/superposition.hpp"
-#include "mc/plan/feature_needs.hpp"
+#include "mc/plan/record_plan.hpp"
 #include "mc/study/noise.hpp"
 #include "signals/noise/normals.hpp"
 

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "mc/ensemble/gearbox/gearbox_tile.hpp"
-#include "mc/plan/feature_needs.hpp"
+#include "mc/plan/record_plan.hpp"
 
 namespace gearpod::mc {
 

@@ -60,6 +60,10 @@ PlanetaryDrivetrain::PlanetaryDrivetrain(const Study& study)
       radius_m_{centre_distance_m(study), gear_of(study, Member::ring).base_radius(),
                 gear_of(study, Member::sun).base_radius()} {}
 
+double Drivetrain::mesh_period_s(double speed_rad_s) const {
+    return 2.0 * pi / mesh_frequency_rad_s(speed_rad_s);
+}
+
 double PlanetaryDrivetrain::mesh_frequency_rad_s(double speed_rad_s) const {
     return gears::mesh_frequency(train_, speeds(speed_rad_s));
 }
@@ -112,7 +116,7 @@ void PlanetaryDrivetrain::set(const InstanceInputs& instance,
     auto& out = std::get<dynamics::PlanetaryInputs>(inputs);
     const gears::Speeds turning = speeds(instance.speed_rad_s);
     out.carrier_speed_rad_s = turning.carrier;
-    out.mesh_period_s = 2.0 * pi / gears::mesh_frequency(train_, turning);
+    out.mesh_period_s = mesh_period_s(instance.speed_rad_s);
     const gears::CentralMembers torque =
         gears::balanced_torques(train_, torque_on_, instance.torque_N_m);
     out.force_N[dynamics::sun] = torque.sun / radius_m_.sun;
@@ -195,7 +199,7 @@ ShaftDegree FixedShaftDrivetrain::shaft_degree(const dynamics::GearboxLayout&,
 void FixedShaftDrivetrain::set(const InstanceInputs& instance,
                                dynamics::GearboxInputs& inputs) const {
     auto& out = std::get<dynamics::FixedShaftInputs>(inputs);
-    out.mesh_period_s = 2.0 * pi / mesh_frequency_rad_s(instance.speed_rad_s);
+    out.mesh_period_s = mesh_period_s(instance.speed_rad_s);
     out.motor_torque_N_m = instance.torque_N_m;
     out.load_torque_N_m = instance.fixed_shaft.load_torque_N_m;
 }

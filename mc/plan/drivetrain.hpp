@@ -26,6 +26,8 @@ class Drivetrain {
 
     // Mesh frequency, rad of mesh phase per second, for a speed of speed_member().
     virtual double mesh_frequency_rad_s(double speed_rad_s) const = 0;
+    // Mesh period, s, likewise.
+    double mesh_period_s(double speed_rad_s) const;
     // Turns per mesh period of the input member, and of the frame in which x and y are defined; the
     // latter may be negative.
     virtual double input_turns_per_mesh() const = 0;

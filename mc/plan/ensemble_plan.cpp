@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <charconv>
 
-#include "mc/plan/feature_needs.hpp"
+#include "mc/plan/record_plan.hpp"
 #include "mc/study/gears.hpp"
 #include "mc/study/other_sources.hpp"
 #include "mc/study/schema/sizes.hpp"

@@ -10,8 +10,8 @@
 #include <vector>
 
 #include "analysis/detection/detection.hpp"
-#include "mc/plan/feature_needs.hpp"
 #include "mc/plan/gearbox_plan.hpp"
+#include "mc/plan/record_plan.hpp"
 #include "mc/plan/sampling.hpp"
 #include "mc/plan/scene_error.hpp"
 #include "mc/study/study.hpp"

@@ -1,9 +1,8 @@
 #include "mc/plan/scene.hpp"
 
-#include <cmath>
+#include <algorithm>
 #include <stdexcept>
 
-#include "mc/plan/feature_needs.hpp"
 #include "mc/plan/stage_plan.hpp"
 #include "mc/study/gears.hpp"
 
@@ -34,9 +33,9 @@ Scene::Scene(const Study& study)
     plan_ = std::make_shared<const ScenePlan>(make_plan(study, *sampler_, *gearbox));
     gearbox->stages = make_stages(study, *gearbox);
     gearbox_ = std::move(gearbox);
-    span_ = drivetrain().span();
-    features_ = make_feature_plan(study, span_);
-    signal_meshes_ = mc::signal_meshes(study, features_, std::abs(nominal_mesh_frequency_Hz()));
+    features_ = make_feature_plan(study, drivetrain().span());
+    record_ = make_record_plan(study, *gearbox_, features_, plan_->integration.grid.samples,
+                               plan_->te_samples);
     set_max_meshes();
     plan_life();
 }
@@ -84,7 +83,7 @@ Scene Scene::with(const Numerics& numerics) const {
 
 Scene Scene::recording_at_most(int meshes) const {
     Scene scene = *this;
-    scene.most_recorded_ = meshes;
+    scene.record_.recorded_meshes = std::min(record_.signal_meshes, meshes);
     return scene;
 }
 

@@ -2,8 +2,6 @@
 // pattern, phase grid.
 #pragma once
 
-#include <algorithm>
-#include <limits>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -12,6 +10,7 @@
 #include "mc/plan/feature_plan.hpp"
 #include "mc/plan/gearbox_plan.hpp"
 #include "mc/plan/life_plan.hpp"
+#include "mc/plan/record_plan.hpp"
 #include "mc/plan/sampling.hpp"
 #include "mc/plan/scene_error.hpp"
 #include "mc/plan/scene_plan.hpp"
@@ -66,21 +65,15 @@ class Scene {
     }
 
     const FeaturePlan& features() const { return features_; }
-    const signals::SpanLayout& span() const { return span_; }
-    // Number of mesh periods after which every tooth of the monitored gear has met every tooth of
-    // its mate that it can meet.
-    int span_meshes() const { return span_.meshes(); }
-    // Number of mesh periods of sensor signal from which records are taken: the span, or more for
-    // the teeth of the sun or the ring, or the span and a record of given length.
-    int signal_meshes() const { return signal_meshes_; }
-    // Number of mesh periods that are recorded individually where every mesh period is integrated:
-    // those of the signal, limited by recording_at_most().
-    int recorded_meshes() const { return std::min(signal_meshes_, most_recorded_); }
-    // Number of mesh periods after which the transmission path repeats; 1 if the carrier is fixed.
-    int path_meshes() const { return span_.carrier_meshes; }
-    // Number of samples per mesh period of the sensor and of the encoders.
-    int samples_per_mesh() const { return plan().grid.samples; }
-    int te_samples_per_mesh() const { return plan_->te_samples; }
+    // What is recorded of every gearbox. Its values by earlier names:
+    const RecordPlan& record() const { return record_; }
+    const signals::SpanLayout& span() const { return record_.span; }
+    int span_meshes() const { return record_.span.meshes(); }
+    int signal_meshes() const { return record_.signal_meshes; }
+    int recorded_meshes() const { return record_.recorded_meshes; }
+    int path_meshes() const { return record_.path_meshes(); }
+    int samples_per_mesh() const { return record_.samples; }
+    int te_samples_per_mesh() const { return record_.te_samples; }
     double nominal_mesh_frequency_Hz() const { return gearbox_->mesh_frequency_Hz; }
     // See Stepping.
     int least_steps() const { return plan_->stepping.least; }
@@ -109,10 +102,8 @@ class Scene {
     std::shared_ptr<const Sampler> sampler_;
     std::shared_ptr<const GearboxPlan> gearbox_;
     std::shared_ptr<const ScenePlan> plan_;
-    signals::SpanLayout span_;
     FeaturePlan features_;
-    int signal_meshes_ = 0;
-    int most_recorded_ = std::numeric_limits<int>::max();
+    RecordPlan record_;
     int max_meshes_ = 0;
     std::vector<SceneError> life_problems_;
     std::shared_ptr<const LifePlan> life_;  // null if there are problems

@@ -9,7 +9,7 @@
 #include "dynamics/gearbox_matrices.hpp"
 #include "lockstep/integrators/facts.hpp"
 #include "lockstep/steps/stability.hpp"
-#include "mc/plan/feature_needs.hpp"
+#include "mc/plan/feature_plan.hpp"
 #include "mc/plan/scene_error.hpp"
 #include "signals/spectra/fourier_transform.hpp"
 

@@ -11,7 +11,6 @@
 #include "mc/ensemble/gearbox/realization_features.hpp"
 #include "mc/ensemble/gearbox/span_analysis.hpp"
 #include "mc/files/signal_file.hpp"
-#include "mc/plan/feature_needs.hpp"
 #include "mc/recordings/quantisation.hpp"
 #include "signals/spectra/order_spectrum.hpp"
 #include "signals/spectra/synchronous_average.hpp"

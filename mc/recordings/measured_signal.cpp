@@ -13,7 +13,6 @@
 #include "mc/files/input/terminal_text.hpp"
 #include "mc/files/signal_file.hpp"
 #include "mc/files/signal_units.hpp"
-#include "mc/plan/feature_needs.hpp"
 #include "mc/recordings/quantisation.hpp"
 #include "mc/recordings/recording_columns.hpp"
 #include "signals/rotation/shaft_motion.hpp"

@@ -18,7 +18,6 @@
 #include "mc/ensemble/gearbox/record_window.hpp"
 #include "mc/ensemble/gearbox/simulation.hpp"
 #include "mc/numerics/study_scene.hpp"
-#include "mc/plan/feature_needs.hpp"
 #include "mc/plan/scene.hpp"
 #include "mc/results/reliability_of_results.hpp"
 #include "mc/study/fluctuations.hpp"
@@ -379,9 +378,8 @@ class Examples {
 
     // Signals of all sensors from which records are taken.
     LaneSignals whole_signals(const GearboxTile& tile) const {
-        return lane_signals(
-            scene_, path_, tile, 0,
-            has_record_length(scene_.study()) ? scene_.signal_meshes() : scene_.span_meshes());
+        return lane_signals(scene_, path_, tile, 0,
+                            scene_.record().length ? scene_.signal_meshes() : scene_.span_meshes());
     }
 
     Signals record_of(const Realization& realization, const RealizationFeatures& features,
@@ -397,7 +395,7 @@ class Examples {
         if (has_range(scene_.study())) {
             clip(realization.inputs, signals.noisy);
             clip(realization.inputs, signals.record.sensor);
-            fold_again(scene_, signals.record);
+            fold_again(scene_.record(), signals.record);
         }
         return signals;
     }

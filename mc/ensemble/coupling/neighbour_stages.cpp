@@ -32,7 +32,7 @@ CoupledSpan coupled_span(const Scene& scene, int run_in_meshes, const GearboxId&
     span.run_in = static_cast<int>(
         coupled_run_in(gearbox, convergence_tolerance(scene.study()), run_in_meshes));
     GearboxId shared = id;
-    shared.index -= id.index % kSharedPositions;
+    shared.index -= id.index % scene.record().same_positions;
     shared.exchanged = {};
     for (std::size_t i = 0; i < gearbox.stages.size(); ++i) {
         if (!gearbox.stages[i].shaft) {

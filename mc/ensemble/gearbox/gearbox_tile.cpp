@@ -122,7 +122,7 @@ TileSolution solve_coupled(const Scene& scene, std::span<const Realization> real
     TileSolution solved;
     const GearboxId& first = realizations.front().id;
     for (const Realization& record : realizations) {
-        if (!share_positions(record.id, first)) {
+        if (!share_positions(record.id, first, scene.record().same_positions)) {
             throw std::logic_error("records of a coupled tile have stages at other positions");
         }
     }
@@ -343,12 +343,11 @@ void add_costs(const GearboxTile& of, GearboxTile& tile) {
 }
 
 // Baseline records of the gearboxes, one gearbox after the other.
-std::vector<GearboxId> baselines_of(const Study& study, std::span<const GearboxId> ids) {
-    const std::size_t records = computed_baselines(study);
+std::vector<GearboxId> baselines_of(const RecordPlan& record, std::span<const GearboxId> ids) {
     std::vector<GearboxId> earlier;
     for (GearboxId id : ids) {
         id.record = Record::baseline;
-        for (id.baseline = 0; id.baseline < records; ++id.baseline) {
+        for (id.baseline = 0; id.baseline < record.computed_baselines; ++id.baseline) {
             earlier.push_back(id);
         }
     }
@@ -361,13 +360,13 @@ GearboxTile run_baselines(const Scene& scene, const SensorPaths& path,
                           std::span<const GearboxId> ids, int fewest,
                           const IntegrationCache* cache) {
     const int meshes = needed_sensor_meshes(scene);
-    const std::vector<GearboxId> earlier = baselines_of(scene.study(), ids);
+    const std::vector<GearboxId> earlier = baselines_of(scene.record(), ids);
     const auto lanes =
         static_cast<std::size_t>(lockstep::lanes_for(scene.plan().precision, fewest));
     // Order in which they are computed: records at the same positions follow each other.
     std::vector<std::size_t> order(earlier.size());
     std::iota(order.begin(), order.end(), std::size_t{0});
-    if (shares_positions(scene.study())) {
+    if (scene.record().same_positions > 1) {
         std::ranges::stable_sort(order, {}, [&](std::size_t i) { return earlier[i].baseline; });
     }
     std::vector<GearboxId> ordered;
@@ -378,7 +377,7 @@ GearboxTile run_baselines(const Scene& scene, const SensorPaths& path,
     all.status.resize(earlier.size());
     for (std::size_t first = 0; first < order.size();) {
         const auto left = std::span<const GearboxId>(ordered).subspan(first);
-        const auto some = left.first(shared_records(scene.study(), left, lanes));
+        const auto some = left.first(shared_records(scene.record(), left, lanes));
         GearboxTile tile =
             run_records(scene, path, some, fewest, {.signal_meshes = meshes, .cache = cache});
         auto start = WallClock::now();
@@ -415,7 +414,7 @@ void add_baselines(GearboxTile earlier, GearboxTile& tile) {
 GearboxTile run_side_by_side(const Scene& scene, const SensorPaths& path,
                              std::span<const GearboxId> ids, int lanes, TileOptions options) {
     std::vector<GearboxId> both(ids.begin(), ids.end());
-    const std::vector<GearboxId> earlier = baselines_of(scene.study(), ids);
+    const std::vector<GearboxId> earlier = baselines_of(scene.record(), ids);
     both.insert(both.end(), earlier.begin(), earlier.end());
     if (options.signal_meshes >= 0) {
         options.signal_meshes = std::max(options.signal_meshes, needed_sensor_meshes(scene));
@@ -439,12 +438,12 @@ GearboxTile run_side_by_side(const Scene& scene, const SensorPaths& path,
 
 GearboxTile run_gearboxes(const Scene& scene, const SensorPaths& path,
                           std::span<const GearboxId> ids, int fewest, const TileOptions& options) {
-    if (scene.features().baselines == 0) {
+    if (scene.record().baselines == 0) {
         return run_records(scene, path, ids, fewest, options);
     }
     const int lanes = lockstep::lanes_for(scene.plan().precision, fewest);
-    const std::size_t records = 1 + computed_baselines(scene.study());
-    if (!shares_positions(scene.study()) &&
+    const std::size_t records = 1 + scene.record().computed_baselines;
+    if (scene.record().same_positions == 1 &&
         records * ids.size() <= static_cast<std::size_t>(lanes)) {
         return run_side_by_side(scene, path, ids, lanes, options);
     }
@@ -493,7 +492,7 @@ GearboxTile complete_tile(const Scene& scene, const SensorPaths& path,
     GearboxTile tile = drawn_tile(scene, ids, static_cast<int>(integration.status.size()));
     tile.integration = std::move(integration);
     add_signals(scene, path, tile);
-    if (scene.features().baselines > 0) {
+    if (scene.record().baselines > 0) {
         add_baselines(
             run_baselines(scene, path, ids, static_cast<int>(tile.realizations.size()), nullptr),
             tile);

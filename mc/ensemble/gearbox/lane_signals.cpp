@@ -11,7 +11,6 @@
 #include "mc/ensemble/gearbox/record_window.hpp"
 #include "mc/ensemble/gearbox/solution_choice.hpp"
 #include "mc/ensemble/gearbox/tile_sensors.hpp"
-#include "mc/plan/feature_needs.hpp"
 #include "mc/study/housing.hpp"
 #include "signals/sensor/sensor_signal.hpp"
 
@@ -91,7 +90,7 @@ LaneSignals folded_lane(const SensorPaths& path, const GearboxTile& tile, int la
 
 // True if records are cut from these signals, which then include the transmission error.
 bool cuts_records(const Scene& scene, int meshes) {
-    return has_record_length(scene.study()) && meshes == needed_sensor_meshes(scene);
+    return scene.record().length && meshes == needed_sensor_meshes(scene);
 }
 
 // Transmission error of a lane over the mesh periods of the scene's signals.
@@ -150,7 +149,7 @@ void add_response(const Scene& scene, const SensorPaths& path, const GearboxTile
     const Study& study = scene.study();
     const InstanceInputs& inputs = tile.realizations[static_cast<std::size_t>(lane)].inputs;
     const double factor = inputs.housing_frequency_factor,
-                 sampling_Hz = 1.0 / sample_s(scene, inputs);
+                 sampling_Hz = 1.0 / scene.record().sample_s(inputs);
     const auto along = [&](std::size_t part) {
         machine::throw_if_cancelled();
         return samples_along(scene, path, tile, sensor, part, lane, scene.signal_meshes());
@@ -182,7 +181,7 @@ void add_response(const Scene& scene, const SensorPaths& path, const GearboxTile
         signals::add_tones(tones_at(scene, sensor, tile.tones), lane, scene.samples_per_mesh(),
                            own.sensor);
     }
-    fold_again(scene, own);
+    fold_again(scene.record(), own);
 }
 
 // Adds the transmission error to lanes with sensor samples, `first` the first of them, and other

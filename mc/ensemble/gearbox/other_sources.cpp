@@ -32,7 +32,8 @@ void add_bearings(const Scene& scene, const Realization& realization, SourceRole
                               with_suffix(StreamPurpose::bearing_impulses, std::to_string(i)));
             signals::add_bearing_vibration(bearing_impulses(scene, realization.inputs, bearings[i]),
                                            scene.study().sensor.low_pass_Hz,
-                                           sample_s(scene, realization.inputs), engine, samples);
+                                           scene.record().sample_s(realization.inputs), engine,
+                                           samples);
         }
     }
 }
@@ -67,8 +68,8 @@ void add_stage_vibration(const Scene& scene, std::size_t stage, const Realizatio
                       with_suffix(StreamPurpose::stage_start, scene.gearbox().stages[stage].name));
     const double start =
         boost::random::uniform_01<double>()(engine) * static_cast<double>(vibration.size());
-    const double step = sample_s(scene, realization.inputs) /
-                        sample_s(*scene.gearbox().stages[stage].plan, gearbox.inputs);
+    const double step = scene.record().sample_s(realization.inputs) /
+                        scene.gearbox().stages[stage].plan->record().sample_s(gearbox.inputs);
     add_vibration(vibration, factor, start, step, samples);
 }
 
@@ -167,7 +168,7 @@ std::vector<double> passed(const signals::MeasuringChain& chain, const std::vect
 // Adds samples to those of a sensor of a record.
 void add_samples(const Scene& scene, const std::vector<double>& samples, LaneSignals& sensor) {
     std::ranges::transform(sensor.sensor, samples, sensor.sensor.begin(), std::plus<>());
-    fold_again(scene, sensor);
+    fold_again(scene.record(), sensor);
 }
 
 }  // namespace
@@ -228,8 +229,8 @@ void add_background(const Scene& scene, std::span<const Realization> realization
         for (std::size_t s = 0; s < records[i].additional.size(); ++s) {
             const auto chain = measuring_chain(scene.study(), s + 1);
             add_samples(scene,
-                        chain ? passed(*chain, samples[i], sample_s(scene, realizations[i].inputs),
-                                       response)
+                        chain ? passed(*chain, samples[i],
+                                       scene.record().sample_s(realizations[i].inputs), response)
                               : samples[i],
                         records[i].additional[s]);
         }

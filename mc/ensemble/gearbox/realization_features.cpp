@@ -16,7 +16,6 @@
 #include "mc/ensemble/gearbox/record_window.hpp"
 #include "mc/files/input/terminal_text.hpp"
 #include "mc/files/python/python_worker.hpp"
-#include "mc/plan/feature_needs.hpp"
 #include "mc/study/gears.hpp"
 
 namespace gearpod::mc {
@@ -184,7 +183,7 @@ namespace {
 HealthyReference reference_of(const Scene& scene, const SensorPaths& path, std::uint64_t sensor) {
     const int lanes = scene.study().numerics.lanes;
     RealizationSignals records(scene, features::SignalSet::of<features::SensorTurn>());
-    const std::size_t levels = scene.study().sensor.noise_levels.size();
+    const std::size_t levels = scene.record().noise_levels.size();
     HealthyRecordsMean mean(levels);
     for (int first = 0; first < HealthyReference::kRecords; first += lanes) {
         std::vector<GearboxId> ids;
@@ -245,7 +244,7 @@ RealizationFeatures::RealizationFeatures(const Scene& scene, const HealthyRefere
       features_(scene.features().used),
       python_(scene, python ? features_ : std::vector<const features::Feature*>()),
       healthy_(healthy),
-      levels_(scene.study().sensor.noise_levels.size()) {
+      levels_(scene.record().noise_levels.size()) {
     const ComparedNeeds& needs = scene.features().needs;
     for (int k = 0; k < scene.features().baselines; ++k) {
         baselines_.push_back({RealizationSignals(scene, needs.baseline), {}, {}});
@@ -257,9 +256,9 @@ RealizationFeatures::RealizationFeatures(const Scene& scene, const HealthyRefere
 
 void RealizationFeatures::load(const LaneSignals& gearbox, const Realization& realization) {
     RecordWindow window;
-    if (has_record_length(scene_.study())) {
-        window = record_window(scene_, realization.id, record_turns(scene_, realization.inputs));
-        record_ = cut_record(scene_, gearbox, window, keeps_samples());
+    if (scene_.record().length) {
+        window = record_window(scene_, realization.id, scene_.record().turns(realization.inputs));
+        record_ = cut_record(scene_.record(), gearbox, window, keeps_samples());
         RealizationSignals::load(record_, realization);
     } else {
         RealizationSignals::load(gearbox, realization);
@@ -287,11 +286,11 @@ void RealizationFeatures::load_baselines(const LaneSignals& gearbox, const Reali
             continue;
         }
         const bool samples = baseline.signals.keeps_samples();
-        baseline.cut =
-            cut_record(scene_, signals, record_window(scene_, earlier.id, window.turns), samples);
+        baseline.cut = cut_record(scene_.record(), signals,
+                                  record_window(scene_, earlier.id, window.turns), samples);
         baseline.signals.load(baseline.cut, earlier);
         if (change_) {
-            baseline.aligned = cut_record(scene_, signals, window, samples);
+            baseline.aligned = cut_record(scene_.record(), signals, window, samples);
         }
     }
 }
@@ -350,7 +349,7 @@ std::vector<double> RealizationFeatures::compute(const LaneSignals& gearbox,
             }
         }
         if (!python_.empty()) {
-            python_.add(scene_.study().sensor.noise_levels[level], realization.inputs, input);
+            python_.add(scene_.record().noise_levels[level], realization.inputs, input);
         }
     }
     if (!python_.empty()) {

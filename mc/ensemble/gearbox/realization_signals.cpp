@@ -8,7 +8,6 @@
 #include "machine/team.hpp"
 #include "mc/ensemble/gearbox/record_window.hpp"
 #include "mc/ensemble/gearbox/solution_choice.hpp"
-#include "mc/plan/feature_needs.hpp"
 #include "mc/study/noise.hpp"
 #include "mc/study/random/philox.hpp"
 #include "signals/noise/normals.hpp"
@@ -34,11 +33,12 @@ class Stopwatch {
 }  // namespace
 
 signals::LowPassNoise low_pass_noise(const Scene& scene, const InstanceInputs& inputs) {
-    return signals::LowPassNoise(inputs.low_pass_Hz * sample_s(scene, inputs));
+    return signals::LowPassNoise(inputs.low_pass_Hz * scene.record().sample_s(inputs));
 }
 
 signals::ShapedNoise background_noise(const Scene& scene, const InstanceInputs& inputs) {
-    return {background_spectrum(scene.study()), inputs.low_pass_Hz, 1.0 / sample_s(scene, inputs)};
+    return {background_spectrum(scene.study()), inputs.low_pass_Hz,
+            1.0 / scene.record().sample_s(inputs)};
 }
 
 namespace {
@@ -65,7 +65,7 @@ std::vector<double> sample_noise(const Scene& scene, const Realization& realizat
                         NoiseEngines<Normals>{filtered, white, background}, std::span(unit));
         if (realization.inputs.own_sampling_Hz > 0.0) {
             signals::PeriodicResponse response(static_cast<int>(unit.size()));
-            const double sampling_Hz = 1.0 / sample_s(scene, realization.inputs);
+            const double sampling_Hz = 1.0 / scene.record().sample_s(realization.inputs);
             response.add(unit, sampling_Hz, {.modes = {}, .measured = {}});
             unit = response.take(
                 signals::MeasuringChain{.low_pass = {},
@@ -243,7 +243,7 @@ void RealizationSignals::sensor_features(double noise, features::FeatureInput& i
     }
     if (clips) {
         clip(inputs_, samples_);
-        windowing_.load(folded_squares(scene_, *gearbox_, samples_));
+        windowing_.load(folded_squares(scene_.record(), *gearbox_, samples_));
     }
     const double folded_noise = clips ? 0.0 : noise;  // of squares that do not contain it
     const int offset = windowing_.search(folded_noise, tooth_rms_);
@@ -297,7 +297,7 @@ LaneSignals change_since_baseline(const Scene& scene, const LaneSignals& record,
         subtract(baseline->te_turn, share, change.te_turn);
         subtract(baseline->sensor, share, change.sensor);
     }
-    fold_again(scene, change);
+    fold_again(scene.record(), change);
     return change;
 }
 
@@ -312,9 +312,9 @@ RealizationNoise noise_of_change(const Scene& scene, const LaneSignals& change,
         subtract(one.noise->samples, share * one.rms, noise.samples);
         subtract(one.noise->encoder, share, noise.encoder);
     }
-    noise.sensor = signals::noise_variates_of_samples(folded_part(scene, change, change.sensor),
-                                                      folded_part(scene, change, noise.samples),
-                                                      turn_samples(scene));
+    noise.sensor = signals::noise_variates_of_samples(
+        folded_part(scene.record(), change, change.sensor),
+        folded_part(scene.record(), change, noise.samples), scene.record().turn_samples());
     return noise;
 }
 

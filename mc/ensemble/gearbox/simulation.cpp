@@ -12,7 +12,6 @@
 #include "mc/ensemble/gearbox/other_sources.hpp"
 #include "mc/ensemble/gearbox/realization_features.hpp"
 #include "mc/ensemble/gearbox/tile_random_inputs.hpp"
-#include "mc/plan/feature_needs.hpp"
 #include "mc/results/layout.hpp"
 #include "mc/study/fluctuations.hpp"
 
@@ -157,8 +156,8 @@ std::vector<double> sample_times(const Scene& scene, const Realization& realizat
 Simulation simulate(const Scene& scene, const GearboxId& id, long meshes) {
     const SensorPaths path = sensor_paths(scene);
     const MeshRange range{
-        has_record_length(scene.study())
-            ? record_window(scene, id, record_turns(scene, scene.sampler().draw(id).inputs))
+        scene.record().length
+            ? record_window(scene, id, scene.record().turns(scene.sampler().draw(id).inputs))
                   .first_mesh
             : 0,
         meshes};
@@ -172,7 +171,7 @@ Simulation simulate(const Scene& scene, const GearboxId& id, long meshes) {
     const HealthyReference healthy = healthy_reference(scene, path);
     RealizationFeatures features(scene, &healthy);
     Simulation out;
-    out.noise_levels = scene.study().sensor.noise_levels;
+    out.noise_levels = scene.record().noise_levels;
     out.feature_names = scene.study().features.use;
     out.features = features.compute(lane_signals(scene, path, tile, 0, features.meshes()),
                                     tile.realizations[0]);

@@ -17,7 +17,6 @@
 #include "mc/ensemble/coupling/record_positions.hpp"
 #include "mc/ensemble/gearbox/integration_cache.hpp"
 #include "mc/ensemble/gearbox/tile_random_inputs.hpp"
-#include "mc/plan/feature_needs.hpp"
 #include "mc/study/fluctuations.hpp"
 #include "mc/study/gears.hpp"
 #include "mc/study/housing.hpp"
@@ -106,12 +105,12 @@ std::vector<int> part_periods(const Scene& scene) {
 
 // Mesh periods of a record of the nominal gearbox. Precondition: records have a length.
 int nominal_record_meshes(const Scene& scene) {
-    return record_turns(scene, nominal_inputs(scene.study())) * scene.span().planet_teeth;
+    return scene.record().turns(nominal_inputs(scene.study())) * scene.span().planet_teeth;
 }
 
 // True if it saves at least half of a full integration to integrate the records alone.
 bool records_alone(const Scene& scene) {
-    return shares_windows(scene.study()) && scene.study().numerics.horizon != Horizon::periodic &&
+    return scene.record().same_window > 1 && scene.study().numerics.horizon != Horizon::periodic &&
            2 * (run_in_meshes(scene) + nominal_record_meshes(scene)) <= scene.signal_meshes();
 }
 
@@ -188,7 +187,7 @@ bool records_during_integration(const Scene& scene) {
 }
 
 int needed_sensor_meshes(const Scene& scene, features::SignalSet needs) {
-    const bool cut = has_record_length(scene.study()) && !scene.study().effects.quasi_static();
+    const bool cut = scene.record().length && !scene.study().effects.quasi_static();
     return needs_samples(needs) || cut || any_response(scene.study()) ? scene.signal_meshes()
            : noise_by_density(scene.study()) || has_range(scene.study()) ||
                    has_other_sources(scene.study())
@@ -205,8 +204,7 @@ double motion_bytes(const Scene& scene) {
         return record_bytes(scene);
     }
     // Copies: samples as recorded and by lane, plus those of the baseline records.
-    const Study& study = scene.study();
-    const double copies = 2.0 + (compares_records(study) ? study.features.baseline_records : 0);
+    const double copies = 2.0 + static_cast<double>(scene.record().baselines);
     const double samples =
         static_cast<double>(needed_sensor_meshes(scene)) * scene.samples_per_mesh();
     return copies * 8.0 * samples * scene.study().numerics.lanes +

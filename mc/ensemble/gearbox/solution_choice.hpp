@@ -45,8 +45,8 @@ double passage_meshes_of_span(const Scene& scene);
 // Mesh periods that a tile without a fault integrates.
 double healthy_meshes(const Scene& scene);
 
-// True if tiles integrate the windows of their records only (parts_of_records): the study
-// shares_windows(), needs full integration, and that saves at least half of it.
+// True if tiles integrate the windows of their records only (parts_of_records): records
+// share windows, the study needs full integration, and that saves at least half of it.
 bool integrates_records_only(const Scene& scene);
 // Mesh periods that a tile of test records records one by one.
 int recorded_meshes(const Scene& scene);

@@ -5,7 +5,6 @@
 #include "machine/clocks.hpp"
 #include "mc/ensemble/coupling/record_positions.hpp"
 #include "mc/ensemble/gearbox/tile_random_inputs.hpp"
-#include "mc/plan/feature_needs.hpp"
 #include "mc/study/housing.hpp"
 #include "signals/path/transmission_path.hpp"
 
@@ -74,10 +73,9 @@ TileSensorRecorder::TileSensorRecorder(const Scene& scene, const SensorPaths& pa
       has_gain_(has_gain(realizations)),
       signal_meshes_(meshes > 0 ? std::max(meshes, scene.span_meshes()) : scene.signal_meshes()),
       recorded_meshes_(meshes > 0 ? signal_meshes_ : scene.recorded_meshes()),
-      record_meshes_(has_record_length(scene.study())
-                         ? record_turns(scene, realizations.front().inputs) *
-                               scene.span().planet_teeth
-                         : signal_meshes_) {
+      record_meshes_(scene.record().length ? scene.record().turns(realizations.front().inputs) *
+                                                 scene.span().planet_teeth
+                                           : signal_meshes_) {
     const signals::Tones tones = draw_tones(scene, realizations), none;
     for (std::size_t s = 0; s < path.size(); ++s) {
         const SensorPath& sensor = path[s];
@@ -91,7 +89,7 @@ TileSensorRecorder::TileSensorRecorder(const Scene& scene, const SensorPaths& pa
                 signals::SensorResponse::Tile{static_cast<int>(realizations.size()), exponents,
                                               &added, scene.te_samples_per_mesh(), signal_meshes_,
                                               kept_meshes < 0 ? signal_meshes_ : kept_meshes,
-                                              has_record_length(scene.study()),
+                                              scene.record().length.has_value(),
                                               dynamics::sources(scene.plan().layout)}));
         }
     }

@@ -12,8 +12,8 @@
 #include "mc/ensemble/gearbox/record_window.hpp"
 #include "mc/numerics/measured_effects.hpp"
 #include "mc/numerics/numerics_choice.hpp"
-#include "mc/plan/feature_needs.hpp"
 #include "mc/plan/instance_inputs.hpp"
+#include "mc/plan/record_plan.hpp"
 #include "mc/plan/scene_error.hpp"
 #include "mc/report/description/describe_gearbox.hpp"
 #include "mc/report/description/terminal_text.hpp"
@@ -469,7 +469,7 @@ void print_effect_changes(const Planner& planner, const signals::SpanLayout& spa
                  print_entry(
                      "measured on",
                      fmt::format("{} gearboxes to test, records of {}", lockstep::kPilotLanes,
-                                 record_length_text(brief.plan(brief.facts().numerics))));
+                                 record_length_text(brief.plan(brief.facts().numerics).record())));
                  begun = true;
              }
              print_entry(effect.effect, change_text(effect, facts, tolerance));

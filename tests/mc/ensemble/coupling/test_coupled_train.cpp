@@ -214,9 +214,9 @@ TEST_CASE("Coupled stages have other positions in every record", "[coupled-train
     }
     CHECK(std::abs(changes[0] / changes[8] - 1.0) > 0.02);
     const mc::GearboxId first{mc::Group::test, 7};
-    CHECK(mc::share_positions(first, {mc::Group::test, 0}));
-    CHECK(!mc::share_positions(first, {mc::Group::test, 8}));
-    CHECK(!mc::share_positions(first, {mc::Group::test, 7, mc::Record::baseline}));
+    CHECK(mc::share_positions(first, {mc::Group::test, 0}, 8));
+    CHECK(!mc::share_positions(first, {mc::Group::test, 8}, 8));
+    CHECK(!mc::share_positions(first, {mc::Group::test, 7, mc::Record::baseline}, 8));
 }
 
 TEST_CASE("Shafts that cannot be computed are refused with what would be right",

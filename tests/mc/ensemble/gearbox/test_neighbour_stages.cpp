@@ -70,8 +70,8 @@ TEST_CASE("The sensor picks up the stage's own signal, at the stage's time, time
     CHECK(neighbour.inputs.fault_size == 0.0);
     const std::vector<double> own = sensor_signal(*scene.gearbox().stages[0].plan, neighbour);
     // Mesh frequencies: 35 Hz here, 60 / 48 * 13 / 60 * 35 Hz there.
-    const double step = mc::sample_s(scene, gearbox.inputs) /
-                        mc::sample_s(*scene.gearbox().stages[0].plan, neighbour.inputs);
+    const double step = scene.record().sample_s(gearbox.inputs) /
+                        scene.gearbox().stages[0].plan->record().sample_s(neighbour.inputs);
     CHECK(step == Approx((1.0 / (35.0 * scene.samples_per_mesh())) *
                          (35.0 * 13 / 48 * scene.gearbox().stages[0].plan->samples_per_mesh()))
                       .epsilon(1e-9));

@@ -48,7 +48,7 @@ class Computed {
     double noise_m_s2() const { return tile_.realizations[0].inputs.noise_m_s2; }
     RecordWindow window() const {
         const Realization& one = tile_.realizations[0];
-        return record_window(scene_, one.id, record_turns(scene_, one.inputs));
+        return record_window(scene_, one.id, scene_.record().turns(one.inputs));
     }
 
   private:
@@ -220,7 +220,7 @@ TEST_CASE("Parts of a baseline record include the windows of the test record and
         if (keys[0].find("speed_noise") != std::string::npos) {
             keys.emplace_back("operation.speed_noise_band_Hz=3");
         }
-        CHECK(!shares_windows(real_teeth(keys)));
+        CHECK(Scene(real_teeth(keys)).record().same_window == 1);
     }
 }
 
@@ -238,13 +238,13 @@ TEST_CASE("A faster gearbox records more turns in the same time") {
     const Study study = study_with({kPlain, "sensor.record_s=20"});
     const Scene scene(study);
     InstanceInputs inputs = nominal_inputs(study);
-    const int nominal = record_turns(scene, inputs);
+    const int nominal = scene.record().turns(inputs);
     // Mesh frequency: 81 teeth times 8.87 rpm of the carrier.
     CHECK(nominal == static_cast<int>(20.0 * 81.0 * 8.87 / 60.0 / 31.0));
     inputs.speed_rad_s *= 2.0;
-    CHECK(record_turns(scene, inputs) == static_cast<int>(20.0 * 81.0 * 2.0 * 8.87 / 60.0 / 31.0));
+    CHECK(scene.record().turns(inputs) == static_cast<int>(20.0 * 81.0 * 2.0 * 8.87 / 60.0 / 31.0));
     inputs.speed_rad_s *= 0.01;
-    CHECK(record_turns(scene, inputs) == 3);
+    CHECK(scene.record().turns(inputs) == 3);
 }
 
 TEST_CASE("Integrated and periodic gearboxes have the same short records") {
