@@ -44,7 +44,6 @@ std::string OpenStudy::text_of(Problems problems) const {
 }
 
 Simulation simulate_row(const Scene& scene, long row, long meshes) {
-    const Study& study = scene.study();
     const auto rows = static_cast<long>(scene.ensemble().batches().rows());
     const long simulated = meshes > 0 ? meshes : scene.span().planet_teeth;
     // A record of given length begins within the span.
