@@ -13,6 +13,7 @@
 #include "analysis/detection/healthy_thresholds.hpp"
 #include "analysis/pod/pod_curve.hpp"
 #include "analysis/statistics/interval.hpp"
+#include "machine/fields.hpp"
 
 namespace gearpod::analysis {
 
@@ -31,6 +32,8 @@ struct RatePoint {
     // threshold, each with half of the error probability.
     SizeBounds a90;
 };
+GEARPOD_FIELDS(RatePoint, false_alarm_rate, threshold, extrapolation_, tilted, threshold_bounds,
+               a90)
 
 struct FalseAlarmCurve {
     // In order of falling rate, the last at the rarest rate that the sample supports.
@@ -38,6 +41,7 @@ struct FalseAlarmCurve {
     std::vector<double> unfitted;  // rates within that range at which no curve fits
     std::string refusal;           // reason why there are no points, or ""
 };
+GEARPOD_FIELDS(FalseAlarmCurve, points, unfitted, refusal)
 
 // Values of one feature at one noise level.
 struct TestValues {
@@ -74,6 +78,8 @@ struct LeastCost {
     // The minimum lies at the rarest rate that the sample supports, or beyond it.
     bool rarest = false;
 };
+GEARPOD_FIELDS(LeastCost, threshold, extrapolation_, tilted, false_alarm_rate, rate_bounds, pd,
+               pd_bounds, cost, bounds, without, rarest)
 
 // Minimises the expected cost (1 - share) rate alarm + share (1 - Pd) miss over the thresholds for
 // the rates of kCurveRates and over every order statistic of the healthy sample. Empty without

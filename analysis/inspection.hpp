@@ -12,6 +12,7 @@
 #include "analysis/pod/signal_response_pod.hpp"
 #include "analysis/smooth_response.hpp"
 #include "analysis/statistics/noise_distribution.hpp"
+#include "machine/fields.hpp"
 
 namespace gearpod::analysis {
 
@@ -58,6 +59,7 @@ struct TradeOffPoint {
     double false_calls = 0.0;  // probability from the noise distribution; NaN without noise values
     SizeBounds a50, a90;
 };
+GEARPOD_FIELDS(TradeOffPoint, threshold, false_calls, a50, a90)
 
 struct InspectionResult {
     std::string refusal;  // reason why there is no result, or ""

@@ -18,6 +18,7 @@
 #include "analysis/ranking/combined_detector.hpp"
 #include "analysis/ranking/feature_ranking.hpp"
 #include "analysis/statistics/interval.hpp"
+#include "machine/fields.hpp"
 
 namespace gearpod::analysis {
 
@@ -42,6 +43,9 @@ struct LevelReliability {
     // Smallest size demonstrated by the tested rates alone, without a curve; NaN if there is none.
     double demonstrated_size = kNan;
 };
+GEARPOD_FIELDS(LevelReliability, noise_level, has_threshold_, hit_miss, signal_response, auc,
+               auc_by_size, roc, misses, inputs_, uncertain, pd_, by_false_alarm_rate, least_cost,
+               demonstrated_size_)
 
 struct FeatureReliability {
     std::string feature;
@@ -136,6 +140,8 @@ struct SmallestFault {
     Source source;
     bool own = true;  // the source is the feature itself at this noise level
 };
+GEARPOD_FIELDS(SmallestFault, feature, size, from_curve, source_, own_)
+GEARPOD_FIELDS(SmallestFault::Source, feature, noise_level)
 
 // Smallest fault of one feature (index in `reliability.features`) at a noise level.
 std::optional<SmallestFault> smallest_fault(const Reliability& reliability, std::size_t level,

@@ -9,6 +9,7 @@
 
 #include "analysis/detection/detection.hpp"
 #include "analysis/statistics/difference_tests.hpp"
+#include "machine/fields.hpp"
 
 namespace gearpod::analysis {
 
@@ -39,6 +40,8 @@ struct RateDifference {
     PairedCounts pairs;    // gearboxes with a value in both; empty if not paired
     double p_value = 1.0;  // McNemar, or the pooled test
 };
+GEARPOD_FIELDS(RateDifference, size_low_high, tested_a_, tested_b_, a_, b_, lower_upper, pairs_,
+               p_value)
 
 struct NumberDifference {
     double a = 0.0, b = 0.0;
@@ -48,6 +51,7 @@ struct NumberDifference {
 
     double difference() const { return b - a; }
 };
+GEARPOD_FIELDS(NumberDifference, a_, b_, lower_upper, p_value, refusal)
 
 struct Comparison {
     std::vector<RateDifference> rates;  // by group

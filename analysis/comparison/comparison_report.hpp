@@ -8,6 +8,7 @@
 #include "analysis/comparison/comparison.hpp"
 #include "analysis/reliability.hpp"
 #include "analysis/report/report.hpp"
+#include "machine/fields.hpp"
 
 namespace gearpod::analysis {
 
@@ -17,6 +18,7 @@ struct ComparedFeature {
     bool same = false;  // every pair of values is equal
     Comparison comparison;
 };
+GEARPOD_FIELDS(ComparedFeature, name, noise_level, same, comparison_)
 
 struct ComparedFile {
     std::string path, title;
@@ -34,6 +36,8 @@ struct ComparedFile {
     std::vector<std::string> left_out;   // features that only one of the two files has
     std::vector<ComparedFeature> features;
 };
+GEARPOD_FIELDS(ComparedFile, path, title, gearboxes, noise_levels_, smallest_, without_threshold_,
+               shortage_, pairs, unpaired_, differing_inputs, left_out, features_)
 
 struct ComparedResults {
     std::vector<ComparedFile> files;

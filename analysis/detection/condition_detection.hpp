@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "analysis/detection/detection.hpp"
+#include "machine/fields.hpp"
 
 namespace gearpod::analysis {
 
@@ -18,6 +19,7 @@ struct ConditionThreshold {
     long alarms = 0;
     Interval rate;  // false-alarm rate, as LevelDetection::threshold_rate
 };
+GEARPOD_FIELDS(ConditionThreshold, condition, threshold, sample, alarms, rate_lower_upper)
 
 struct ConditionLevel {
     double noise_level = 0.0;
@@ -25,6 +27,7 @@ struct ConditionLevel {
     std::vector<DetectionCell> cells;  // every gearbox against the threshold of its condition
     long without = 0;  // test gearboxes whose condition has no threshold; they are in no cell
 };
+GEARPOD_FIELDS(ConditionLevel, noise_level, thresholds, sizes, without_threshold)
 
 struct ConditionDetection {
     std::string feature;
@@ -35,6 +38,7 @@ struct ConditionDetection {
     std::vector<std::string> warnings;
     std::string refusal;  // reason why there is no result, or ""
 };
+GEARPOD_FIELDS(ConditionDetection, feature, input, unit, alarm_, levels, warnings, refusal)
 
 struct ConditionColumn {
     std::string name;

@@ -7,6 +7,7 @@
 
 #include "analysis/statistics/interval.hpp"
 #include "features/feature.hpp"
+#include "machine/fields.hpp"
 
 namespace gearpod::analysis {
 
@@ -56,6 +57,7 @@ struct DetectionCell {
     double upper = 0.0;
     Interval exact = {};  // Clopper-Pearson bounds, wider
 };
+GEARPOD_FIELDS(DetectionCell, size_low_high, tested, detected, failed, pd, lower, upper, exact)
 
 // Fit of a generalised Pareto distribution to the largest healthy values (the smallest for a low
 // alarm).
@@ -66,6 +68,7 @@ struct TailChoice {
     double threshold = 0.0;  // threshold from this fit
     double rate = 0.0;       // expected rate of this fit beyond the threshold in use
 };
+GEARPOD_FIELDS(TailChoice, exceedances, above, shape, scale, threshold, rate)
 
 // Threshold extrapolated beyond the healthy sample (threshold.hpp).
 struct TailThreshold {
@@ -73,6 +76,7 @@ struct TailThreshold {
     std::vector<TailChoice> choices;  // the first gives the threshold; the others fit fewer values
     bool steady = true;  // the rates of the other fits lie in the interval of the threshold's rate
 };
+GEARPOD_FIELDS(TailThreshold, extrapolation, choices, steady)
 
 // Threshold from importance-sampled records (importance_sample.hpp).
 struct ImportanceSampledThreshold {
@@ -80,6 +84,7 @@ struct ImportanceSampledThreshold {
     double contributing = 0.0;   // effective number of gearboxes that contribute to the rate
     double extrapolation = 1.0;  // 1 / (rate x number of gearboxes)
 };
+GEARPOD_FIELDS(ImportanceSampledThreshold, gearboxes, carrying, extrapolation)
 
 // Results of one feature at one noise level.
 struct LevelDetection {
@@ -105,6 +110,9 @@ struct LevelDetection {
     Interval expected_rate = {};
     double healthy_median = kNan;  // upper median of the healthy sample's values
 };
+GEARPOD_FIELDS(LevelDetection, noise_level, threshold, threshold_sample, threshold_alarms, tail,
+               tilted, sizes, threshold_rate, healthy_rate, healthy_rate_bounds, expected_rate,
+               healthy_median_)
 
 struct FeatureDetection {
     std::string feature;
@@ -113,6 +121,7 @@ struct FeatureDetection {
     // For example a threshold sample too small for the requested rate.
     std::vector<std::string> warnings;
 };
+GEARPOD_FIELDS(FeatureDetection, name, alarm, levels, warnings)
 
 // Name, unit and displayed unit of the fault size: metres are shown in mm, other units unchanged.
 struct SizeUnit {
@@ -122,6 +131,7 @@ struct SizeUnit {
     std::string shown_unit() const { return unit == "m" ? "mm" : unit == "1" ? "" : unit; }
     double per_unit() const { return unit == "m" ? 1e-3 : 1.0; }  // shown = value / per_unit
 };
+GEARPOD_FIELDS(SizeUnit, name, unit)
 
 struct DetectionRequest {
     double false_alarm_rate = 0.05;

@@ -8,6 +8,7 @@
 #include "analysis/detection/detection.hpp"
 #include "analysis/inputs/miss_sensitivity.hpp"
 #include "analysis/pod/hit_miss_pod.hpp"
+#include "machine/fields.hpp"
 
 namespace gearpod::analysis {
 
@@ -39,6 +40,7 @@ struct InputBin {
     double pd = 0.0;
     Interval bounds;  // Wilson interval
 };
+GEARPOD_FIELDS(InputBin, low, high, middle, tested, detected, pd, lower_upper)
 
 struct InputEffect {
     std::string name;
@@ -52,12 +54,14 @@ struct InputEffect {
     std::vector<SizeBounds> a90;  // one per value
     std::string refusal;          // reason why there are no test and no a90, or ""
 };
+GEARPOD_FIELDS(InputEffect, name_, unit_, bins, statistic, degrees, p_value, values_, a90_, refusal)
 
 struct InputEffects {
     double smallest = 0.0, largest = 0.0;  // fault sizes of the bins; NaN if there are none
     std::vector<InputEffect> inputs;       // in the given order
     std::vector<std::string> left_out;     // inputs that do not vary
 };
+GEARPOD_FIELDS(InputEffects, smallest, largest, inputs, left_out)
 
 inline constexpr double kInputQuantiles[] = {0.05, 0.25, 0.5, 0.75, 0.95};
 

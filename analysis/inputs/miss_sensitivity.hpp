@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "analysis/statistics/interval.hpp"
+#include "machine/fields.hpp"
 
 namespace gearpod::analysis {
 
@@ -34,6 +35,7 @@ struct InputInfluence {
     Interval bounds;       // two-sided; DeLong's variance, on the logit scale
     double p_value = 1.0;  // test against 1/2, adjusted over the inputs (Holm)
 };
+GEARPOD_FIELDS(InputInfluence, name, unit, larger_in_misses, lower_upper, p_value)
 
 struct MissSensitivity {
     long misses = 0, hits = 0;             // numbers used
@@ -42,6 +44,7 @@ struct MissSensitivity {
     std::vector<std::string> left_out;     // inputs that do not vary
     std::string refusal;                   // reason why there is no result, or ""
 };
+GEARPOD_FIELDS(MissSensitivity, misses, hits, smallest, largest, inputs, left_out, refusal)
 
 // `sizes` and `hit` per gearbox (1 detected, 0 missed, -1 no value). Uses fault sizes at which at
 // least half of the gearboxes, but not all, are detected. Sizes that do not repeat are grouped into

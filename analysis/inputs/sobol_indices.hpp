@@ -13,6 +13,7 @@
 #include "analysis/detection/detection.hpp"
 #include "analysis/inputs/miss_sensitivity.hpp"
 #include "analysis/statistics/interval.hpp"
+#include "machine/fields.hpp"
 
 namespace gearpod::analysis {
 
@@ -22,6 +23,7 @@ struct CorrelationRatio {
     double share = 0.0;
     Interval bounds;  // two-sided, within 0 and 1
 };
+GEARPOD_FIELDS(CorrelationRatio, first, first_lower_upper)
 
 // Estimates the share in 2 n^(1/3) bins. Bounds are from the noncentral F distribution (J. H.
 // Steiger, Psychol. Methods 9 (2004), 164-182). They are widened about the estimate by the ratio of
@@ -77,6 +79,7 @@ struct SobolIndex {
     // term contains the input, from 0 to the surrogate's resolution.
     Interval total_bounds;
 };
+GEARPOD_FIELDS(SobolIndex, name, unit, first_, total, total_lower_upper)
 
 struct SobolIndices {
     long count = 0;                     // number of gearboxes used
@@ -87,6 +90,7 @@ struct SobolIndices {
     std::vector<std::string> left_out;  // inputs that do not vary
     std::string refusal;                // reason why there are no indices, or ""
 };
+GEARPOD_FIELDS(SobolIndices, gearboxes, inputs, explained, resolution, terms, left_out, refusal)
 
 // Computes the indices from `output` and every input per gearbox, all finite.
 // Refuses fewer than 100 gearboxes, a constant output, and inputs with correlated ranks, whose
@@ -104,6 +108,7 @@ struct LevelSensitivity {
     SobolIndices misses;  // of the outcome missed or detected
     SobolIndices values;  // of the normal score of the value, so that no tail dominates
 };
+GEARPOD_FIELDS(LevelSensitivity, feature, size_low_high, misses, values)
 
 // `values` of the feature at one noise level and `hit` (outcomes()) per gearbox; `size` is the
 // column of fault sizes.

@@ -16,6 +16,7 @@
 
 #include "analysis/inputs/miss_sensitivity.hpp"
 #include "analysis/pod/hit_miss_pod.hpp"
+#include "machine/fields.hpp"
 
 namespace gearpod::analysis {
 
@@ -25,6 +26,7 @@ struct EpistemicBand {
     std::vector<PodPoint> band;  // at the sizes of the feature's band: median, 5 and 95 % quantile
     std::string refusal;         // reason why there is no band, or ""
 };
+GEARPOD_FIELDS(EpistemicBand, inputs, a90_low, a90_high, band_, refusal)
 
 inline constexpr double kEpistemicQuantiles[] = {0.05, 0.95};
 

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "analysis/pod/pod_curve.hpp"
+#include "machine/fields.hpp"
 
 namespace gearpod::analysis {
 
@@ -37,6 +38,7 @@ struct LocationScale {
     // where the bound is open.
     double eta_at(double x, double z) const;
 };
+GEARPOD_FIELDS(LocationScale, location, scale, covariance)
 
 // Location and scale of eta = intercept + slope x with the covariance of the two.
 LocationScale location_scale(double intercept, double slope, const Eigen::Matrix2d& covariance);

@@ -19,6 +19,7 @@
 #include "analysis/pod/pod_curve.hpp"
 #include "analysis/pod/pod_likelihood.hpp"
 #include "analysis/statistics/interval.hpp"
+#include "machine/fields.hpp"
 
 namespace gearpod::analysis {
 
@@ -30,6 +31,7 @@ struct HitMissFit {
     GoodnessOfFit fit;
     std::string refusal;  // empty if fitted
 };
+GEARPOD_FIELDS(HitMissFit, curve_, log_likelihood_, aic_, fit_, refusal)
 
 struct HitMissPod {
     long tests = 0;  // faulty gearboxes with a value
@@ -58,6 +60,9 @@ struct HitMissPod {
     // the number tested. NaN without a target.
     double specimens_factor = kNan;
 };
+GEARPOD_FIELDS(HitMissPod, tests, hits, smallest, largest, refusal, chosen_, candidates, supported_,
+               a50, a90, band, doubtful, rule_, clusters_, design_effect_, simulated_coverage_,
+               covariance_, specimens_factor_)
 
 struct HitMissRequest {
     double floor = 0.0;        // rate of the healthy gearboxes; 0: only curves without floor

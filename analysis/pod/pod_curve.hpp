@@ -6,6 +6,7 @@
 #include <string>
 
 #include "analysis/statistics/link.hpp"
+#include "machine/fields.hpp"
 
 namespace gearpod::analysis {
 
@@ -38,6 +39,7 @@ struct SizeBounds {
     SizeEstimate lower;  // one-sided
     SizeEstimate upper;  // one-sided: a90/95 for a90 at 95 %
 };
+GEARPOD_FIELDS(SizeBounds, estimate, lower, upper)
 
 struct PodPoint {
     double size = 0.0;
@@ -45,6 +47,7 @@ struct PodPoint {
     double lower = 0.0;  // lower and upper are one-sided
     double upper = 0.0;
 };
+GEARPOD_FIELDS(PodPoint, size, pod, lower, upper)
 
 // Rule for the bounds of a POD curve. Each rule holds for one quantity at a time, except the joint
 // rule, which holds for the whole curve at once.

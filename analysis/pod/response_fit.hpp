@@ -13,6 +13,7 @@
 #include "analysis/pod/pod_curve.hpp"
 #include "analysis/pod/response_likelihood.hpp"
 #include "analysis/statistics/regression_line.hpp"
+#include "machine/fields.hpp"
 
 namespace gearpod::analysis {
 
@@ -66,6 +67,8 @@ struct SignalResponseFit {
 
     bool usable() const { return refusals.empty() && doubts.empty(); }
 };
+GEARPOD_FIELDS(SignalResponseFit, scale_, line_, model_, log_likelihood_, aic, checks, refusals_,
+               doubts_, likelihood_, maximum_)
 
 // Fits the line. `by_specimen`: with random effects of specimens, by maximum likelihood. `coarse`:
 // as in ResponseLikelihood.

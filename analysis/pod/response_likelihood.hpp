@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "analysis/statistics/numeric_maximum.hpp"
+#include "machine/fields.hpp"
 
 namespace gearpod::analysis {
 
@@ -34,6 +35,7 @@ struct ResponseModel {
 
     double at(double x) const { return intercept + slope * x; }
 };
+GEARPOD_FIELDS(ResponseModel, intercept, slope, sigma, between, within, covariance_)
 
 class ResponseLikelihood {
   public:
@@ -72,5 +74,6 @@ class ResponseLikelihood {
     double x_centre_ = 0.0, x_spread_ = 1.0, y_centre_ = 0.0, y_spread_ = 1.0;
     double constant_ = 0.0;  // log likelihood of y minus that of standardised y
 };
+GEARPOD_FIELDS(ResponseLikelihood::Maximum, parameters, information, log_likelihood, converged)
 
 }  // namespace gearpod::analysis

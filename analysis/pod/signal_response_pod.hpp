@@ -20,6 +20,7 @@
 #include "analysis/pod/response_bounds.hpp"
 #include "analysis/pod/response_fit.hpp"
 #include "analysis/statistics/interval.hpp"
+#include "machine/fields.hpp"
 
 namespace gearpod::analysis {
 
@@ -46,6 +47,9 @@ struct SignalResponsePod {
     // Specimens needed for a90's upper bound at the target, over those tested.
     double specimens_factor = kNan;
 };
+GEARPOD_FIELDS(SignalResponsePod, count, left_, right_, specimens_, refusal, candidates, chosen,
+               supported_, curve_, rule_, limits_, simulated_coverage_, growing_coverage_,
+               growing_answered_, a50, a90, band, specimens_factor_)
 
 // Fits all scales and chooses one. Sizes of 0 (healthy gearboxes) and values that are not finite
 // are left out.

@@ -14,6 +14,7 @@
 #include "analysis/detection/detection.hpp"
 #include "analysis/pod/hit_miss_pod.hpp"
 #include "analysis/statistics/rank_statistics.hpp"
+#include "machine/fields.hpp"
 
 namespace gearpod::analysis {
 
@@ -29,6 +30,7 @@ struct FeatureWeight {
     std::string name;
     double weight = 0.0;  // log odds of a fault per standard deviation
 };
+GEARPOD_FIELDS(FeatureWeight, feature, weight)
 
 // Performance of a detector on the held-out gearboxes.
 struct HeldOutDetector {
@@ -37,6 +39,7 @@ struct HeldOutDetector {
     LevelDetection detection;
     HitMissPod pod;
 };
+GEARPOD_FIELDS(HeldOutDetector, name, auc, detection, hit_miss)
 
 struct CombinedDetector {
     double noise_level = 0.0;

@@ -10,6 +10,7 @@
 
 #include "analysis/detection/detection.hpp"
 #include "analysis/statistics/rank_statistics.hpp"
+#include "machine/fields.hpp"
 
 namespace gearpod::analysis {
 
@@ -17,6 +18,7 @@ struct RocPoint {
     double false_alarm_rate = 0.0;
     double detection_rate = 0.0;
 };
+GEARPOD_FIELDS(RocPoint, false_alarm_rate, detection_rate)
 
 // Curve from (0, 0) to (1, 1) with a corner for each threshold. Tied values are joined by a
 // straight line, so that the trapezoidal area equals that of auc(). Corners in excess of
@@ -47,6 +49,7 @@ struct FeatureRank {
     // the feature itself, NaN where the difference has no variance but is not 0.
     std::vector<double> p_values;
 };
+GEARPOD_FIELDS(FeatureRank, name, auc_, p_values)
 
 struct FeatureRanking {
     long healthy = 0, faulty = 0;       // number of gearboxes used
@@ -54,6 +57,7 @@ struct FeatureRanking {
     std::vector<std::string> left_out;  // for example "te_fc: no value for 61 of 5500 gearboxes"
     std::string refusal;                // reason why there is no ranking, or ""
 };
+GEARPOD_FIELDS(FeatureRanking, healthy, faulty, ranks, left_out, refusal)
 
 // Ranks the features. A feature without a value for more than a tenth of the gearboxes is left out,
 // because the ranking uses complete gearboxes only.

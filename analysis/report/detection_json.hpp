@@ -3,13 +3,9 @@
 
 #include <nlohmann/json_fwd.hpp>
 #include <span>
-#include <vector>
 
 #include "analysis/detection/detection.hpp"
-#include "analysis/pod/hit_miss_pod.hpp"
-#include "analysis/pod/signal_response_pod.hpp"
 #include "analysis/report/wording.hpp"
-#include "analysis/statistics/rank_statistics.hpp"
 
 namespace gearpod::analysis {
 
@@ -27,17 +23,5 @@ namespace gearpod::analysis {
 nlohmann::json detection_json(std::span<const FeatureDetection> features,
                               const DetectionRequest& request,
                               Subject subject = Subject::gearboxes);
-
-// An entry of "levels" in detection_json().
-nlohmann::json level_json(const LevelDetection& level);
-
-// POD curves and areas under the ROC curve as JSON: the entries "hit_miss", "signal_response" and
-// "auc" of reliability_json.hpp.
-
-// Lists of sizes, POD and bounds.
-nlohmann::json band_json(const std::vector<PodPoint>& band);
-nlohmann::json hit_miss_json(const HitMissPod& pod);
-nlohmann::json signal_response_json(const SignalResponsePod& pod);
-nlohmann::json auc_json(const Auc& auc);
 
 }  // namespace gearpod::analysis

@@ -10,6 +10,7 @@
 #include "analysis/detection/false_alarm_rate.hpp"
 #include "analysis/detection/importance_sample.hpp"
 #include "analysis/detection/threshold.hpp"
+#include "analysis/false_alarm_curve.hpp"
 #include "analysis/report/json_values.hpp"
 #include "analysis/report/wording.hpp"
 #include "features/feature.hpp"
@@ -286,33 +287,24 @@ bool without_threshold(std::span<const FeatureDetection> features, std::size_t l
     });
 }
 
-nlohmann::json false_alarm_json(const FalseAlarmCurve& curve) {
-    Json points = Json::array();
-    for (const RatePoint& point : curve.points) {
-        points.push_back(
-            {{"false_alarm_rate", point.false_alarm_rate},
-             {"threshold", number(point.threshold)},
-             {"extrapolation", point.extrapolation > 0.0 ? Json(point.extrapolation) : nullptr},
-             {"tilted", point.importance_sampled},
-             {"threshold_bounds", to_json(point.threshold_bounds)},
-             {"a90", to_json(point.a90)}});
-    }
-    return {
-        {"refusal", text_or_null(curve.refusal)}, {"points", points}, {"unfitted", curve.unfitted}};
+namespace {
+
+// For RatePoint and LeastCost: null for a threshold from an order statistic.
+template <class Rated>
+Json rated_json(const Rated& rated) {
+    Json json = fields_json(rated);
+    json["extrapolation"] = rated.extrapolation > 0.0 ? Json(rated.extrapolation) : nullptr;
+    return json;
 }
 
-nlohmann::json least_cost_json(const LeastCost& least) {
-    return {{"threshold", number(least.threshold)},
-            {"extrapolation", least.extrapolation > 0.0 ? Json(least.extrapolation) : nullptr},
-            {"tilted", least.importance_sampled},
-            {"false_alarm_rate", least.false_alarm_rate},
-            {"rate_bounds", to_json(least.rate_bounds)},
-            {"pd", least.pd},
-            {"pd_bounds", to_json(least.pd_bounds)},
-            {"cost", least.cost},
-            {"bounds", to_json(least.bounds)},
-            {"without", least.without},
-            {"rarest", least.rarest}};
+}  // namespace
+
+Json to_json(const RatePoint& point) {
+    return rated_json(point);
+}
+
+Json to_json(const LeastCost& least) {
+    return rated_json(least);
 }
 
 }  // namespace gearpod::analysis

@@ -2,12 +2,10 @@
 // before a run and with the report. Also the sample and cost of rarer false alarms as JSON.
 #pragma once
 
-#include <nlohmann/json_fwd.hpp>
 #include <span>
 #include <string>
 
 #include "analysis/detection/detection_table.hpp"
-#include "analysis/false_alarm_curve.hpp"
 #include "analysis/report/wording.hpp"
 
 namespace gearpod::analysis {
@@ -31,16 +29,5 @@ std::string threshold_methods_text(double false_alarm_rate, double confidence);
 
 // True if no feature has a threshold at the noise level, so that detection is unknown there.
 bool without_threshold(std::span<const FeatureDetection> features, std::size_t level);
-
-// JSON form:
-// {"refusal", "points": [{"false_alarm_rate", "threshold", "extrapolation": null for an order
-//   statistic, "tilted": true if from importance sampling, "threshold_bounds": [lower, upper]
-//   (null: open), "a90":
-//   {"estimate", "lower", "upper"}}], "unfitted": [rates at which no curve fits]}
-nlohmann::json false_alarm_json(const FalseAlarmCurve& curve);
-// JSON form:
-// {"threshold", "extrapolation", "tilted", "false_alarm_rate", "rate_bounds", "pd", "pd_bounds",
-//  "cost", "bounds", "without", "rarest"}
-nlohmann::json least_cost_json(const LeastCost& least);
 
 }  // namespace gearpod::analysis

@@ -409,7 +409,7 @@ void add_curve(Json& json, double location, double scale, const Eigen::Matrix2d&
 }
 
 Json hit_miss_of(const HitMissPod& pod) {
-    Json json = hit_miss_json(pod);
+    Json json = to_json(pod);
     if (pod.refusal.empty()) {
         const PodCurve& curve = pod.chosen.curve;
         add_curve(json, -curve.intercept / curve.slope, 1.0 / curve.slope, pod.covariance);
@@ -422,7 +422,7 @@ Json hit_miss_of(const HitMissPod& pod) {
 
 Json responses_of(const InspectionResult& result) {
     const SignalResponsePod& pod = result.signal_response;
-    Json json = signal_response_json(pod);
+    Json json = to_json(pod);
     json["threshold"] = number(result.threshold);
     json["censored"] = {pod.left, pod.right};
     json["specimens"] = pod.specimens;
@@ -436,10 +436,10 @@ Json responses_of(const InspectionResult& result) {
     if (result.smooth && result.smooth->refusal().empty()) {
         const SmoothResponse& smooth = *result.smooth;
         json["smooth"] = {
-            {"a50", to_json(smooth.a50())},      {"a90", to_json(smooth.a90())},
-            {"smallest", smooth.smallest()},     {"largest", smooth.largest()},
-            {"scatter_growth", smooth.growth()}, {"correlation", smooth.correlation()},
-            {"band", band_json(smooth.band())},  {"mean", Json::array()}};
+            {"a50", json_of(smooth.a50())},        {"a90", json_of(smooth.a90())},
+            {"smallest", smooth.smallest()},       {"largest", smooth.largest()},
+            {"scatter_growth", smooth.growth()},   {"correlation", smooth.correlation()},
+            {"band", columns_json(smooth.band())}, {"mean", Json::array()}};
         for (const PodPoint& point : smooth.band()) {
             json["smooth"]["mean"].push_back(smooth.mean(point.size));
         }
@@ -474,19 +474,12 @@ Json noise_of(const InspectionRequest& request, const InspectionResult& result) 
 
 nlohmann::json inspection_json(const Inspections& data, const InspectionRequest& request,
                                const InspectionResult& result, const InspectionNames& words) {
-    Json trade_off = Json::array();
-    for (const TradeOffPoint& point : result.trade_off) {
-        trade_off.push_back({{"threshold", point.threshold},
-                             {"false_calls", number(point.false_calls)},
-                             {"a50", to_json(point.a50)},
-                             {"a90", to_json(point.a90)}});
-    }
     const double factor = request.responses ? result.signal_response.specimens_factor
                                             : result.hit_miss.specimens_factor;
     const double more = (factor - 1.0) * static_cast<double>(result.specimens);
     return {{"kind", "inspection"},
             {"table", words.table},
-            {"size", {{"name", words.size.name}, {"unit", words.size.unit}}},
+            {"size", json_of(words.size)},
             {"value", {{"name", words.value}, {"unit", words.unit}}},
             {"confidence", request.confidence},
             {"convention", convention_name(request.convention)},
@@ -498,9 +491,9 @@ nlohmann::json inspection_json(const Inspections& data, const InspectionRequest&
             {"signal_response",
              request.responses && result.refusal.empty() ? responses_of(result) : Json(nullptr)},
             {"false_calls", noise_of(request, result)},
-            {"trade_off", trade_off},
+            {"trade_off", json_of(result.trade_off)},
             {"more_specimens",
-             {{"target", request.target ? Json(*request.target) : Json(nullptr)},
+             {{"target", json_of(request.target)},
               {"factor", number(factor)},
               {"more", std::isfinite(more) ? Json(std::max(0.0, std::ceil(more))) : Json(nullptr)},
               {"all_found", result.all_found}}},

@@ -41,6 +41,12 @@ nlohmann::json a90_maps_json(const Reliability& reliability, const DetectionRequ
 //      "band": {"size", "pod", "lower", "upper"}, "candidates": [...]},
 //    "signal_response": {...}, "auc": {...}, "auc_by_size": [...],
 //    "roc": {"false_alarm_rate", "detection_rate"}, "misses": {...},
+//    "by_false_alarm_rate": {"refusal", "points": [{"false_alarm_rate", "threshold",
+//      "extrapolation": null for an order statistic, "tilted": true if from importance sampling,
+//      "threshold_bounds": [lower, upper] (null: open), "a90"}],
+//      "unfitted": [rates at which no curve fits]},
+//    "least_cost": {"threshold", "extrapolation", "tilted", "false_alarm_rate", "rate_bounds",
+//      "pd", "pd_bounds", "cost", "bounds", "without", "rarest"} or null,
 //    "smallest_fault": as above}]}],
 //  "conditions": [...], "robustness", "a90_maps"}
 // Sizes are in their unit; a50 and a90 are {"estimate", "lower", "upper"}, each {"where", "size"},

@@ -6,6 +6,8 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
+#include "analysis/report/json_values.hpp"
+
 namespace gearpod::analysis {
 namespace {
 
@@ -136,18 +138,6 @@ void add_block(std::string& out, const Table& table, bool& after_table, std::siz
     after_table = true;
 }
 
-nlohmann::json block_json(const Statement& statement) {
-    return {{"key", statement.key}, {"text", statement.text}};
-}
-
-nlohmann::json block_json(const Table& table) {
-    return {{"key", table.key},
-            {"title", table.title},
-            {"columns", table.columns},
-            {"rows", table.rows},
-            {"labels", table.labels}};
-}
-
 }  // namespace
 
 void Section::state(const std::string& statement_key, const std::string& text, bool detail) {
@@ -203,16 +193,7 @@ std::string report_text(const Report& report, std::size_t width) {
 }
 
 nlohmann::json findings_json(const Report& report) {
-    nlohmann::json sections = nlohmann::json::array();
-    for (const Section& section : report.sections) {
-        nlohmann::json blocks = nlohmann::json::array();
-        for (const auto& block : section.blocks) {
-            blocks.push_back(
-                std::visit([](const auto& shown) { return block_json(shown); }, block));
-        }
-        sections.push_back({{"key", section.key}, {"title", section.title}, {"blocks", blocks}});
-    }
-    return sections;
+    return json_of(report.sections);
 }
 
 }  // namespace gearpod::analysis

@@ -7,6 +7,8 @@
 #include <variant>
 #include <vector>
 
+#include "machine/fields.hpp"
+
 namespace gearpod::analysis {
 
 // Width of the reports in columns: 80, or that of a wider terminal. Must be set
@@ -28,6 +30,7 @@ struct Statement {
     std::string text;
     bool detail = false;  // not on the terminal
 };
+GEARPOD_FIELDS(Statement, key, text, detail_)
 
 // Cells hold the text shown; the JSON has the numbers under keys of their own.
 struct Table {
@@ -38,6 +41,7 @@ struct Table {
     bool detail = false;     // not on the terminal
     std::size_t labels = 1;  // first columns, repeated if a wide table is broken
 };
+GEARPOD_FIELDS(Table, key, title, columns, rows, detail_, labels)
 
 struct Section {
     std::string key;
@@ -49,6 +53,7 @@ struct Section {
     // Adds a table, unless it has no rows.
     void add(Table table);
 };
+GEARPOD_FIELDS(Section, key, title, blocks)
 
 struct Report {
     std::vector<Section> sections;

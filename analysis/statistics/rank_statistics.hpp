@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "analysis/statistics/interval.hpp"
+#include "machine/fields.hpp"
 
 namespace gearpod::analysis {
 
@@ -36,6 +37,7 @@ struct Auc {
     long healthy = 0;
     long faulty = 0;
 };
+GEARPOD_FIELDS(Auc, auc, lower_upper, healthy, faulty)
 
 // AUC with an interval on the logit scale (M. S. Pepe, The Statistical Evaluation of Medical Tests
 // (2003), section 5.2), which stays within 0 and 1. An area of exactly 0 or 1 has no variance; its

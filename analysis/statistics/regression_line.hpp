@@ -4,6 +4,8 @@
 #include <span>
 #include <string>
 
+#include "machine/fields.hpp"
+
 namespace gearpod::analysis {
 
 struct RegressionLine {
@@ -28,6 +30,7 @@ struct CheckResult {
     double statistic = 0.0;
     double p_value = 0.0;
 };
+GEARPOD_FIELDS(CheckResult, test, statistic, p_value)
 
 // Lack-of-fit F test against the means of replicated x (N. R. Draper, H. Smith, Applied Regression
 // Analysis (1998), section 2.1). If x is not replicated enough, F test of a quadratic term.

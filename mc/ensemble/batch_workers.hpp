@@ -13,6 +13,7 @@
 #include <thread>
 #include <vector>
 
+#include "machine/fields.hpp"
 #include "mc/ensemble/gearbox/gearbox_tile.hpp"
 #include "mc/ensemble/gearbox/integration_cache.hpp"
 #include "mc/ensemble/gearbox/realization_features.hpp"
@@ -97,6 +98,7 @@ struct FinishedBatch {
     std::string failure;   // error message, or "" on success
     bool stopped = false;  // true if the batch was cancelled and has no rows
 };
+GEARPOD_FIELDS(FinishedBatch, batch, rows, seconds, failure, stopped)
 
 // Times of the threads of one process, summed over the threads.
 struct TeamTimes {

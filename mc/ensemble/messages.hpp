@@ -8,8 +8,10 @@
 #include <cereal/types/vector.hpp>
 #include <sstream>
 #include <string>
+#include <tuple>
 #include <type_traits>
 
+#include "machine/fields.hpp"
 #include "mc/ensemble/batch_workers.hpp"
 #include "mc/ensemble/ranks.hpp"
 
@@ -20,6 +22,13 @@ template <class Archive, class Value>
 requires(std::is_aggregate_v<Value>&& std::is_trivially_copyable_v<Value>) void serialize(
     Archive& archive, Value& value) {
     archive(cereal::binary_data(reinterpret_cast<char*>(&value), sizeof value));
+}
+
+// For all others, by their field tables.
+template <class Archive, HasFields Structure>
+requires(!std::is_trivially_copyable_v<Structure>) void serialize(Archive& archive,
+                                                                  Structure& structure) {
+    std::apply([&](auto&... members) { archive(members...); }, fields_of(structure));
 }
 
 }  // namespace gearpod
@@ -43,18 +52,6 @@ inline void send(const Ranks& ranks, int to, MessageKind what, const std::string
 }
 
 using gearpod::serialize;
-
-// Sends and receives a structure by its members. The structured binding names all of them, so a new
-// one does not compile until it is sent too.
-#define GEARPOD_SEND(TYPE, ...)                         \
-    template <class Archive>                            \
-    void serialize(Archive& archive, TYPE& structure) { \
-        auto& [__VA_ARGS__] = structure;                \
-        archive(__VA_ARGS__);                           \
-    }
-
-GEARPOD_SEND(BatchRows, status, values)
-GEARPOD_SEND(FinishedBatch, batch, rows, seconds, failure, stopped)
 
 template <class... Values>
 std::string bytes_of(const Values&... values) {

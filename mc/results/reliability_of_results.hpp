@@ -7,6 +7,7 @@
 
 #include "analysis/reliability.hpp"
 #include "analysis/report/wording.hpp"
+#include "machine/fields.hpp"
 #include "mc/results/result_rows.hpp"
 
 namespace gearpod::mc {
@@ -27,6 +28,7 @@ struct ResultColumns {
         : parameters(shape.parameters), features(shape.features) {}
     void add(const double* values, const RowShape& shape);
 };
+GEARPOD_FIELDS(ResultColumns, parameters, features, rows)
 
 // Columns that curves, areas and ranking need.
 struct AssessedColumns {
@@ -35,6 +37,7 @@ struct AssessedColumns {
     std::vector<std::size_t> healthy_gearbox;
     std::vector<std::size_t> record_gearbox;  // of `repeats`, or of `healthy` if that is empty
 };
+GEARPOD_FIELDS(AssessedColumns, healthy, test, repeats, healthy_gearbox, record_gearbox)
 
 // Empty if there are more than `most_values` values.
 std::optional<AssessedColumns> assessed_columns(const Results& frame, const RowSource& rows,

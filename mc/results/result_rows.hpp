@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "machine/fields.hpp"
 #include "mc/plan/ensemble_plan.hpp"
 #include "mc/results/results_file.hpp"
 
@@ -21,6 +22,7 @@ struct BatchRows {
 
     std::size_t count() const { return status.size(); }
 };
+GEARPOD_FIELDS(BatchRows, status, values)
 
 // Storage of finished batches by their number.
 class RowStore {

@@ -22,8 +22,8 @@ struct Evaluated {
     Levels levels;
     bool failed = false;
 };
-
-GEARPOD_SEND(Evaluated, machine, levels, failed)
+using gearpod::serialize;
+GEARPOD_FIELDS(Evaluated, machine, levels, failed)
 
 // Evaluates the pairs of rank 0, and receives those of the other machines.
 class AllMachines {
