@@ -16,22 +16,6 @@ namespace gearpod::mc {
 
 using std::numbers::pi;
 
-gears::Member central_member(Member member) {
-    switch (member) {
-        case Member::sun:
-            return gears::Member::sun;
-        case Member::carrier:
-            return gears::Member::carrier;
-        case Member::ring:
-            return gears::Member::ring;
-        case Member::planet:
-        case Member::pinion:
-        case Member::gear:
-            break;
-    }
-    throw std::logic_error("no central member");
-}
-
 gears::PlanetaryTrain planetary_train(const Study& study) {
     const Gearbox& g = study.gearbox;
     return {teeth_of(study, Member::sun).value(), teeth_of(study, Member::planet).value(),
@@ -51,9 +35,9 @@ double phase_of_teeth(const Study& study, const gears::PlanetaryTrain& train,
 
 PlanetaryDrivetrain::PlanetaryDrivetrain(const Study& study)
     : train_(planetary_train(study)),
-      flow_{central_member(study.operation.fixed), central_member(study.operation.input)},
-      speed_of_(central_member(speed_member(study))),
-      torque_on_(central_member(study.operation.torque_on)),
+      flow_{study.operation.fixed, study.operation.input},
+      speed_of_(speed_member(study)),
+      torque_on_(study.operation.torque_on),
       sense_(gears::planet_sense(speeds(1.0))),
       ring_to_sun_phase_(study.gearbox.ring_to_sun_phase ? *study.gearbox.ring_to_sun_phase
                                                          : phase_of_teeth(study, train_, sense_)),
@@ -68,7 +52,7 @@ double PlanetaryDrivetrain::mesh_frequency_rad_s(double speed_rad_s) const {
     return gears::mesh_frequency(train_, speeds(speed_rad_s));
 }
 
-double PlanetaryDrivetrain::turns_per_mesh(gears::Member member) const {
+double PlanetaryDrivetrain::turns_per_mesh(Member member) const {
     const gears::Speeds turning = speeds(1.0);
     return std::abs(gears::speed_of(turning, member)) / gears::mesh_frequency(train_, turning);
 }
@@ -78,7 +62,7 @@ double PlanetaryDrivetrain::input_turns_per_mesh() const {
 }
 
 double PlanetaryDrivetrain::shaft_turns_per_mesh(Member member) const {
-    return turns_per_mesh(central_member(member));
+    return turns_per_mesh(member);
 }
 
 double PlanetaryDrivetrain::frame_turns_per_mesh() const {
@@ -87,28 +71,23 @@ double PlanetaryDrivetrain::frame_turns_per_mesh() const {
 
 int PlanetaryDrivetrain::input_degree_of_freedom(const dynamics::GearboxLayout& layout) const {
     return std::get<dynamics::PlanetaryLayout>(layout).rotation_index(
-        dynamics::body_of(flow_.input));
+        dynamics::body_index(flow_.input));
 }
 
 // Along rigid_rotation the carrier's displacement is 1, or the sun's if the carrier is fixed.
 double PlanetaryDrivetrain::rotation_m_s(const InstanceInputs& instance) const {
     const gears::Speeds turning = speeds(instance.speed_rad_s);
-    return flow_.fixed == gears::Member::carrier ? radius_m_.sun * turning.sun
-                                                 : radius_m_.carrier * turning.carrier;
+    return flow_.fixed == Member::carrier ? radius_m_.sun * turning.sun
+                                          : radius_m_.carrier * turning.carrier;
 }
 
 ShaftDegree PlanetaryDrivetrain::shaft_degree(const dynamics::GearboxLayout& layout,
                                               Member member) const {
     const auto& planetary = std::get<dynamics::PlanetaryLayout>(layout);
-    switch (central_member(member)) {
-        case gears::Member::carrier:
-            return {planetary.rotation_index(dynamics::carrier), radius_m_.carrier};
-        case gears::Member::ring:
-            return {planetary.rotation_index(dynamics::ring), radius_m_.ring};
-        case gears::Member::sun:
-            break;
-    }
-    return {planetary.rotation_index(dynamics::sun), radius_m_.sun};
+    const double radius_m = member == Member::carrier ? radius_m_.carrier
+                            : member == Member::ring  ? radius_m_.ring
+                                                      : radius_m_.sun;
+    return {planetary.rotation_index(dynamics::body_index(member)), radius_m};
 }
 
 void PlanetaryDrivetrain::set(const InstanceInputs& instance,
@@ -123,7 +102,7 @@ void PlanetaryDrivetrain::set(const InstanceInputs& instance,
     out.force_N[dynamics::ring] = torque.ring / radius_m_.ring;
     out.force_N[dynamics::carrier] = torque.carrier / radius_m_.carrier;
     // The support's reaction balances the fixed member.
-    out.force_N[dynamics::body_of(flow_.fixed)] = 0.0;
+    out.force_N[dynamics::body_index(flow_.fixed)] = 0.0;
 }
 
 double PlanetaryDrivetrain::mesh_force_N(const InstanceInputs& instance) const {
@@ -152,7 +131,7 @@ std::vector<double> PlanetaryDrivetrain::te_weight(const dynamics::GearboxLayout
     const auto& planetary = std::get<dynamics::PlanetaryLayout>(layout);
     const gears::CentralMembers rotation = gears::transmission_error_weights(train_, flow_);
     std::vector<double> weight(static_cast<std::size_t>(planetary.degrees_of_freedom()), 0.0);
-    const auto set = [&](dynamics::Body body, double value) {
+    const auto set = [&](int body, double value) {
         weight[static_cast<std::size_t>(planetary.rotation_index(body))] = value;
     };
     set(dynamics::carrier, rotation.carrier / radius_m_.carrier);

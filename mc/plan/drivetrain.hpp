@@ -71,9 +71,8 @@ std::unique_ptr<const Drivetrain> make_drivetrain(const Study& study);
 // Mesh frequency at the nominal speed of its study, with the sign of mesh_frequency_rad_s().
 double nominal_mesh_frequency_Hz(const Study& study, const Drivetrain& drivetrain);
 
-// Planetary train of a study, and conversion of its central members' enumerators.
+// Planetary train of a study.
 gears::PlanetaryTrain planetary_train(const Study& study);
-gears::Member central_member(Member member);
 
 class PlanetaryDrivetrain : public Drivetrain {
   public:
@@ -107,11 +106,11 @@ class PlanetaryDrivetrain : public Drivetrain {
         return gears::signed_speeds(train_, flow_, speed_of_, given);
     }
 
-    double turns_per_mesh(gears::Member member) const;
+    double turns_per_mesh(Member member) const;
 
     gears::PlanetaryTrain train_;
     gears::PowerFlow flow_;
-    gears::Member speed_of_, torque_on_;
+    Member speed_of_, torque_on_;
     gears::PlanetSense sense_;
     double ring_to_sun_phase_;
     gears::CentralMembers radius_m_;  // base circle radii; for the carrier the centre distance

@@ -6,12 +6,11 @@
 namespace gearpod::mc {
 namespace {
 
-using features::Gear;
 using features::SignalSet;
 
 // Signals of folded records.
 constexpr SignalSet kFolded =
-    SignalSet::of<features::TeTurn, features::SensorPower, features::ToothRms<Gear::planet>,
+    SignalSet::of<features::TeTurn, features::SensorPower, features::ToothRms<Member::planet>,
                   features::TeParts, features::HealthyRecords>();
 
 signals::GearTurns central_turns(const signals::SpanLayout& span, int teeth) {
@@ -54,10 +53,10 @@ bool needs_samples(SignalSet needs) {
 
 int FeaturePlan::meshes_needed(SignalSet with_needs) const {
     int meshes = span.meshes();
-    if (with_needs.has<features::ToothRms<Gear::sun>, features::ToothMoments<Gear::sun>>()) {
+    if (with_needs.has<features::ToothRms<Member::sun>, features::ToothMoments<Member::sun>>()) {
         meshes = std::max(meshes, sun->meshes());
     }
-    if (with_needs.has<features::ToothRms<Gear::ring>, features::ToothMoments<Gear::ring>>()) {
+    if (with_needs.has<features::ToothRms<Member::ring>, features::ToothMoments<Member::ring>>()) {
         meshes = std::max(meshes, ring->meshes());
     }
     return meshes;

@@ -21,7 +21,7 @@ dynamics::PlanetaryLayout planetary_layout(const Study& study) {
     result.pressure_angle_rad = g.pressure_angle_rad;
     result.helix_angle_rad = g.helix_angle_rad;
     result.positions_rad = g.planet_positions_rad;
-    result.fixed = central_member(study.operation.fixed);
+    result.fixed = study.operation.fixed;
     result.motion = study.effects.torsional() ? dynamics::Motion::torsional
                                               : dynamics::Motion::translational_torsional;
     result.inertial_terms = study.effects.inertial_terms;
@@ -47,10 +47,10 @@ dynamics::FixedShaftLayout fixed_shaft_layout(const Study& study) {
 }
 
 dynamics::PlanetaryInputs planetary_inputs(const InstanceInputs& in) {
-    constexpr std::pair<dynamics::Body, Member> kBodies[] = {{dynamics::sun, Member::sun},
-                                                             {dynamics::planet, Member::planet},
-                                                             {dynamics::ring, Member::ring},
-                                                             {dynamics::carrier, Member::carrier}};
+    constexpr std::pair<int, Member> kBodies[] = {{dynamics::sun, Member::sun},
+                                                  {dynamics::planet, Member::planet},
+                                                  {dynamics::ring, Member::ring},
+                                                  {dynamics::carrier, Member::carrier}};
     dynamics::PlanetaryInputs out;
     for (const auto& [body, member] : kBodies) {
         const BodyInstance& b = in.bodies[member];

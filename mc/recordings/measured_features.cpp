@@ -21,7 +21,7 @@ namespace gearpod::mc {
 namespace {
 
 using features::Feature;
-using PlanetRms = features::ToothRms<features::Gear::planet>;
+using PlanetRms = features::ToothRms<Member::planet>;
 
 constexpr int kFewestOfParts = 4;  // samples per mesh period that order_spectrum.hpp needs
 
@@ -326,8 +326,8 @@ Measurement measure(const Scene& scene, const MeasuredSignal& signal,
                                 measurement.change ? measurement.change->meshes : 0.0);
     const std::pair<const char*, std::span<const double>> gears[] = {
         {"planet", shown.get<PlanetRms>().rms},
-        {"sun", shown.get<features::ToothRms<features::Gear::sun>>().rms},
-        {"ring", shown.get<features::ToothRms<features::Gear::ring>>().rms}};
+        {"sun", shown.get<features::ToothRms<Member::sun>>().rms},
+        {"ring", shown.get<features::ToothRms<Member::ring>>().rms}};
     for (const auto& [gear, rms] : gears) {
         if (!rms.empty()) {
             measurement.teeth.push_back(worst_tooth(gear, rms));

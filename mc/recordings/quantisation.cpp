@@ -49,7 +49,7 @@ std::string comparison(const char* what, double value, double rounding, const ch
         what, value, unit, rounding, unit);
 }
 
-template <features::Gear kGear>
+template <Member kGear>
 std::string of_teeth(const features::FeatureInput& input, double rounding) {
     const std::span<const double> rms = input.get<features::ToothRms<kGear>>().rms;
     const double middle = features::median({rms.begin(), rms.end()});
@@ -137,21 +137,20 @@ double rounding_rms(std::span<const double> samples) {
 
 std::string rounding_reason(const features::Feature& feature, const features::FeatureInput& input,
                             double rounding) {
-    using features::Gear;
     if (!feature.from_sensor) {
         return "";
     }
     if (feature.needs.has<features::SensorTurn>()) {
         return of_turn(feature, input.get<features::SensorTurn>(), rounding);
     }
-    if (feature.needs.has<features::ToothRms<Gear::planet>, features::WhitenedToothRms>()) {
-        return of_teeth<Gear::planet>(input, rounding);
+    if (feature.needs.has<features::ToothRms<Member::planet>, features::WhitenedToothRms>()) {
+        return of_teeth<Member::planet>(input, rounding);
     }
     if (feature.needs.has<features::SeparatedPlanets>()) {
         return of_planets(input.get<features::SeparatedPlanets>(), rounding);
     }
-    if (feature.needs.has<features::ToothRms<Gear::sun>>()) {
-        return of_teeth<Gear::sun>(input, rounding);
+    if (feature.needs.has<features::ToothRms<Member::sun>>()) {
+        return of_teeth<Member::sun>(input, rounding);
     }
     return "";  // ring teeth are divided by their trend, and have no unit
 }

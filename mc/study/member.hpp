@@ -4,9 +4,11 @@
 #include <array>
 #include <cstddef>
 
+#include "gears/gear.hpp"
+
 namespace gearpod::mc {
 
-enum class Member { sun, planet, ring, carrier, pinion, gear };
+using gears::Member;
 inline constexpr std::array kAllMembers{Member::sun,     Member::planet, Member::ring,
                                         Member::carrier, Member::pinion, Member::gear};
 

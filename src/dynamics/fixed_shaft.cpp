@@ -20,7 +20,7 @@ std::vector<SpringDamper> spring_dampers(const FixedShaftLayout& layout,
     const auto motion = [](int i) -> Eigen::VectorXd {
         return Eigen::VectorXd::Unit(fixed_shaft_motions, i);
     };
-    for (const FixedShaftGear g : {pinion, gear}) {
+    for (const int g : {pinion, gear}) {
         for (const int axis : {0, 1}) {
             springs.push_back({g == pinion ? "the pinion's bearing" : "the gear's bearing",
                                motion(2 * g + axis), inputs.bearing_stiffness_N_m[g],

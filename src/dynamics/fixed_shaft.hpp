@@ -20,7 +20,8 @@ namespace gearpod::dynamics {
 struct GearboxMatrices;
 struct SpringDamper;
 
-enum FixedShaftGear { pinion, gear, fixed_shaft_gear_count };
+// Order of the gears in arrays.
+inline constexpr int pinion = 0, gear = 1, fixed_shaft_gear_count = 2;
 
 // Indices in q.
 enum FixedShaftMotion { x_1, y_1, x_2, y_2, u_m, u_1, u_2, u_b, fixed_shaft_motions };
@@ -29,14 +30,14 @@ enum FixedShaftMotion { x_1, y_1, x_2, y_2, u_m, u_1, u_2, u_b, fixed_shaft_moti
 struct FixedShaftLayout {
     double base_radius_m[fixed_shaft_gear_count] = {};
     MeshDamping mesh_damping = MeshDamping::proportional;
-    FixedShaftGear sensor = pinion;  // gear whose bearing carries the sensor
+    int sensor = pinion;  // gear whose bearing carries the sensor
 
     int pairs() const { return 1; }
     int sources() const { return 1; }
     int degrees_of_freedom() const { return fixed_shaft_motions; }
 };
 
-// Parameters that differ between gearboxes; SI units. Arrays are indexed by FixedShaftGear.
+// Parameters that differ between gearboxes; SI units. Arrays are in the order of the gears.
 // Bearings are equal in x and y. Couplings connect the motor with the pinion, and the gear with the
 // load.
 struct FixedShaftInputs {

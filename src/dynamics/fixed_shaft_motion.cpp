@@ -18,7 +18,7 @@ FixedShaftLanes<W, Real> make_lanes(const FixedShaftLayout& layout,
             lanes.inverse_mass[i][l] = Real(1.0 / m.mass(i, i));
             lanes.force[i][l] = Real(m.force(i));
         }
-        for (const FixedShaftGear g : {pinion, gear}) {
+        for (const int g : {pinion, gear}) {
             const double r2 = layout.base_radius_m[g] * layout.base_radius_m[g];
             lanes.bearing_stiffness[g][l] = Real(in.bearing_stiffness_N_m[g]);
             lanes.bearing_damping[g][l] = Real(in.bearing_damping_N_s_m[g]);

@@ -23,7 +23,7 @@ struct alignas(64) FixedShaftLanes {
     DampingLanes<W, Real> mesh_damping;
     Real mesh_period[W];  // s
     Real backlash[W];     // 2b of the mesh, m
-    int sensor;           // FixedShaftGear
+    int sensor;           // pinion or gear
 };
 
 // `inputs` holds W gearboxes.

@@ -8,6 +8,7 @@
 
 #include "dynamics/gearbox_matrices.hpp"
 #include "dynamics/helical_pair.hpp"
+#include "machine/contracts.hpp"
 
 namespace gearpod::dynamics {
 namespace {
@@ -69,16 +70,10 @@ double PlanetaryLayout::transverse_pressure_angle() const {
     return dynamics::transverse_pressure_angle(pressure_angle_rad, helix_angle_rad);
 }
 
-Body body_of(gears::Member member) {
-    switch (member) {
-        case gears::Member::sun:
-            return sun;
-        case gears::Member::carrier:
-            return carrier;
-        case gears::Member::ring:
-            break;
-    }
-    return ring;
+int body_index(gears::Member member) {
+    EXPECTS(member == gears::Member::sun || member == gears::Member::carrier ||
+            member == gears::Member::ring);
+    return member == gears::Member::sun ? sun : member == gears::Member::carrier ? carrier : ring;
 }
 
 Eigen::VectorXd pair_row(const PlanetaryLayout& layout, int pair) {
@@ -124,7 +119,7 @@ Eigen::MatrixXd motions_from_degrees(const PlanetaryLayout& layout) {
 }
 
 DampingTerms mesh_damping(const PlanetaryLayout& layout, const PlanetaryInputs& inputs, int pair) {
-    const Body gear = pair < layout.planets ? sun : ring;
+    const int gear = pair < layout.planets ? sun : ring;
     return mesh_damping_terms(layout.mesh_damping, inputs.mesh_damping, inputs.mass_kg[gear],
                               inputs.planet_mass_kg(pair % layout.planets));
 }
@@ -141,7 +136,7 @@ std::vector<SpringDamper> spring_dampers(const PlanetaryLayout& layout,
                                inputs.bearing_damping_N_s_m[body]});
         }
     }
-    const Body fixed_member = body_of(layout.fixed);
+    const int fixed_member = body_index(layout.fixed);
     springs.push_back({fmt::format("the {}'s support", kBodyNames[fixed_member]),
                        motion(3 * fixed_member + 2), inputs.support_stiffness_N_m,
                        inputs.support_damping_N_s_m});
@@ -211,7 +206,7 @@ Eigen::VectorXd rigid_rotation(const PlanetaryLayout& layout) {
     // a_r.
     const double cos_s = std::cos(layout.sun_mesh_angle());
     const double cos_r = std::cos(layout.ring_mesh_angle());
-    const Body fixed_member = body_of(layout.fixed);
+    const int fixed_member = body_index(layout.fixed);
     const double u_c = fixed_member == carrier ? 0.0 : 1.0;
     const double u_s = fixed_member == sun ? 0.0 : fixed_member == ring ? cos_s + cos_r : 1.0;
     const double u_n = u_c * cos_s - u_s;

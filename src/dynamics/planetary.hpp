@@ -28,10 +28,11 @@ inline constexpr int kMaxSources = kMaxPlanets + kBearingSources;
 
 enum class Motion { translational_torsional, torsional };
 
-enum Body { carrier, ring, sun, planet, body_count };
+// Order of the bodies in arrays and among the motions.
+inline constexpr int carrier = 0, ring = 1, sun = 2, planet = 3, body_count = 4;
 
 // Index of a body's x motion; y and u follow. n = 0..N-1 for planets.
-GEARPOD_INLINE int motion_index(Body body, int n = 0) {
+GEARPOD_INLINE int motion_index(int body, int n = 0) {
     return 3 * (body + n);
 }
 
@@ -85,7 +86,7 @@ struct PlanetDeviations {
     double pin_x_m = 0.0, pin_y_m = 0.0;
 };
 
-// Parameters that differ between gearboxes; SI units. Arrays are indexed by Body.
+// Parameters that differ between gearboxes; SI units. Arrays are in the order of the bodies.
 struct PlanetaryInputs {
     double mass_kg[body_count] = {};
     double inertia_over_r2_kg[body_count] = {};  // J / r^2, r as for u
@@ -125,7 +126,8 @@ GearboxMatrices assemble(const PlanetaryLayout& layout, const PlanetaryInputs& i
 // Names of the degrees of freedom: carrier_x, carrier_y, carrier_u, ...
 std::vector<std::string> motion_names(const PlanetaryLayout& layout);
 
-Body body_of(gears::Member member);
+// Position of a central member in that order.
+int body_index(gears::Member member);
 
 // Mesh damping of a pair by the layout's law.
 DampingTerms mesh_damping(const PlanetaryLayout& layout, const PlanetaryInputs& inputs, int pair);

@@ -59,7 +59,7 @@ void set_lane(PlanetaryLanes<W, Real>& lanes, int l, const PlanetaryLayout& layo
         lanes.pin_y[n][l] = Real(in.planet_deviations[n].pin_y_m);
     }
     for (int body : {carrier, ring, sun}) {
-        const bool is_fixed = body == body_of(layout.fixed);
+        const bool is_fixed = body == body_index(layout.fixed);
         lanes.support_stiffness[body][l] = Real(is_fixed ? in.support_stiffness_N_m : 0.0);
         lanes.support_damping[body][l] = Real(is_fixed ? in.support_damping_N_s_m : 0.0);
         lanes.force[body][l] = Real(in.force_N[body]);

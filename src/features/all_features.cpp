@@ -20,6 +20,8 @@
 namespace gearpod::features {
 namespace {
 
+using gears::Member;
+
 // Function of a feature as it is called, and the signals in its parameters.
 template <auto kFunction>
 struct Signature;
@@ -51,11 +53,11 @@ constexpr std::array kFeatures{
         "peak-to-peak over the sum of the mesh harmonics' amplitudes; Park (2016), Table II"),
     feature<sensor_rms>("sensor_rms", "overall vibration level", "m/s^2", AlarmSide::high,
                         "rms of the sensor signal over the span"),
-    feature<window_ratio<Gear::planet>>(
+    feature<window_ratio<Member::planet>>(
         "window_ratio", "vibration at the worst tooth over that at the median tooth", "1",
         AlarmSide::high,
         "largest tooth rms over the median tooth rms; after Liang (2016), Fig. 5.8"),
-    feature<window_z<Gear::planet>>(
+    feature<window_z<Member::planet>>(
         "window_z", "vibration at the worst tooth against the scatter of its teeth", "1",
         AlarmSide::high, "worst tooth's rms against the other teeth, robust standard score"),
     feature<te_fm4>(
@@ -100,43 +102,43 @@ constexpr std::array kFeatures{
                                AlarmSide::high,
                                "largest spectral kurtosis of the residual signal in frames of a "
                                "mesh period; Antoni (2006)"),
-    feature<window_kurtosis<Gear::planet>>(
+    feature<window_kurtosis<Member::planet>>(
         "window_kurtosis", "kurtosis at the worst tooth over that at the median tooth", "1",
         AlarmSide::high, "largest planet tooth kurtosis over the median one"),
-    feature<window_crest<Gear::planet>>(
+    feature<window_crest<Member::planet>>(
         "window_crest", "crest factor at the worst tooth over that at the median tooth", "1",
         AlarmSide::high, "largest planet tooth crest factor over the median one"),
-    feature<window_m8a<Gear::planet>>(
+    feature<window_m8a<Member::planet>>(
         "window_m8a", "eighth moment at the worst tooth over that at the median tooth", "1",
         AlarmSide::high, "largest planet tooth M8A over the median one"),
-    feature<window_ratio<Gear::sun>>(
+    feature<window_ratio<Member::sun>>(
         "sun_window_ratio", "vibration at the worst sun tooth over that at the median tooth", "1",
         AlarmSide::high, "largest sun tooth rms over the median one"),
-    feature<window_z<Gear::sun>>(
+    feature<window_z<Member::sun>>(
         "sun_window_z", "vibration at the worst sun tooth against the scatter of its teeth", "1",
         AlarmSide::high, "worst sun tooth's rms against the others, robust standard score"),
-    feature<window_kurtosis<Gear::sun>>(
+    feature<window_kurtosis<Member::sun>>(
         "sun_window_kurtosis", "kurtosis at the worst sun tooth over that at the median tooth", "1",
         AlarmSide::high, "largest sun tooth kurtosis over the median one"),
-    feature<window_crest<Gear::sun>>(
+    feature<window_crest<Member::sun>>(
         "sun_window_crest", "crest factor at the worst sun tooth over that at the median tooth",
         "1", AlarmSide::high, "largest sun tooth crest factor over the median one"),
-    feature<window_m8a<Gear::sun>>(
+    feature<window_m8a<Member::sun>>(
         "sun_window_m8a", "eighth moment at the worst sun tooth over that at the median tooth", "1",
         AlarmSide::high, "largest sun tooth M8A over the median one"),
-    feature<window_ratio<Gear::ring>>(
+    feature<window_ratio<Member::ring>>(
         "ring_window_ratio", "vibration at the worst ring tooth over that at the median tooth", "1",
         AlarmSide::high, "largest ring tooth rms over the median one"),
-    feature<window_z<Gear::ring>>(
+    feature<window_z<Member::ring>>(
         "ring_window_z", "vibration at the worst ring tooth against the scatter of its teeth", "1",
         AlarmSide::high, "worst ring tooth's rms against the others, robust standard score"),
-    feature<window_kurtosis<Gear::ring>>(
+    feature<window_kurtosis<Member::ring>>(
         "ring_window_kurtosis", "kurtosis at the worst ring tooth over that at the median tooth",
         "1", AlarmSide::high, "largest ring tooth kurtosis over the median one"),
-    feature<window_crest<Gear::ring>>(
+    feature<window_crest<Member::ring>>(
         "ring_window_crest", "crest factor at the worst ring tooth over that at the median tooth",
         "1", AlarmSide::high, "largest ring tooth crest factor over the median one"),
-    feature<window_m8a<Gear::ring>>(
+    feature<window_m8a<Member::ring>>(
         "ring_window_m8a", "eighth moment at the worst ring tooth over that at the median tooth",
         "1", AlarmSide::high, "largest ring tooth M8A over the median one"),
     feature<fm0>("fm0", "peak of the averaged vibration over its mesh harmonics", "1",

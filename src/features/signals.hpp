@@ -7,6 +7,8 @@
 #include <type_traits>
 #include <vector>
 
+#include "gears/gear.hpp"
+
 namespace gearpod::features {
 
 // Transmission error averaged over planet turns.
@@ -22,15 +24,13 @@ struct SensorPower {
     double mean_square = 0.0;  // (m/s^2)^2
 };
 
-enum class Gear { planet, sun, ring };
-
 // RMS of the windowed sensor signal of every tooth of a gear, m/s^2, at the best first window.
-template <Gear kGear>
+template <gears::Member kGear>
 struct ToothRms {
     std::span<const double> rms;
 };
 // Other statistics of the same signals: signals/windowing/vibration_separation.hpp.
-template <Gear kGear>
+template <gears::Member kGear>
 struct ToothMoments {
     std::span<const double> kurtosis, crest, m8a;
 };
@@ -75,10 +75,11 @@ struct HealthyRecords {
 };
 
 using AllSignals =
-    std::tuple<TeTurn, SensorPower, ToothRms<Gear::planet>, TeParts, SensorTurn, FilteredSensor,
-               SensorSamples, ToothMoments<Gear::planet>, ToothRms<Gear::sun>,
-               ToothMoments<Gear::sun>, ToothRms<Gear::ring>, ToothMoments<Gear::ring>,
-               HealthyRecords, WhitenedToothRms, SeparatedPlanets>;
+    std::tuple<TeTurn, SensorPower, ToothRms<gears::Member::planet>, TeParts, SensorTurn,
+               FilteredSensor, SensorSamples, ToothMoments<gears::Member::planet>,
+               ToothRms<gears::Member::sun>, ToothMoments<gears::Member::sun>,
+               ToothRms<gears::Member::ring>, ToothMoments<gears::Member::ring>, HealthyRecords,
+               WhitenedToothRms, SeparatedPlanets>;
 
 // Signals of one record. Signals that no requested feature needs are empty.
 struct FeatureInput {
@@ -138,11 +139,12 @@ class SignalSet {
 
 // Signals that every study computes: folded squares and the averaged transmission error.
 inline constexpr SignalSet kBasicSignals =
-    SignalSet::of<TeTurn, SensorPower, ToothRms<Gear::planet>>();
+    SignalSet::of<TeTurn, SensorPower, ToothRms<gears::Member::planet>>();
 
 // Signals of sun, ring and single planets, which only planetary gearboxes have.
 inline constexpr SignalSet kCentralGears =
-    SignalSet::of<ToothRms<Gear::sun>, ToothMoments<Gear::sun>, ToothRms<Gear::ring>,
-                  ToothMoments<Gear::ring>, SeparatedPlanets>();
+    SignalSet::of<ToothRms<gears::Member::sun>, ToothMoments<gears::Member::sun>,
+                  ToothRms<gears::Member::ring>, ToothMoments<gears::Member::ring>,
+                  SeparatedPlanets>();
 
 }  // namespace gearpod::features

@@ -10,6 +10,9 @@
 
 namespace gearpod::gears {
 
+// Members of a planetary train, and the two of a pair on fixed shafts.
+enum class Member { sun, planet, ring, carrier, pinion, gear };
+
 struct Gear {
     int teeth = 0;
     bool internal = false;

@@ -269,15 +269,9 @@ double mesh_frequency(const PlanetaryTrain& train, const Speeds& speeds) {
 }
 
 std::optional<int> meshes_per_carrier_turn(const PlanetaryTrain& train, Member fixed) {
-    switch (fixed) {
-        case Member::ring:
-            return train.ring_teeth;
-        case Member::sun:
-            return train.sun_teeth;
-        case Member::carrier:
-            return std::nullopt;
-    }
-    return std::nullopt;
+    return fixed == Member::ring  ? std::optional(train.ring_teeth)
+           : fixed == Member::sun ? std::optional(train.sun_teeth)
+                                  : std::nullopt;
 }
 
 namespace {

@@ -31,7 +31,6 @@ PlanetPlaces planet_places(const PlanetaryTrain& train);
 // psi_n, rad.
 double planet_angle(const PlanetPlaces& places, int planet);
 
-enum class Member { sun, ring, carrier };
 // Sense of the planets' rotation relative to the carrier. It determines the order in which the
 // planets reach a mesh phase.
 enum class PlanetSense { clockwise, counter_clockwise };

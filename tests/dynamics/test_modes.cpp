@@ -67,7 +67,7 @@ TEST_CASE("Rigid planet bearings reduce the full model's rotations to the torsio
     PlanetaryLayout layout = lin_parker_layout(4);
     PlanetaryInputs stiff = lin_parker_inputs();
     stiff.bearing_stiffness_N_m[planet] = 1e15;
-    for (const Body body : {carrier, ring, sun}) {
+    for (const int body : {carrier, ring, sun}) {
         stiff.bearing_stiffness_N_m[body] = 1e15;
     }
     auto full = frequencies(layout, stiff);

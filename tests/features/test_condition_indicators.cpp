@@ -136,14 +136,14 @@ TEST_CASE("NSDS sums the spectrum above the healthy one") {
 TEST_CASE("Statistics of tooth windows compare the largest value with the median") {
     std::vector<double> even(19, 2.0), odd(19, 2.0);
     odd[3] = 5.0;
-    CHECK(window_ratio(ToothRms<Gear::sun>{odd}) == 2.5);
-    CHECK(window_ratio(ToothRms<Gear::ring>{even}) == 1.0);
-    CHECK(window_z(ToothRms<Gear::planet>{even}) == 0.0);
-    CHECK(window_z(ToothRms<Gear::sun>{odd}) > 1e5);
-    CHECK(window_kurtosis(ToothMoments<Gear::planet>{even, odd, odd}) == 1.0);
-    CHECK(window_kurtosis(ToothMoments<Gear::ring>{odd, even, even}) == 2.5);
-    CHECK(window_crest(ToothMoments<Gear::planet>{even, odd, even}) == 2.5);
-    CHECK(window_m8a(ToothMoments<Gear::sun>{odd, odd, even}) == 1.0);
+    CHECK(window_ratio(ToothRms<gears::Member::sun>{odd}) == 2.5);
+    CHECK(window_ratio(ToothRms<gears::Member::ring>{even}) == 1.0);
+    CHECK(window_z(ToothRms<gears::Member::planet>{even}) == 0.0);
+    CHECK(window_z(ToothRms<gears::Member::sun>{odd}) > 1e5);
+    CHECK(window_kurtosis(ToothMoments<gears::Member::planet>{even, odd, odd}) == 1.0);
+    CHECK(window_kurtosis(ToothMoments<gears::Member::ring>{odd, even, even}) == 2.5);
+    CHECK(window_crest(ToothMoments<gears::Member::planet>{even, odd, even}) == 2.5);
+    CHECK(window_m8a(ToothMoments<gears::Member::sun>{odd, odd, even}) == 1.0);
     CHECK(frms(FilteredSensor{0.25}) == 0.25);
 }
 

@@ -14,7 +14,7 @@ using namespace gearpod::features;
 
 namespace {
 
-ToothRms<Gear::planet> teeth(const std::vector<double>& rms) {
+ToothRms<gears::Member::planet> teeth(const std::vector<double>& rms) {
     return {rms};
 }
 

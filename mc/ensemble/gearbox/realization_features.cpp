@@ -76,7 +76,7 @@ void PythonFeatures::add_record(const char* kind, const InstanceInputs& inputs,
     };
     add_signal("sensor", input.get<features::SensorSamples>().samples);
     add_signal("te", input.get<features::TeTurn>().turn);
-    add_signal("tooth_rms", input.get<features::ToothRms<features::Gear::planet>>().rms);
+    add_signal("tooth_rms", input.get<features::ToothRms<Member::planet>>().rms);
     if (request_->levels.size() == 1) {
         request_->records.push_back({kind, properties(scene_, inputs), std::move(arrays)});
     }
@@ -341,7 +341,7 @@ std::vector<double> RealizationFeatures::compute(const LaneSignals& gearbox,
             };
             signals->push_back(
                 {from_first_tooth(input.get<features::TeTurn>().turn, scene_.te_samples_per_mesh()),
-                 from_first_tooth(input.get<features::ToothRms<features::Gear::planet>>().rms, 1)});
+                 from_first_tooth(input.get<features::ToothRms<Member::planet>>().rms, 1)});
         }
         for (std::size_t f = 0; f < features_.size(); ++f) {
             if (!features_[f]->external) {

@@ -247,7 +247,7 @@ void RealizationSignals::sensor_features(double noise, features::FeatureInput& i
     }
     const double folded_noise = clips ? 0.0 : noise;  // of squares that do not contain it
     const int offset = windowing_.search(folded_noise, tooth_rms_);
-    input.get<features::ToothRms<features::Gear::planet>>() = {tooth_rms_};
+    input.get<features::ToothRms<Member::planet>>() = {tooth_rms_};
     input.get<features::SensorPower>() = {windowing_.mean_square(folded_noise)};
     if (needs_samples_) {
         analysis_.sensor(samples_, span_.ring_teeth, offset, input);

@@ -9,8 +9,6 @@
 namespace gearpod::mc {
 namespace {
 
-using features::Gear;
-
 features::SeparatedTurn views(std::span<const double> turn, const signals::MeshSeparation& parts,
                               int mesh_order) {
     return {turn,
@@ -79,10 +77,10 @@ void SpanAnalysis::sensor(std::span<const double> samples, int planet_turns, int
         input.get<features::FilteredSensor>().rms =
             span.size() < path ? std::nan("") : signals::rms_without_average(span, path);
     }
-    if (needs_.has<features::ToothMoments<Gear::planet>>()) {
+    if (needs_.has<features::ToothMoments<Member::planet>>()) {
         planet_ = signals::tooth_statistics(span, planet, window_, planet_offset);
-        input.get<features::ToothMoments<Gear::planet>>() = {planet_.kurtosis, planet_.crest,
-                                                             planet_.m8a};
+        input.get<features::ToothMoments<Member::planet>>() = {planet_.kurtosis, planet_.crest,
+                                                               planet_.m8a};
     }
     if (needs_.has<features::WhitenedToothRms>()) {
         whitened_teeth(span, planet, input);
@@ -90,8 +88,8 @@ void SpanAnalysis::sensor(std::span<const double> samples, int planet_turns, int
     if (needs_.has<features::SeparatedPlanets>()) {
         separated_planets(span, input);
     }
-    central_teeth<Gear::sun>(samples, scene_.features().sun, sun_, input);
-    central_teeth<Gear::ring>(samples, scene_.features().ring, ring_, input);
+    central_teeth<Member::sun>(samples, scene_.features().sun, sun_, input);
+    central_teeth<Member::ring>(samples, scene_.features().ring, ring_, input);
 }
 
 void SpanAnalysis::whitened_teeth(std::span<const double> span, const signals::GearTurns& planet,
@@ -122,7 +120,7 @@ void SpanAnalysis::separated_planets(std::span<const double> span, features::Fea
 
 // The teeth of a fixed gear have constant positions along the path; their statistics are freed of
 // its trend.
-template <Gear kGear>
+template <Member kGear>
 void SpanAnalysis::central_teeth(std::span<const double> samples,
                                  const std::optional<signals::GearTurns>& gear_turns,
                                  signals::ToothStatistics& statistics,

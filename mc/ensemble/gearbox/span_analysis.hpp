@@ -33,7 +33,7 @@ class SpanAnalysis {
 
   private:
     // Adds the statistics of the teeth of a central gear if they are needed.
-    template <features::Gear kGear>
+    template <Member kGear>
     void central_teeth(std::span<const double> samples,
                        const std::optional<signals::GearTurns>& gear_turns,
                        signals::ToothStatistics& statistics, features::FeatureInput& input);

@@ -41,12 +41,11 @@ std::string rpm_text(double rad_s) {
 void print_planetary_members(const Study& study) {
     const gears::PlanetaryTrain train = planetary_train(study);
     const InstanceInputs nominal = nominal_inputs(study);
-    const gears::PowerFlow flow{central_member(study.operation.fixed),
-                                central_member(study.operation.input)};
+    const gears::PowerFlow flow{study.operation.fixed, study.operation.input};
     const gears::Speeds turning =
-        gears::signed_speeds(train, flow, central_member(speed_member(study)), nominal.speed_rad_s);
-    const gears::CentralMembers torque = gears::balanced_torques(
-        train, central_member(study.operation.torque_on), nominal.torque_N_m);
+        gears::signed_speeds(train, flow, speed_member(study), nominal.speed_rad_s);
+    const gears::CentralMembers torque =
+        gears::balanced_torques(train, study.operation.torque_on, nominal.torque_N_m);
     const double sense = gears::speed_of(turning, flow.input) < 0.0 ? -1.0 : 1.0;
     const auto print = [&](Member member, double speed, double load) {
         const bool held = member == study.operation.fixed;

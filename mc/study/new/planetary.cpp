@@ -236,8 +236,8 @@ DerivedGearbox derive(const Study& study, const PlanetaryDatasheet& data, const 
     const gears::PlanetaryTrain train{data.sun, data.planet, *teeth_of(study, Member::ring),
                                       data.planets};
     const bool by_carrier = data.input == "carrier";
-    const gears::Member input = by_carrier ? gears::Member::carrier : gears::Member::sun;
-    const gears::PowerFlow flow{gears::Member::ring, input};
+    const Member input = by_carrier ? Member::carrier : Member::sun;
+    const gears::PowerFlow flow{Member::ring, input};
     d.torques = gears::balanced_torques(train, input, load.torque_N_m);
     d.mesh_frequency_Hz = gears::mesh_frequency(
         train, gears::signed_speeds(train, flow, input, load.speed_rpm / 60.0));

@@ -29,7 +29,7 @@ Gearbox<double> gearbox_of(const Task& task, int gearbox) {
     for (int b = 0; b < 3; ++b) {
         g.force[b] = in.force_N[b];
     }
-    const int held = dynamics::body_of(layout.fixed);
+    const int held = dynamics::body_index(layout.fixed);
     g.support_stiffness[held] = in.support_stiffness_N_m;
     g.support_damping[held] = in.support_damping_N_s_m;
     g.speed = in.carrier_speed_rad_s;
