@@ -174,7 +174,7 @@ std::vector<GivenInput> given_at(std::span<const CalibratedInput> inputs,
                                  std::span<const double> unit) {
     std::vector<GivenInput> given;
     for (std::size_t p = 0; p < inputs.size(); ++p) {
-        given.push_back({inputs[p].key, inputs[p].at(unit[p]) * inputs[p].to_si});
+        given.push_back({input_id(inputs[p].key), inputs[p].at(unit[p]) * inputs[p].to_si});
     }
     return given;
 }

@@ -1,18 +1,47 @@
 #include "mc/plan/instance_inputs.hpp"
 
-#include <algorithm>
-#include <array>
 #include <cmath>
-#include <functional>
 #include <limits>
+#include <map>
 #include <numbers>
-#include <optional>
+#include <string>
+#include <variant>
 
 #include "mc/study/faults/fault_kind.hpp"
 #include "mc/study/gears.hpp"
-#include "mc/study/noise.hpp"
+#include "mc/study/schema/schema.hpp"
 
 namespace gearpod::mc {
+namespace {
+
+std::optional<InputId> find_input_id(std::string_view key) {
+    static const std::map<std::string, InputId, std::less<>> ids = [] {
+        std::map<std::string, InputId, std::less<>> all;
+        for (const Key& known : schema()) {
+            if (known.may_be_random()) {
+                all.emplace(known.path(), InputId{all.size()});
+            }
+        }
+        return all;
+    }();
+    const auto found = ids.find(key);
+    return found == ids.end() ? std::nullopt : std::optional(found->second);
+}
+
+}  // namespace
+
+InputId input_id(std::string_view key) {
+    return find_input_id(key).value();
+}
+
+InputValues::InputValues(const Study& study) {
+    for (const Key& key : schema()) {
+        if (key.may_be_random()) {
+            values_.push_back(std::get<NumberAccess>(key.access).get(study));
+        }
+    }
+}
+
 namespace {
 
 double angle_of(const Gearbox& gearbox, std::size_t planet) {
@@ -32,8 +61,7 @@ double of_planet(const std::vector<double>& list, std::size_t planet, double oth
     return planet < list.size() ? list[planet] : otherwise;
 }
 
-}  // namespace
-
+// Planets as given in the study; identical if nothing is given.
 Planets given_planets(const Study& study) {
     const PlanetDifferences& given = study.planets;
     Planets planets;
@@ -49,129 +77,186 @@ Planets given_planets(const Study& study) {
     return planets;
 }
 
-void add_random_planets(const InputValues& values, std::function<double()> normal,
-                        std::function<double()> normal_of_pins, Planets& planets) {
-    const Study& study = values.study();
-    const PlanetDifferences& drawn = study.planets;
-    const double tangential_m = values.of(drawn.pin_tangential_rms_m),
-                 radial_m = values.of(drawn.pin_radial_rms_m),
-                 stiffness = values.of(drawn.bearing_stiffness_scatter),
-                 damping = values.of(drawn.bearing_damping_scatter),
-                 mass = values.of(drawn.mass_scatter);
-    for (std::size_t n = 0; n < static_cast<std::size_t>(study.gearbox.planets); ++n) {
-        std::array<double, 5> own{}, of_pins{};
-        std::ranges::generate(own, std::ref(normal));
-        std::ranges::generate(of_pins, std::ref(normal_of_pins));
-        move_pin(angle_of(study.gearbox, n), tangential_m * of_pins[0], radial_m * of_pins[1],
-                 planets[n]);
-        planets[n].bearing_stiffness *= std::exp(stiffness * own[2]);
-        planets[n].bearing_damping *= std::exp(damping * own[3]);
-        planets[n].mass *= std::exp(mass * own[4]);
+InputsRecipe::Body body_recipe(const Study& study, Member member) {
+    const auto id = [&](const char* name) {
+        return find_input_id("gearbox." + std::string(member_name(member)) + name);
+    };
+    InputsRecipe::Body body{id("_mass_kg"),
+                            id("_inertia_kg_m2"),
+                            id("_inertia_over_r2_kg"),
+                            id("_bearing_stiffness_N_m"),
+                            id("_bearing_damping_N_s_m"),
+                            id("_quality")};
+    if (study.gearbox.kind == GearboxKind::fixed_shaft) {
+        body.radius_m = has_toothed_member(study.gearbox.kind, member)
+                            ? gear_of(study, member).pitch_radius()
+                            : 0.0;
+        return body;
     }
-}
-
-namespace {
-
-// J / r^2 from the given J / r^2 or J, else from the mass of a solid disc. For a disc with the
-// pitch radius r_p, J = m r_p^2 / 2, and r_p = r_b / cos a.
-double over_r2(const std::optional<double>& inertia_over_r2, const std::optional<double>& inertia,
-               double radius_m, double disc_over_r2) {
-    if (inertia_over_r2) {
-        return *inertia_over_r2;
-    }
-    return inertia ? *inertia / (radius_m * radius_m) : disc_over_r2;
-}
-
-void resolve_inertias(const InputValues& values, MemberArray<BodyInstance>& bodies) {
-    const Study& study = values.study();
-    const bool gears = has_gears(study);
+    // For a disc with the pitch radius r_p, J = m r_p^2 / 2, and r_p = r_b / cos a.
     const double cosine = std::cos(transverse_pressure_angle_rad(study.gearbox));
-    const auto resolve = [&](Member member, double radius_m, double disc) {
-        const MemberValues& given = study.gearbox.bodies[member];
-        bodies[member].inertia_over_r2_kg =
-            over_r2(values.of(given.inertia_over_r2_kg), values.of(given.inertia_kg_m2), radius_m,
-                    disc * bodies[member].mass_kg);
-    };
-    for (const Member member : {Member::sun, Member::planet, Member::ring}) {
-        resolve(member, gears ? gear_of(study, member).base_radius() : 0.0,
-                0.5 / (cosine * cosine));
+    body.disc_over_r2 = member == Member::carrier ? 0.5 : 0.5 / (cosine * cosine);
+    if (has_gears(study)) {
+        body.radius_m = member == Member::carrier ? centre_distance_m(study)
+                        : has_toothed_member(study.gearbox.kind, member)
+                            ? gear_of(study, member).base_radius()
+                            : 0.0;
     }
-    resolve(Member::carrier, gears ? centre_distance_m(study) : 0.0, 0.5);
+    return body;
 }
 
-// Tooth deviations relative to grade 5: a factor of sqrt(2) for each grade.
-double tooth_scale(const InputValues& values, Member member) {
-    const std::optional<double> own = values.of(values.study().gearbox.bodies[member].quality);
-    const std::optional<double> grade = own ? own : values.of(values.study().errors.tooth_quality);
-    return grade ? std::pow(2.0, 0.5 * (*grade - 5.0)) : 0.0;
-}
+// Inputs of one gearbox as they are computed from its values.
+class Computation {
+  public:
+    Computation(const InputsRecipe& recipe, const InputValues& values)
+        : recipe_(recipe), values_(values) {}
 
-// Moment of inertia, by default that of a disc with the pitch radius: I = m R_p^2 / 2 (Tian, Table
-// 4.1).
-double inertia_or_disc(const std::optional<double>& inertia, double mass_kg, double radius_m) {
-    return inertia.value_or(0.5 * mass_kg * radius_m * radius_m);
-}
-
-void resolve_fixed_shaft(const InputValues& values, InstanceInputs& inputs) {
-    const Study& study = values.study();
-    for (const Member member : {Member::pinion, Member::gear}) {
-        BodyInstance& body = inputs.bodies[member];
-        body.inertia_kg_m2 = inertia_or_disc(values.of(study.gearbox.bodies[member].inertia_kg_m2),
-                                             body.mass_kg, gear_of(study, member).pitch_radius());
-    }
-    const FixedShaft& f = study.fixed_shaft;
-    FixedShaftInstance& out = inputs.fixed_shaft;
-    out.motor_inertia_kg_m2 = values.of(f.motor_inertia_kg_m2).value_or(0.0);
-    out.load_inertia_kg_m2 = values.of(f.load_inertia_kg_m2).value_or(0.0);
-    out.motor_coupling_stiffness_N_m_rad = values.of(f.motor_coupling_stiffness_N_m_rad);
-    out.load_coupling_stiffness_N_m_rad = values.of(f.load_coupling_stiffness_N_m_rad);
-    out.motor_coupling_damping_N_m_s_rad = values.of(f.motor_coupling_damping_N_m_s_rad);
-    out.load_coupling_damping_N_m_s_rad = values.of(f.load_coupling_damping_N_m_s_rad);
-    const double ratio =
-        static_cast<double>(*teeth_of(study, Member::gear)) / *teeth_of(study, Member::pinion);
-    out.load_torque_N_m = values.of(study.operation.load_torque_N_m)
-                              .value_or(values.of(study.operation.torque_N_m) * ratio);
-}
-
-dynamics::DampingParameters mesh_damping(const InputValues& values) {
-    dynamics::DampingParameters all{};
-    const Study& study = values.study();
-    std::ranges::transform(
-        study.gearbox.mesh_damping[study.effects.mesh_damping], all.begin(),
-        [&](const std::optional<double>& one) { return values.of(one).value_or(0.0); });
-    return all;
-}
-
-FluctuationInstance fluctuations(const InputValues& values) {
-    const Fluctuations& f = values.study().fluctuations;
-    const auto or_0 = [&](const std::optional<double>& number) {
-        return values.of(number).value_or(0.0);
-    };
-    return {or_0(f.torque),
-            or_0(f.torque_order),
-            or_0(f.torque_Hz),
-            values.of(f.torque_phase_rad),
-            or_0(f.torque_noise),
-            or_0(f.torque_noise_Hz),
-            or_0(f.speed),
-            or_0(f.speed_order),
-            values.of(f.speed_phase_rad),
-            or_0(f.speed_noise),
-            or_0(f.speed_noise_Hz)};
-}
-
-double speed(const InputValues& values) {
-    const Operation& o = values.study().operation;
-    for (const std::optional<double>* given :
-         {&o.pinion_speed_rad_s, &o.sun_speed_rad_s, &o.ring_speed_rad_s, &o.carrier_speed_rad_s}) {
-        if (const std::optional<double> value = values.of(*given)) {
-            return *value;
+    InstanceInputs inputs() const {
+        InstanceInputs inputs{};
+        for (const Member member : kAllMembers) {
+            inputs.bodies[member] = body(recipe_.bodies[member]);
         }
+        if (recipe_.gear_ratio) {
+            inputs.fixed_shaft = fixed_shaft(*recipe_.gear_ratio);
+        }
+        inputs.backlash_m = values_.or_0<"gearbox.backlash_mm">();
+        inputs.pitch_error_m = values_.or_0<"gearbox.pitch_error_um">();
+        inputs.index_wave_m = values_.or_0<"gearbox.index_wave_um">();
+        inputs.eccentricity_m = values_.or_0<"gearbox.eccentricity_um">();
+        inputs.profile_slope_m = values_.or_0<"gearbox.profile_slope_um">();
+        inputs.planets = recipe_.planets;
+        inputs.support_stiffness_N_m = values_.or_0<"gearbox.support_stiffness_N_m">();
+        inputs.support_damping_N_s_m = values_.or_0<"gearbox.support_damping_N_s_m">();
+        for (std::size_t p = 0; p < recipe_.mesh_damping.size(); ++p) {
+            inputs.mesh_damping[p] = values_[recipe_.mesh_damping[p]].value_or(0.0);
+        }
+        inputs.torque_N_m = values_.or_0<"operation.torque_N_m">();
+        inputs.speed_rad_s = speed_rad_s();
+        inputs.fluctuations = fluctuations();
+        // A fixed-shaft gearbox has no transmission path weighting.
+        inputs.path_exponent = recipe_.gear_ratio ? 0.0 : values_.or_0<"sensor.path_exponent">();
+        inputs.gain = values_.or_0<"sensor.gain">();
+        inputs.tone_level = values_.or_0<"sensor.tone_level">();
+        inputs.bearing_level = values_.or_0<"sensor.bearing_level">();
+        inputs.housing_frequency_factor = values_.or_0<"sensor.housing_frequency_factor">();
+        const SensorNoise noise =
+            sensor_noise(recipe_.noise, {values_.get<"sensor.noise_density_m_s2_per_sqrt_Hz">(),
+                                         values_.or_0<"sensor.noise_m_s2">(),
+                                         values_.or_0<"sensor.background_level">()});
+        inputs.noise_m_s2 = noise.all_m_s2;
+        inputs.white_noise_m_s2 = noise.white_m_s2;
+        inputs.background_noise_m_s2 = noise.background_m_s2;
+        inputs.low_pass_Hz = recipe_.noise.low_pass_Hz;
+        inputs.own_sampling_Hz = 0.0;
+        inputs.range_m_s2 = recipe_.range_m_s2;
+        inputs.encoder_noise_rad = values_.or_0<"sensor.encoder_noise_arcsec">();
+        inputs.fault_size = value(recipe_.fault_size).value_or(0.0);
+        inputs.paris_factor = values_.or_0<"life.paris_factor">();
+        inputs.paris_exponent = values_.or_0<"life.paris_exponent">();
+        inputs.curve_pace = values_.get<"life.curve_pace">().value_or(1.0);
+        return inputs;
     }
-    return 0.0;
-}
+
+  private:
+    std::optional<double> value(std::optional<InputId> id) const {
+        return id ? values_[*id] : std::nullopt;
+    }
+
+    // Masses are optional for a quasi-static gearbox, bearings for a torsional one.
+    BodyInstance body(const InputsRecipe::Body& recipe) const {
+        BodyInstance body{value(recipe.mass).value_or(0.0),
+                          0.0,
+                          0.0,
+                          value(recipe.bearing_stiffness).value_or(0.0),
+                          value(recipe.bearing_damping).value_or(0.0),
+                          tooth_scale(recipe)};
+        const std::optional<double> inertia = value(recipe.inertia);
+        const double radius_m = recipe.radius_m;
+        if (!recipe_.gear_ratio) {
+            const std::optional<double> over_r2 = value(recipe.inertia_over_r2);
+            body.inertia_over_r2_kg = over_r2   ? *over_r2
+                                      : inertia ? *inertia / (radius_m * radius_m)
+                                                : recipe.disc_over_r2 * body.mass_kg;
+        } else {
+            // By default that of a disc with the pitch radius: I = m R_p^2 / 2 (Tian, Table 4.1).
+            body.inertia_kg_m2 = inertia.value_or(0.5 * body.mass_kg * radius_m * radius_m);
+        }
+        return body;
+    }
+
+    // Tooth deviations relative to grade 5: a factor of sqrt(2) for each grade.
+    double tooth_scale(const InputsRecipe::Body& recipe) const {
+        const std::optional<double> of_body = value(recipe.quality);
+        const std::optional<double> grade =
+            of_body ? of_body : values_.get<"gearbox.tooth_quality">();
+        return grade ? std::pow(2.0, 0.5 * (*grade - 5.0)) : 0.0;
+    }
+
+    FixedShaftInstance fixed_shaft(double gear_ratio) const {
+        return {values_.or_0<"gearbox.motor_inertia_kg_m2">(),
+                values_.or_0<"gearbox.load_inertia_kg_m2">(),
+                values_.or_0<"gearbox.motor_coupling_stiffness_N_m_rad">(),
+                values_.or_0<"gearbox.load_coupling_stiffness_N_m_rad">(),
+                values_.or_0<"gearbox.motor_coupling_damping_N_m_s_rad">(),
+                values_.or_0<"gearbox.load_coupling_damping_N_m_s_rad">(),
+                values_.get<"operation.load_torque_N_m">().value_or(
+                    values_.or_0<"operation.torque_N_m">() * gear_ratio)};
+    }
+
+    FluctuationInstance fluctuations() const {
+        return {values_.or_0<"operation.torque_fluctuation">(),
+                values_.or_0<"operation.torque_fluctuation_order">(),
+                values_.or_0<"operation.torque_fluctuation_Hz">(),
+                values_.or_0<"operation.torque_fluctuation_phase_deg">(),
+                values_.or_0<"operation.torque_noise">(),
+                values_.or_0<"operation.torque_noise_band_Hz">(),
+                values_.or_0<"operation.speed_fluctuation">(),
+                values_.or_0<"operation.speed_fluctuation_order">(),
+                values_.or_0<"operation.speed_fluctuation_phase_deg">(),
+                values_.or_0<"operation.speed_noise">(),
+                values_.or_0<"operation.speed_noise_band_Hz">()};
+    }
+
+    // Speed of speed_member().
+    double speed_rad_s() const {
+        for (const std::optional<double> given :
+             {values_.get<"operation.pinion_speed_rpm">(), values_.get<"operation.sun_speed_rpm">(),
+              values_.get<"operation.ring_speed_rpm">(),
+              values_.get<"operation.carrier_speed_rpm">()}) {
+            if (given) {
+                return *given;
+            }
+        }
+        return 0.0;
+    }
+
+    const InputsRecipe& recipe_;
+    const InputValues& values_;
+};
 
 }  // namespace
+
+InputsRecipe::InputsRecipe(const Study& study)
+    : nominal(study),
+      planets(given_planets(study)),
+      noise(noise_model(study)),
+      range_m_s2(study.sensor.range_m_s2.value_or(std::numeric_limits<double>::infinity())) {
+    for (const Member member : kAllMembers) {
+        bodies[member] = body_recipe(study, member);
+    }
+    if (study.gearbox.kind == GearboxKind::fixed_shaft) {
+        gear_ratio =
+            static_cast<double>(*teeth_of(study, Member::gear)) / *teeth_of(study, Member::pinion);
+    }
+    dynamics::with_mesh_damping(study.effects.mesh_damping, [&](const auto& law) {
+        for (const dynamics::DampingParameter& parameter : law.kParameters) {
+            mesh_damping.push_back(input_id("gearbox." + std::string(parameter.key)));
+        }
+    });
+    if (study.fault.kind != nullptr) {
+        fault_size = input_id("fault." + std::string(study.fault.kind->size().name));
+    }
+}
 
 Member speed_member(const Study& study) {
     return study.operation.pinion_speed_rad_s ? Member::pinion
@@ -180,65 +265,39 @@ Member speed_member(const Study& study) {
                                               : Member::carrier;
 }
 
-InstanceInputs instance_inputs(const InputValues& values) {
-    const Study& study = values.study();
-    const Gearbox& g = study.gearbox;
-    InstanceInputs inputs{};
-    for (const Member member : kAllMembers) {
-        const MemberValues& given = g.bodies[member];
-        // Masses are optional for a quasi-static gearbox, bearings for a torsional one.
-        inputs.bodies[member] = {values.of(given.mass_kg).value_or(0.0),
-                                 0.0,
-                                 0.0,
-                                 values.of(given.bearing_stiffness_N_m).value_or(0.0),
-                                 values.of(given.bearing_damping_N_s_m),
-                                 tooth_scale(values, member)};
-    }
-    if (g.kind == GearboxKind::fixed_shaft) {
-        resolve_fixed_shaft(values, inputs);
-    } else {
-        resolve_inertias(values, inputs.bodies);
-    }
-    inputs.backlash_m = values.of(g.backlash_m).value_or(0.0);
-    inputs.pitch_error_m = values.of(study.errors.pitch_error_m);
-    inputs.index_wave_m = values.of(study.errors.index_wave_m);
-    inputs.eccentricity_m = values.of(study.errors.eccentricity_m);
-    inputs.profile_slope_m = values.of(study.errors.profile_slope_m);
-    inputs.planets = given_planets(study);
-    inputs.support_stiffness_N_m = values.of(g.support_stiffness_N_m);
-    inputs.support_damping_N_s_m = values.of(g.support_damping_N_s_m);
-    inputs.mesh_damping = mesh_damping(values);
-    inputs.torque_N_m = values.of(study.operation.torque_N_m);
-    inputs.speed_rad_s = speed(values);
-    inputs.fluctuations = fluctuations(values);
-    // A fixed-shaft gearbox has no transmission path weighting.
-    inputs.path_exponent =
-        g.kind == GearboxKind::fixed_shaft ? 0.0 : values.of(study.sensor.path_exponent);
-    inputs.gain = values.of(study.sensor.gain);
-    inputs.tone_level = values.of(study.sensor.tone_level);
-    inputs.bearing_level = values.of(study.sensor.bearing_level);
-    inputs.housing_frequency_factor = values.of(study.sensor.housing_frequency_factor);
-    const SensorNoise noise = sensor_noise(
-        study, {values.of(study.sensor.noise_density_m_s2_per_sqrt_Hz),
-                values.of(study.sensor.noise_m_s2), values.of(study.sensor.background_level)});
-    inputs.noise_m_s2 = noise.all_m_s2;
-    inputs.white_noise_m_s2 = noise.white_m_s2;
-    inputs.background_noise_m_s2 = noise.background_m_s2;
-    inputs.low_pass_Hz = study.sensor.low_pass_Hz;
-    inputs.own_sampling_Hz = 0.0;
-    inputs.range_m_s2 = study.sensor.range_m_s2.value_or(std::numeric_limits<double>::infinity());
-    inputs.encoder_noise_rad = values.of(study.sensor.encoder_noise_rad);
-    inputs.fault_size = study.fault.kind == nullptr
-                            ? 0.0
-                            : values.of(study.fault.kind->size().access).value_or(0.0);
-    inputs.paris_factor = values.of(study.life.paris_factor).value_or(0.0);
-    inputs.paris_exponent = values.of(study.life.paris_exponent).value_or(0.0);
-    inputs.curve_pace = values.of(study.life.curve_pace).value_or(1.0);
-    return inputs;
+InstanceInputs instance_inputs(const InputsRecipe& recipe, const InputValues& values) {
+    return Computation(recipe, values).inputs();
 }
 
 InstanceInputs nominal_inputs(const Study& study) {
-    return instance_inputs(InputValues(study));
+    const InputsRecipe recipe(study);
+    return instance_inputs(recipe, recipe.nominal);
+}
+
+PlanetScatter::PlanetScatter(const Gearbox& gearbox, DrawnPer pins) : pins(pins) {
+    for (std::size_t n = 0; n < static_cast<std::size_t>(gearbox.planets); ++n) {
+        angles_rad.push_back(angle_of(gearbox, n));
+    }
+}
+
+void add_random_planets(const PlanetScatter& scatter, const InputValues& values,
+                        std::function<double()> normal, std::function<double()> normal_of_pins,
+                        Planets& planets) {
+    const double tangential_m = values.or_0<"gearbox.pin_tangential_rms_um">(),
+                 radial_m = values.or_0<"gearbox.pin_radial_rms_um">(),
+                 stiffness = values.or_0<"gearbox.planet_bearing_stiffness_scatter">(),
+                 damping = values.or_0<"gearbox.planet_bearing_damping_scatter">(),
+                 mass = values.or_0<"gearbox.planet_mass_scatter">();
+    for (std::size_t n = 0; n < scatter.angles_rad.size(); ++n) {
+        std::array<double, 5> of_bodies{}, of_pins{};
+        std::ranges::generate(of_bodies, std::ref(normal));
+        std::ranges::generate(of_pins, std::ref(normal_of_pins));
+        move_pin(scatter.angles_rad[n], tangential_m * of_pins[0], radial_m * of_pins[1],
+                 planets[n]);
+        planets[n].bearing_stiffness *= std::exp(stiffness * of_bodies[2]);
+        planets[n].bearing_damping *= std::exp(damping * of_bodies[3]);
+        planets[n].mass *= std::exp(mass * of_bodies[4]);
+    }
 }
 
 }  // namespace gearpod::mc

@@ -1,74 +1,61 @@
-// Values of a study's numbers for one gearbox: drawn where they are random, else nominal.
+// Inputs of one gearbox, and how they follow from the numbers of a study: drawn where these are
+// random, else nominal.
 #pragma once
 
+#include <algorithm>
 #include <array>
+#include <cstddef>
 #include <functional>
 #include <optional>
-#include <utility>
+#include <string_view>
 #include <vector>
 
 #include "dynamics/planetary.hpp"
-#include "mc/study/keys/key.hpp"
 #include "mc/study/noise.hpp"
 #include "mc/study/study.hpp"
 
 namespace gearpod::mc {
 
+// Number that may differ between the gearboxes of a study: index among the keys that may be random,
+// in the order of the schema.
+enum class InputId : std::size_t {};
+// Precondition: the key "section.name" exists and may be random.
+InputId input_id(std::string_view key);
+
+// Text of a key as a template argument.
+template <std::size_t kLength>
+struct KeyText {
+    char text[kLength];
+    constexpr KeyText(const char (&key)[kLength]) { std::copy_n(key, kLength, text); }
+};
+
+// Values of all these numbers for one gearbox, SI; empty for those that are not given.
 class InputValues {
   public:
-    // The study must outlive the object.
-    explicit InputValues(const Study& study) : study_(study) {}
+    // The nominal values of a study.
+    explicit InputValues(const Study& study);
 
-    const Study& study() const { return study_; }
-
-    // Replaces the number of study() that is stored at `place` (NumberAccess::place), SI.
-    void set(const void* place, double value) { values_.emplace_back(place, value); }
-
-    // Value of a number, which must be a member of study(), not a copy.
-    double of(const double& number) const {
-        const double* own = find(&number);
-        return own != nullptr ? *own : number;
+    void set(InputId id, double value) { values_[static_cast<std::size_t>(id)] = value; }
+    std::optional<double> operator[](InputId id) const {
+        return values_[static_cast<std::size_t>(id)];
     }
-    std::optional<double> of(const std::optional<double>& number) const {
-        const double* own = find(&number);
-        return own != nullptr ? *own : number;
+    // Value of a key, for example get<"operation.torque_N_m">(), and the same with a default.
+    template <KeyText kKey>
+    std::optional<double> get() const {
+        static const InputId id = input_id(kKey.text);
+        return (*this)[id];
     }
-    double of(const double&&) const = delete;
-    std::optional<double> of(const std::optional<double>&&) const = delete;
-    // Value of a number that is named by its key; empty if it is not given.
-    std::optional<double> of(const NumberAccess& access) const {
-        const double* own = find(access.place(study_));
-        return own != nullptr ? *own : access.get(study_);
+    template <KeyText kKey>
+    double or_0() const {
+        return get<kKey>().value_or(0.0);
     }
 
   private:
-    // The value that was set last, or null.
-    const double* find(const void* place) const {
-        for (auto value = values_.rbegin(); value != values_.rend(); ++value) {
-            if (value->first == place) {
-                return &value->second;
-            }
-        }
-        return nullptr;
-    }
-
-    const Study& study_;
-    std::vector<std::pair<const void*, double>> values_;
+    std::vector<std::optional<double>> values_;
 };
 
-// Differences between the planets of one gearbox.
-
+// Deviations of each planet of one gearbox.
 using Planets = std::array<dynamics::PlanetDeviations, dynamics::kMaxPlanets>;
-
-// Planets as given in the study; identical if nothing is given.
-Planets given_planets(const Study& study);
-
-// Adds the random deviations. Uses five standard normal variates per planet from both sources,
-// whatever the study contains; positions of pins follow from `normal_of_pins`.
-void add_random_planets(const InputValues& values, std::function<double()> normal,
-                        std::function<double()> normal_of_pins, Planets& planets);
-
-// Inputs of one gearbox that may differ between the gearboxes of a study.
 
 // Inputs of one body; all 0 if the gearbox does not have it.
 struct BodyInstance {
@@ -134,12 +121,48 @@ inline SensorNoise noise_of(const InstanceInputs& inputs) {
     return {inputs.noise_m_s2, inputs.white_noise_m_s2, inputs.background_noise_m_s2};
 }
 
+// Conversion of the values of one gearbox to its inputs: constants that all gearboxes of a study
+// have in common.
+struct InputsRecipe {
+    // Keys and gear of one body. A body without a key does not have that property.
+    struct Body {
+        std::optional<InputId> mass, inertia, inertia_over_r2, bearing_stiffness, bearing_damping,
+            quality;
+        double radius_m = 0.0;      // base radius, centre distance (carrier), or pitch radius
+        double disc_over_r2 = 0.0;  // J / (m r^2) of a solid disc
+    };
+
+    explicit InputsRecipe(const Study& study);
+
+    InputValues nominal;
+    MemberArray<Body> bodies;
+    std::optional<double> gear_ratio;   // gear to pinion teeth of a fixed-shaft gearbox
+    std::vector<InputId> mesh_damping;  // parameters of the law effects.mesh_damping
+    std::optional<InputId> fault_size;  // empty without a fault
+    Planets planets;                    // given differences
+    NoiseModel noise;
+    double range_m_s2;  // of the sensor; infinite without one
+};
+
 // Member whose speed a study gives: sun, ring or carrier, or the pinion.
 Member speed_member(const Study& study);
 
 // Inputs of one gearbox, including J / r^2 and the given differences between planets.
-InstanceInputs instance_inputs(const InputValues& values);
+InstanceInputs instance_inputs(const InputsRecipe& recipe, const InputValues& values);
 // The same with all values nominal; fault_size is the nominal size.
 InstanceInputs nominal_inputs(const Study& study);
+
+// Random differences between planets.
+struct PlanetScatter {
+    PlanetScatter(const Gearbox& gearbox, DrawnPer pins);
+
+    std::vector<double> angles_rad;  // of the planets on the carrier
+    DrawnPer pins;                   // position errors of the pins
+};
+// Adds them to the planets of one gearbox. Always takes five standard normal variates per planet
+// from both sources, whatever the values; positions of pins follow from `normal_of_pins`.
+void add_random_planets(const PlanetScatter& scatter, const InputValues& values,
+                        std::function<double()> normal, std::function<double()> normal_of_pins,
+                        Planets& planets);
 
 }  // namespace gearpod::mc

@@ -279,7 +279,7 @@ LifePlan make_life_plan(const Study& study, const GearboxPlan& gearbox) {
             .length = life_record_length(study),
             .recordings = life.recordings,
             .record = record_text(study, gearbox),
-            .sampler = std::make_shared<const Sampler>(study_of_gearboxes(study)),
+            .sampler = std::make_shared<const Sampler>(DrawPlan(study_of_gearboxes(study))),
             .drivetrain = gearbox.drivetrain,
             .tooth = cracked_tooth(study, gearbox),
             .growth = growth_of(life),

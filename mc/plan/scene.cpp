@@ -28,7 +28,7 @@ bool share_steps(Numerics a, const Numerics& b) {
 Scene::Scene(const Study& study)
     : study_(with_gears(study)),
       ensemble_(std::make_shared<const EnsemblePlan>(study)),
-      sampler_(std::make_shared<const Sampler>(study)) {
+      sampler_(std::make_shared<const Sampler>(DrawPlan(study))) {
     auto gearbox = std::make_shared<GearboxPlan>(study);
     plan_ = std::make_shared<const ScenePlan>(make_plan(study, *sampler_, *gearbox));
     gearbox->stages = make_stages(study, *gearbox);

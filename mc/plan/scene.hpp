@@ -44,7 +44,7 @@ class Scene {
     const LifePlan& life() const;
     // Draws the gearboxes of the study.
     const Sampler& sampler() const { return *sampler_; }
-    const DrawPlan& draw() const { return sampler_->draw_plan(); }
+    const DrawPlan& draw() const { return sampler_->plan(); }
     const EnsemblePlan& ensemble() const { return *ensemble_; }
     const GearboxPlan& gearbox() const { return *gearbox_; }
     const Drivetrain& drivetrain() const { return *gearbox_->drivetrain; }

@@ -205,7 +205,7 @@ void measure_in_python(const Scene& scene, std::span<const Feature* const> avail
     if (python.empty()) {
         return;
     }
-    python.add(1.0, nominal_inputs(scene.study()), input);
+    python.add(1.0, scene.gearbox().nominal, input);
     const std::vector<double> values = python.compute("a recording");
     auto next = values.begin();
     for (MeasuredFeature& one : all) {

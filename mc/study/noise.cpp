@@ -36,20 +36,26 @@ signals::NoiseSpectrum background_spectrum(const Study& study) {
     return {study.sensor.background_Hz, study.sensor.background_density_m_s2_per_sqrt_Hz};
 }
 
-SensorNoise sensor_noise(const Study& study, const SensorNoiseInputs& inputs) {
-    const double step_m_s2 = study.sensor.quantisation_m_s2;
+NoiseModel noise_model(const Study& study) {
+    NoiseModel model{study.sensor.quantisation_m_s2, study.sensor.low_pass_Hz, {}};
+    if (has_background(study)) {
+        model.background_rms_m_s2 = background_spectrum(study).rms_m_s2(model.low_pass_Hz);
+    }
+    return model;
+}
+
+SensorNoise sensor_noise(const NoiseModel& model, const SensorNoiseInputs& inputs) {
+    const double step_m_s2 = model.quantisation_m_s2;
     SensorNoise noise;
     noise.white_m_s2 = step_m_s2 > 0.0 ? std::hypot(inputs.rms_m_s2, step_m_s2 / std::sqrt(12.0))
                                        : inputs.rms_m_s2;
-    const double filtered_m_s2 =
-        inputs.density_m_s2_per_sqrt_Hz.value_or(0.0) *
-        std::sqrt(signals::low_pass_noise_bandwidth_Hz(study.sensor.low_pass_Hz));
+    const double filtered_m_s2 = inputs.density_m_s2_per_sqrt_Hz.value_or(0.0) *
+                                 std::sqrt(signals::low_pass_noise_bandwidth_Hz(model.low_pass_Hz));
     noise.all_m_s2 = !inputs.density_m_s2_per_sqrt_Hz ? noise.white_m_s2
                      : noise.white_m_s2 == 0.0        ? filtered_m_s2
                                                       : std::hypot(filtered_m_s2, noise.white_m_s2);
-    if (has_background(study)) {
-        noise.background_m_s2 =
-            inputs.background_level * background_spectrum(study).rms_m_s2(study.sensor.low_pass_Hz);
+    if (model.background_rms_m_s2) {
+        noise.background_m_s2 = inputs.background_level * *model.background_rms_m_s2;
         noise.all_m_s2 = std::hypot(noise.all_m_s2, noise.background_m_s2);
     }
     return noise;
@@ -57,7 +63,8 @@ SensorNoise sensor_noise(const Study& study, const SensorNoiseInputs& inputs) {
 
 double sensor_noise_m_s2(const Study& study) {
     const Sensor& s = study.sensor;
-    return sensor_noise(study, {s.noise_density_m_s2_per_sqrt_Hz, s.noise_m_s2, s.background_level})
+    return sensor_noise(noise_model(study),
+                        {s.noise_density_m_s2_per_sqrt_Hz, s.noise_m_s2, s.background_level})
         .all_m_s2;
 }
 

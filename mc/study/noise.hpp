@@ -34,9 +34,17 @@ struct SensorNoiseInputs {
     double rms_m_s2 = 0.0;
     double background_level = 1.0;
 };
+// Noise of a study apart from these values.
+struct NoiseModel {
+    double quantisation_m_s2 = 0.0;
+    double low_pass_Hz = 0.0;
+    // Of the background at level 1, after the low-pass; empty without one.
+    std::optional<double> background_rms_m_s2;
+};
+NoiseModel noise_model(const Study& study);
 // Noise of a gearbox with these values. Rounding to steps of q has the variance q^2 / 12 (W. R.
 // Bennett, Bell Syst. Tech. J. 27 (1948), 446-472), if the signal spans several steps.
-SensorNoise sensor_noise(const Study& study, const SensorNoiseInputs& inputs);
+SensorNoise sensor_noise(const NoiseModel& model, const SensorNoiseInputs& inputs);
 // Noise of an additional sensor of a gearbox whose first one has `noise`: times its factor, after
 // its own low-pass and with its own converter, where it has them.
 SensorNoise noise_at(const Study& study, const AdditionalSensor& sensor, const SensorNoise& noise);

@@ -67,7 +67,7 @@ class Tile {
     Tile(const std::string& study, const std::vector<std::string>& overrides)
         : scene_(bench::study_scene(study, overrides)) {
         const std::vector<mc::Realization> gearboxes(
-            kLanes, {{mc::Group::test, 0}, mc::nominal_inputs(scene_->study())});
+            kLanes, {{mc::Group::test, 0}, scene_->gearbox().nominal});
         for (const mc::Realization& gearbox : gearboxes) {
             inputs_.push_back(scene_->inputs(gearbox.inputs));
         }

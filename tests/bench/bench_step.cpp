@@ -52,7 +52,7 @@ template <int W>
 class Tile {
   public:
     explicit Tile(const mc::Scene& scene)
-        : inputs_(W, scene.inputs(mc::nominal_inputs(scene.study()))),
+        : inputs_(W, scene.inputs(scene.gearbox().nominal)),
           mesh_integrator_(lockstep::make_mesh_integrator<W>(scene.plan(), inputs_)),
           rotation_(scene.plan().layout, inputs_),
           state_(lockstep::equilibrium_state(scene.plan(), inputs_)),
@@ -95,8 +95,7 @@ std::optional<Operations> operations(const mc::Scene& scene, const Setting& sett
         return central_difference_operations(scene.plan());
     }
     if (setting.integrator == "generalized-alpha") {
-        return generalized_alpha_operations(scene.plan(),
-                                            scene.inputs(mc::nominal_inputs(scene.study())));
+        return generalized_alpha_operations(scene.plan(), scene.inputs(scene.gearbox().nominal));
     }
     return {};
 }

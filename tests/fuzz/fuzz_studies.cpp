@@ -79,7 +79,7 @@ std::string nonsense(const mc::Study& study) {
     if (!(*again.study == study) || mc::resolved_text(*again.study) != text) {
         return "its resolved text reads to another study";
     }
-    const mc::Sampler sampler(study);
+    const mc::Sampler sampler(mc::DrawPlan{study});
     for (const mc::Group group : {mc::Group::threshold, mc::Group::test}) {
         const mc::Realization drawn = sampler.draw({group, 12345});
         std::vector<double> values = drawn.random_values;

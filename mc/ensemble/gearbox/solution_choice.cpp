@@ -32,7 +32,7 @@ namespace {
 template <int W>
 double least_mesh_s(const Scene& scene, const lockstep::IntegrationPlan& plan, bool with_excitation,
                     int repetitions) {
-    const std::vector<Realization> gearboxes(W, {{}, nominal_inputs(scene.study())});
+    const std::vector<Realization> gearboxes(W, {{}, scene.gearbox().nominal});
     const std::vector<dynamics::GearboxInputs> inputs(W, scene.inputs(gearboxes[0].inputs));
     const auto excitation = with_excitation ? draw_excitation(scene, gearboxes) : std::nullopt;
     lockstep::MeshRecord record = lockstep::make_record(plan, W, false);
@@ -105,7 +105,7 @@ std::vector<int> part_periods(const Scene& scene) {
 
 // Mesh periods of a record of the nominal gearbox. Precondition: records have a length.
 int nominal_record_meshes(const Scene& scene) {
-    return scene.record().turns(nominal_inputs(scene.study())) * scene.span().planet_teeth;
+    return scene.record().turns(scene.gearbox().nominal) * scene.span().planet_teeth;
 }
 
 // True if it saves at least half of a full integration to integrate the records alone.

@@ -168,7 +168,7 @@ class AccuracyMeasurement {
         report_.mesh_frequency_Hz = plan.nominal_mesh_frequency_Hz();
         report_.explicit_limit.steps = plan.explicit_steps();
         own_steps_ = planner.steps(facts_.numerics);
-        stability_case_ = {plan.plan().layout, plan.inputs(nominal_inputs(plan.study())),
+        stability_case_ = {plan.plan().layout, plan.inputs(plan.gearbox().nominal),
                            plan.stiffest_pairs()};
     }
 

@@ -275,7 +275,7 @@ namespace {
 
 // Prints the impulses of a faulty bearing at nominal speed, and their vibration after the low-pass.
 void print_bearing(const Scene& scene, const Bearing& bearing) {
-    const InstanceInputs inputs = nominal_inputs(scene.study());
+    const InstanceInputs inputs = scene.gearbox().nominal;
     const signals::BearingImpulses impulses = bearing_impulses(scene, inputs, bearing);
     print_entry(bearing.role == SourceRole::other_fault ? "other fault" : "faulty bearing",
                 fmt::format("{}: {:.3f} impulses per shaft turn, {:.4g} Hz; {:.3g} m/s^2 rms after "
@@ -287,7 +287,7 @@ void print_bearing(const Scene& scene, const Bearing& bearing) {
 // Speed of a stage if it differs from that of its own study; "" if it does not.
 std::string other_speed_text(const NeighbourStage& stage, const Scene& own) {
     const double factor =
-        nominal_inputs(own.study()).speed_rad_s / nominal_inputs(*stage.study).speed_rad_s;
+        own.gearbox().nominal.speed_rad_s / nominal_inputs(*stage.study).speed_rad_s;
     return std::abs(factor - 1.0) < 1e-3
                ? ""
                : fmt::format(", {:.4g} times as fast as in its own study, as the shaft requires",

@@ -39,9 +39,7 @@ struct Access {
     Stored (*get)(const Study&);
     void (*set)(Study&, Type);
 };
-struct NumberAccess : Access<double> {
-    const void* (*place)(const Study&);  // address at which a study stores the number
-};
+using NumberAccess = Access<double>;
 using IntegerAccess = Access<std::int64_t>;
 using BooleanAccess = Access<bool>;
 struct ChoiceAccess {

@@ -140,12 +140,7 @@ void set(Study& s, Shown value) {
 }
 
 template <auto... Named>
-const void* place(const Study& s) {
-    return &stored<Named...>(s);
-}
-
-template <auto... Named>
-constexpr NumberAccess number{{get<double, Named...>, set<double, Named...>}, place<Named...>};
+constexpr NumberAccess number{get<double, Named...>, set<double, Named...>};
 template <auto... Named>
 constexpr IntegerAccess integer{get<std::int64_t, Named...>, set<std::int64_t, Named...>};
 template <auto... Named>
@@ -186,18 +181,18 @@ const Entry* address(const Entry* entry) {
 }
 template <auto Member, auto List>
 std::optional<int> get_listed(const Study& s) {
-    int place = 0;
+    int rank = 0;
     for (const auto& entry : List()) {
-        ++place;
+        ++rank;
         if (address(entry) == stored<Member>(s)) {
-            return place;
+            return rank;
         }
     }
     return 0;
 }
 template <auto Member, auto List>
-void set_listed(Study& s, int place) {
-    stored<Member>(s) = place > 0 ? address(List()[static_cast<std::size_t>(place - 1)]) : nullptr;
+void set_listed(Study& s, int rank) {
+    stored<Member>(s) = rank > 0 ? address(List()[static_cast<std::size_t>(rank - 1)]) : nullptr;
 }
 template <auto Member, auto List>
 constexpr ChoiceAccess listed(std::span<const ChoiceName> names) {

@@ -22,7 +22,7 @@ const std::vector<std::string> kUntil{
 
 // Healthy gearboxes have 1, test gearboxes 2 in every feature.
 BatchRows rows_of(const Study& study, const EnsemblePlan& ensemble, const Batch& batch) {
-    const Sampler sampler(study);
+    const Sampler sampler(DrawPlan{study});
     const RowShape& shape = ensemble.shape;
     BatchRows rows;
     for (std::size_t i = 0; i < batch.rows(); ++i) {

@@ -108,7 +108,7 @@ TEST_CASE("A snapshot's baseline record varies the inputs per record, and only t
     const std::vector<std::string> both{
         "features.use=[\"change_window_ratio\"]", "sensor.noise_levels=[1]", kTorque,
         "random.sensor.gain={distribution=\"uniform\",low=1,high=2}"};
-    const mc::Sampler sampler(shipped_study("planet-crack-ideal.toml", both));
+    const mc::Sampler sampler(mc::DrawPlan{shipped_study("planet-crack-ideal.toml", both)});
     const auto test_record = sampler.draw({mc::Group::test, 3}).inputs;
     const auto before = sampler.draw({mc::Group::test, 3, mc::Record::baseline}).inputs;
     CHECK(test_record.torque_N_m != before.torque_N_m);
@@ -118,7 +118,7 @@ TEST_CASE("A snapshot's baseline record varies the inputs per record, and only t
     // With one record per gearbox the record's law is the gearbox's.
     auto plain = both;
     plain[2].replace(plain[2].find(",per"), 13, "");
-    const mc::Sampler gearbox(shipped_study("planet-crack-ideal.toml", plain));
+    const mc::Sampler gearbox(mc::DrawPlan{shipped_study("planet-crack-ideal.toml", plain)});
     CHECK(gearbox.draw({mc::Group::test, 3}).inputs.torque_N_m == test_record.torque_N_m);
 }
 

@@ -38,7 +38,7 @@ Pairs draw(const std::vector<std::string>& overrides, std::uint64_t count) {
     const StudyReading reading = reading_of(overrides);
     INFO(format(reading.problems));
     REQUIRE(reading.study);
-    const Sampler sampler(*reading.study);
+    const Sampler sampler(DrawPlan{*reading.study});
     Pairs pairs;
     for (std::uint64_t i = 0; i < count; ++i) {
         const InstanceInputs inputs = sampler.draw({Group::test, i}).inputs;

@@ -77,7 +77,7 @@ namespace {
 std::vector<double> ratios(const Study& study) {
     std::vector<double> all;
     for (std::uint64_t i = 0; i < 200; ++i) {
-        const InstanceInputs inputs = Sampler(study).draw({Group::test, i}).inputs;
+        const InstanceInputs inputs = Sampler(DrawPlan{study}).draw({Group::test, i}).inputs;
         all.push_back(inputs.torque_N_m / inputs.path_exponent);
     }
     return all;
@@ -125,7 +125,7 @@ TEST_CASE("Columns of a file are used in rows, and missing ones are reported") {
                                         "\"empirical\",",
                                         "exponent")});
     for (std::uint64_t i = 0; i < 100; ++i) {
-        const InstanceInputs inputs = Sampler(both).draw({Group::test, i}).inputs;
+        const InstanceInputs inputs = Sampler(DrawPlan{both}).draw({Group::test, i}).inputs;
         CHECK(inputs.torque_N_m == Approx(10000.0 * inputs.bodies[Member::planet].mass_kg));
     }
     const auto problems_of = [&](const std::string& override) {

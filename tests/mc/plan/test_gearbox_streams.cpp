@@ -102,7 +102,7 @@ TEST_CASE("Random inputs of exchanging gearboxes keep their law and change by no
                                "random.sensor.gain={distribution=\"discrete\",values=[1,2],"
                                "weights=[1,3]}",
                                "gearbox.pin_tangential_rms_um=8"});
-    const Sampler sampler(study);
+    const Sampler sampler(DrawPlan{study});
     const std::size_t column = column_of(study, "path_exponent");
     constexpr int kGearboxes = 2000;
     double sum = 0.0, squares = 0.0, twos = 0.0;

@@ -30,7 +30,7 @@ TEST_CASE("A drawn value of any input gives the gearbox of a study with this nom
         Study study = test::study_of_text(text);
         study.random.clear();
         REQUIRE_FALSE(has_random_planets(study));
-        const Sampler sampler(study);
+        const Sampler sampler(DrawPlan{study});
         int effective = 0;
         for (const Key& key : schema()) {
             if (!key.may_be_random()) {
@@ -41,7 +41,7 @@ TEST_CASE("A drawn value of any input gives the gearbox of a study with this nom
             const double value = 1.25 * access.get(study).value_or(2.0) + 0.125;
             Study other = study;
             access.set(other, value);
-            const std::vector<GivenInput> given{{key.path(), value}};
+            const std::vector<GivenInput> given{{input_id(key.path()), value}};
             const InstanceInputs inputs = sampler.draw({Group::test, 0}, given).inputs;
             CHECK(equal_inputs(inputs, nominal_inputs(other)));
             effective += equal_inputs(inputs, nominal_inputs(study)) ? 0 : 1;

@@ -40,7 +40,7 @@ TEST_CASE("Planets differ by given and by random deviations, independently in ea
     const std::vector<std::string> scatter{
         "gearbox.pin_tangential_rms_um=8", "gearbox.pin_radial_rms_um=3",
         "gearbox.planet_bearing_stiffness_scatter=0.2", "gearbox.planet_mass_scatter=0.01"};
-    const Sampler sampler(study_with(scatter));
+    const Sampler sampler(DrawPlan{study_with(scatter)});
     double tangential = 0.0, radial = 0.0, stiffness = 0.0, mass = 0.0;
     constexpr int kGearboxes = 2000;
     for (std::uint64_t i = 0; i < kGearboxes; ++i) {
@@ -67,7 +67,7 @@ TEST_CASE("Planets differ by given and by random deviations, independently in ea
     twice[0] = "gearbox.pin_tangential_rms_um=16";
     twice[1] = "gearbox.pin_radial_rms_um=6";
     const Planets one = sampler.draw({Group::test, 7}).inputs.planets;
-    const Planets two = Sampler(study_with(twice)).draw({Group::test, 7}).inputs.planets;
+    const Planets two = Sampler(DrawPlan{study_with(twice)}).draw({Group::test, 7}).inputs.planets;
     CHECK(two[2].pin_x_m == Approx(2.0 * one[2].pin_x_m));
     CHECK(two[2].bearing_stiffness == one[2].bearing_stiffness);
 }

@@ -184,7 +184,7 @@ TEST_CASE("Truncated normals keep their bounds even far in the tails") {
 }
 
 TEST_CASE("Levels and grids alternate in the test group and are 0 in the threshold group") {
-    const Sampler sampler(study_with({}));
+    const Sampler sampler(DrawPlan{study_with({})});
     const double depths_mm[] = {0, 1, 2, 3, 4.3};
     for (std::uint64_t i = 0; i < 12; ++i) {
         CHECK(sampler.draw({Group::test, i}).inputs.fault_size == Approx(depths_mm[i % 5] * 1e-3));
@@ -199,11 +199,11 @@ TEST_CASE("Levels and grids of several inputs form all combinations, each equall
         "random.fault.depth_mm.values=[0, 1, 2, 3]",
         "random.gearbox.sun_mass_kg={distribution='grid', low=1, high=4, count=4}",
         "random.sensor.noise_m_s2={distribution='grid', low=0, high=3, count=4}"};
-    const Sampler sampler(study_with(overrides));
+    const Sampler sampler(DrawPlan{study_with(overrides)});
     // Another random input, and one of constant value, change no random value.
     overrides.push_back("random.operation.torque_N_m={distribution='uniform', low=1, high=2}");
     overrides.push_back("random.gearbox.ring_mass_kg={distribution='constant', value=3}");
-    const Sampler more(study_with(overrides));
+    const Sampler more(DrawPlan{study_with(overrides)});
     for (const Group group : {Group::test, Group::threshold}) {
         std::set<std::tuple<double, double, double>> combinations;
         for (std::uint64_t i = 0; i < 64; ++i) {
@@ -232,14 +232,14 @@ TEST_CASE("Levels and grids of several inputs form all combinations, each equall
                             "={distribution='grid', low=1, high=2, count=100000}");
     }
     const InstanceInputs last =
-        Sampler(study_with(overrides)).draw({Group::test, 999999999}).inputs;
+        Sampler(DrawPlan{study_with(overrides)}).draw({Group::test, 999999999}).inputs;
     CHECK(last.bodies[Member::sun].mass_kg == Approx(1 + 99999 / 99999.0));
     CHECK(last.bodies[Member::ring].mass_kg == 1.0);
     CHECK(last.bodies[Member::carrier].mass_kg == 1.0);
 }
 
 TEST_CASE("An instance does not depend on what was sampled before and how often") {
-    const Sampler forward(study_with({})), backward(study_with({}));
+    const Sampler forward(DrawPlan{study_with({})}), backward(DrawPlan{study_with({})});
     std::vector<InstanceInputs> first;
     for (std::uint64_t i = 0; i < 50; ++i) {
         first.push_back(forward.draw({Group::test, i}).inputs);
@@ -249,14 +249,15 @@ TEST_CASE("An instance does not depend on what was sampled before and how often"
     }
     CHECK_FALSE(same(forward.draw({Group::threshold, 5}).inputs, first[5]));
     CHECK_FALSE(
-        same(Sampler(study_with({"ensemble.seed=8"})).draw({Group::test, 5}).inputs, first[5]));
+        same(Sampler(DrawPlan{study_with({"ensemble.seed=8"})}).draw({Group::test, 5}).inputs,
+             first[5]));
 }
 
 TEST_CASE("A new random input leaves the random values of the others unchanged") {
-    const Sampler before(study_with({}));
-    const Sampler after(study_with(
+    const Sampler before(DrawPlan{study_with({})});
+    const Sampler after(DrawPlan{study_with(
         {"random.gearbox.sun_mass_kg={distribution='uniform', low=0.6, high=0.8}",
-         "random.operation.torque_N_m={distribution='lognormal', median=429, cv=0.05}"}));
+         "random.operation.torque_N_m={distribution='lognormal', median=429, cv=0.05}"})});
     for (std::uint64_t i = 0; i < 50; ++i) {
         CHECK(same(before.draw({Group::test, i}).inputs, after.draw({Group::test, i}).inputs));
         CHECK(same(before.draw({Group::threshold, i}).inputs,
@@ -265,9 +266,9 @@ TEST_CASE("A new random input leaves the random values of the others unchanged")
 }
 
 TEST_CASE("Different inputs of the same distribution are independent") {
-    const Sampler sampler(
+    const Sampler sampler(DrawPlan{
         study_with({"random.gearbox.sun_mass_kg={distribution='uniform', low=1, high=2}",
-                    "random.gearbox.ring_mass_kg={distribution='uniform', low=1, high=2}"}));
+                    "random.gearbox.ring_mass_kg={distribution='uniform', low=1, high=2}"})});
     double products = 0.0;
     for (std::uint64_t i = 0; i < kSamples; ++i) {
         const InstanceInputs inputs = sampler.draw({Group::test, i}).inputs;
@@ -305,7 +306,7 @@ TEST_CASE("A fixed-shaft gearbox's inputs are sampled like any other's") {
         REQUIRE(reading.study);
         return *reading.study;
     }();
-    const Sampler sampler(study);
+    const Sampler sampler(DrawPlan{study});
     CHECK(speed_member(study) == Member::pinion);
     const EnsemblePlan plan(study);
     const auto& columns = plan.inputs;
@@ -345,7 +346,7 @@ TEST_CASE("A fixed-shaft gearbox's discs and balanced load follow from its gears
 TEST_CASE("Rows of the results hold the sampled values in SI under their names") {
     const Study study =
         study_with({"random.operation.carrier_speed_rpm={distribution='uniform', low=8, high=9}"});
-    const Sampler sampler(study);
+    const Sampler sampler(DrawPlan{study});
     const EnsemblePlan plan(study);
     const auto& columns = plan.inputs;
     REQUIRE(columns.size() == 4);

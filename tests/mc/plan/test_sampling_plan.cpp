@@ -114,7 +114,7 @@ TEST_CASE("A mean over evenly distributed gearboxes has the variance of stratifi
     double squares = 0.0;
     for (int seed = 0; seed < kSeeds; ++seed) {
         study.ensemble.seed = seed;
-        const Sampler sampler(study);
+        const Sampler sampler(DrawPlan{study});
         std::vector<double> shares;
         for (std::uint64_t i = 0; i < kGearboxes; ++i) {
             shares.push_back(share_of(sampler, Group::test, 2 + kSizes * i));
@@ -130,7 +130,7 @@ TEST_CASE("A mean over evenly distributed gearboxes has the variance of stratifi
 
 TEST_CASE("Evenly distributed inputs keep their distributions and are mutually independent") {
     constexpr std::uint64_t kSizes = 5, kRounds = 4096;
-    const Sampler sampler(sobol_study(kUniform));
+    const Sampler sampler(DrawPlan{sobol_study(kUniform)});
     double product = 0.0;
     std::vector<double> stiffness;
     for (std::uint64_t i = 0; i < kRounds; ++i) {
@@ -152,7 +152,7 @@ TEST_CASE("Each fault size and each group has its own scramble") {
     double between_sizes = 0.0, between_groups = 0.0;
     for (int seed = 0; seed < kSeeds; ++seed) {
         study.ensemble.seed = seed;
-        const Sampler sampler(study);
+        const Sampler sampler(DrawPlan{study});
         const double one = share_of(sampler, Group::test, 15) - 0.5;  // round 3, first size
         const double other = share_of(sampler, Group::test, 16) - 0.5;
         const double healthy = share_of(sampler, Group::threshold, 3) - 0.5;
@@ -164,7 +164,7 @@ TEST_CASE("Each fault size and each group has its own scramble") {
 }
 
 TEST_CASE("Healthy gearboxes are one sequence, regardless of the order of the sizes") {
-    const Sampler sampler(sobol_study(kUniform));
+    const Sampler sampler(DrawPlan{sobol_study(kUniform)});
     std::set<int> strata;
     for (std::uint64_t i = 0; i < 1024; ++i) {
         strata.insert(static_cast<int>(1024 * share_of(sampler, Group::threshold, i)));
@@ -179,11 +179,12 @@ TEST_CASE(
         drawn.random_values.push_back(drawn.inputs.fault_size);
         return drawn.random_values;
     };
-    const Sampler small(sobol_study()), large(sobol_study({"ensemble.instances=1000"}));
+    const Sampler small(DrawPlan{sobol_study()}),
+        large(DrawPlan{sobol_study({"ensemble.instances=1000"})});
     for (std::uint64_t i = 0; i < 100; ++i) {
         CHECK(values_of(small, i) == values_of(large, i));
     }
-    const Sampler other(sobol_study({"ensemble.seed=8"}));
+    const Sampler other(DrawPlan{sobol_study({"ensemble.seed=8"})});
     CHECK(values_of(small, 3) != values_of(other, 3));
 }
 
@@ -191,10 +192,10 @@ TEST_CASE("Correlated inputs stay correlated in evenly distributed gearboxes") {
     // Normals with correlation r agree in sign with probability 1/2 + asin(r) / pi (Sheppard 1899).
     const double rank = 0.6, r = 2.0 * std::sin(M_PI / 6.0 * rank);
     const Sampler sampler(
-        sobol_study({"random.operation.torque_N_m={distribution='normal',mean=400,sd=20}",
-                     "random.gearbox.planet_mass_kg={distribution='normal',mean=2,sd=0.1}",
-                     "random.correlations=[{between=['operation.torque_N_m',"
-                     "'gearbox.planet_mass_kg'],rank=0.6}]"}));
+        DrawPlan{sobol_study({"random.operation.torque_N_m={distribution='normal',mean=400,sd=20}",
+                              "random.gearbox.planet_mass_kg={distribution='normal',mean=2,sd=0.1}",
+                              "random.correlations=[{between=['operation.torque_N_m',"
+                              "'gearbox.planet_mass_kg'],rank=0.6}]"})});
     constexpr std::uint64_t kCount = 4096;
     int agree = 0;
     for (std::uint64_t i = 0; i < kCount; ++i) {

@@ -286,8 +286,7 @@ TEST_CASE("A scene of spatial cracks, coupled teeth and separation is built from
     CHECK(scene.plan().mesh_law == dynamics::MeshLaw::unilateral);
     CHECK(scene.plan().nodes.tooth_pairs == 2);
     CHECK(scene.fault().largest_size() == 5.0);
-    const auto inputs =
-        std::get<dynamics::PlanetaryInputs>(scene.inputs(mc::nominal_inputs(scene.study())));
+    const auto inputs = std::get<dynamics::PlanetaryInputs>(scene.inputs(scene.gearbox().nominal));
     CHECK(inputs.backlash_m == Approx(1e-4));
     // Every stage reduces the stiffness more than the one before it (Yang, Fig. 15).
     double last = stiffness::total_at(scene.pairs().curve(0), 0.3);

@@ -146,7 +146,7 @@ TEST_CASE("Separating teeth that never repeat are integrated mesh by mesh, and o
 
 TEST_CASE("Yang, section 4.3: frequencies of the test rig") {
     const mc::Scene scene(shipped_study("published/yang-test-rig.toml"));
-    const auto inputs = scene.inputs(mc::nominal_inputs(scene.study()));
+    const auto inputs = scene.inputs(scene.gearbox().nominal);
     const double mesh = 1.0 / dynamics::mesh_period_s(inputs);
     CHECK(mesh == Approx(248.89).margin(0.005));
     CHECK(dynamics::frame_speed_rad_s(inputs) / (2.0 * std::numbers::pi) ==

@@ -109,7 +109,7 @@ std::vector<Impulse> impulses(const std::vector<double>& values, int meshes, int
 
 TEST_CASE("Yang, sections 4.1 and 4.2: frequencies, mesh phases, 7 and 28 meshes") {
     const mc::Scene scene(shipped_study(kStudy));
-    const auto inputs = scene.inputs(mc::nominal_inputs(scene.study()));
+    const auto inputs = scene.inputs(scene.gearbox().nominal);
     const double turn = 2.0 * std::numbers::pi;
     const double mesh = 1.0 / dynamics::mesh_period_s(inputs);
     const double carrier = dynamics::frame_speed_rad_s(inputs) / turn;

@@ -48,8 +48,7 @@ struct TorsionalTrain {
     Eigen::MatrixXd mass = Eigen::MatrixXd::Zero(kDegrees, kDegrees), stiffness = mass;
 
     explicit TorsionalTrain(const mc::Scene& scene) {
-        const auto in =
-            std::get<dynamics::PlanetaryInputs>(scene.inputs(mc::nominal_inputs(scene.study())));
+        const auto in = std::get<dynamics::PlanetaryInputs>(scene.inputs(scene.gearbox().nominal));
         for (int body = 0; body < kDegrees; ++body) {
             mass(body, body) = in.inertia_over_r2_kg[std::min(body, 3)];
         }

@@ -140,7 +140,7 @@ TEST_CASE("The torque of baseline records has the requested scatter on both shaf
     const Study study = test::shipped_study(
         "published/tian-fig-4-9.toml",
         {"features.use=[\"own_te_rms\"]", "features.baseline_torque_scatter=0.05"});
-    const Sampler sampler(study);
+    const Sampler sampler(DrawPlan{study});
     double sum = 0.0, squares = 0.0;
     constexpr int kGearboxes = 4000;
     for (std::uint64_t i = 0; i < kGearboxes; ++i) {

@@ -116,7 +116,7 @@ TEST_CASE("The common shaft sets the speed of a stage, and the sensor is that of
     const mc::Scene scene(small_study(path, ""));
     const mc::Study& own = scene.gearbox().stages[0].plan->study();
     CHECK(mc::nominal_inputs(own).speed_rad_s ==
-          Approx(13.0 / 48.0 * mc::nominal_inputs(scene.study()).speed_rad_s).epsilon(1e-6));
+          Approx(13.0 / 48.0 * scene.gearbox().nominal.speed_rad_s).epsilon(1e-6));
     const auto text =
         program("describe " + kSmall + " " + stages(path, "") + "--set sensor.low_pass_Hz=100");
     CHECK(text.mentions("0.9091 times as fast as in its own study"));

@@ -184,7 +184,7 @@ TEST_CASE("The variances of all parts of a sensor's noise add") {
             .study;
     REQUIRE(study);
     const auto& sensors = study->sensor.additional;
-    const mc::SensorNoise first = mc::sensor_noise(*study, {0.01, 0.4, 1.0});
+    const mc::SensorNoise first = mc::sensor_noise(mc::noise_model(*study), {0.01, 0.4, 1.0});
     const double background = 2.0 * mc::background_spectrum(*study).rms_m_s2(30.0),
                  white = 4.0 * 0.16 + 0.01 / 12.0;
     const mc::SensorNoise own = mc::noise_at(*study, sensors[0], first),

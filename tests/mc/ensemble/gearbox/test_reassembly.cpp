@@ -55,11 +55,11 @@ std::vector<double> sensor_of(const Scene& scene, const GearboxId& id) {
 }  // namespace
 
 TEST_CASE("An assembly keeps its inputs in all records, and a record has its own") {
-    const Sampler sampler(study_with(
+    const Sampler sampler(DrawPlan{study_with(
         {"features.baseline_records=3",
          "random.sensor.path_exponent={distribution=\"uniform\",low=-0.1,high=0.1,per="
          "\"assembly\"}",
-         "random.sensor.gain={distribution=\"lognormal\",median=1,cv=0.1,per=\"record\"}"}));
+         "random.sensor.gain={distribution=\"lognormal\",median=1,cv=0.1,per=\"record\"}"})});
     const InstanceInputs now = sampler.draw(kTest).inputs;
     const InstanceInputs first = sampler.draw(baseline(0)).inputs,
                          second = sampler.draw(baseline(1)).inputs;
@@ -75,9 +75,9 @@ TEST_CASE("An assembly keeps its inputs in all records, and a record has its own
 
 TEST_CASE("Inputs of an assembly have their distribution in the baseline, whatever the plan") {
     for (const char* sampling : {"plain", "sobol"}) {
-        const Sampler sampler(study_with(
+        const Sampler sampler(DrawPlan{study_with(
             {std::string("ensemble.sampling=") + sampling,
-             "random.sensor.gain={distribution=\"uniform\",low=0.5,high=1.5,per=\"assembly\"}"}));
+             "random.sensor.gain={distribution=\"uniform\",low=0.5,high=1.5,per=\"assembly\"}"})});
         double sum = 0.0, product = 0.0;
         constexpr int kGearboxes = 4000;
         for (std::uint64_t i = 0; i < kGearboxes; ++i) {
@@ -133,7 +133,7 @@ TEST_CASE("Redrawn pins have other positions on the same bearings") {
     const auto planets = [](const std::vector<std::string>& more, const GearboxId& id) {
         std::vector<std::string> keys{"gearbox.pin_tangential_rms_um=20"};
         keys.insert(keys.end(), more.begin(), more.end());
-        return Sampler(study_with(keys)).draw(id).inputs.planets;
+        return Sampler(DrawPlan(study_with(keys))).draw(id).inputs.planets;
     };
     const auto pin = [](const auto& planet) { return std::pair(planet.pin_x_m, planet.pin_y_m); };
     const std::vector<std::string> redrawn{"features.baseline_redraws=[\"pins\"]"};

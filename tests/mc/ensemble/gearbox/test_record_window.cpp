@@ -228,7 +228,8 @@ TEST_CASE("The length of records changes no other random input, and no results w
     const Study whole = study_with({kPlain}), cut = study_with({kPlain, "sensor.record_turns=4"});
     for (std::uint64_t i = 0; i < 5; ++i) {
         const GearboxId id{Group::test, i};
-        CHECK(Sampler(whole).draw(id).random_values == Sampler(cut).draw(id).random_values);
+        CHECK(Sampler(DrawPlan{whole}).draw(id).random_values ==
+              Sampler(DrawPlan{cut}).draw(id).random_values);
     }
     CHECK(resolved_text(whole).find("record_") == std::string::npos);
     CHECK(resolved_text(cut).find("record_turns = 4") != std::string::npos);

@@ -66,7 +66,7 @@ TEST_CASE("Calibration uses the given level") {
     const mc::RecordLengths lengths(2, {quiet.scene->span_meshes()});
     const mc::RecordValues ones(2, {std::vector<double>(used.size(), 1.0)});
     const mc::SetSummary summary(used, ones);
-    const std::vector<mc::GivenInput> given{{"sensor.tone_level", 3.0}};
+    const std::vector<mc::GivenInput> given{{mc::input_id("sensor.tone_level"), 3.0}};
     const auto by_level = simulate_set(*quiet.scene, given, 7, lengths, summary);
     const auto by_amplitude = simulate_set(*loud.scene, {}, 7, lengths, summary);
     REQUIRE(!by_level.empty());
