@@ -6,7 +6,6 @@
 
 #include "mc/ensemble/ensemble.hpp"
 #include "mc/ensemble/messages.hpp"
-#include "mc/study/schema/sizes.hpp"
 
 namespace gearpod::mc {
 namespace {
@@ -32,34 +31,6 @@ struct MissRecords {
 };
 
 }  // namespace
-
-Study of_feature(const Study& study, const std::string& feature, double noise_level) {
-    Study own = study;
-    own.features.use = {feature};
-    own.sensor.noise_levels = {noise_level};
-    own.ensemble.until = {};
-    return own;
-}
-
-Study with_fault(const Study& study, double size) {
-    Study own = study;
-    const std::string key = fault_size_key(study).path();
-    std::erase_if(own.random, [&](const RandomInput& input) { return input.key == key; });
-    std::erase_if(own.correlations,
-                  [&](const Correlation& pair) { return pair.first == key || pair.second == key; });
-    set_fault_size(own, size);
-    own.detection.size_edges_m.clear();
-    own.detection.size_edges.clear();
-    return own;
-}
-
-Study study_for_miss_rate(const Study& study, const MissRateRequest& request) {
-    Study own = with_fault(of_feature(study, request.feature, request.noise_level), request.size);
-    own.ensemble.instances = request.gearboxes;
-    own.ensemble.threshold_records = request.records;
-    own.ensemble.importance_sampling = true;
-    return own;
-}
 
 std::string failure_reason(const EnsembleOutcome& outcome) {
     return outcome.failure.empty() && !outcome.interruption.empty()
@@ -217,11 +188,13 @@ struct InputSums {
 
 // Random inputs whose mean in the last level differs from the mean of all gearboxes by more than
 // chance. The chance deviation is that of as many independent gearboxes as there are families.
-std::vector<ShiftedInput> shifted_inputs(const Scene& scene, const RareRateRequest& request,
+std::vector<ShiftedInput> shifted_inputs(const Sampler& sampler,
+                                         std::span<const ParameterColumn> columns,
+                                         const RareRateRequest& request,
                                          const analysis::SplitTail& tail) {
     constexpr double kBeyondChance = 3.0;
     const auto values_of = [&](const analysis::SplitMember& member) {
-        return scene.sampler().draw(id_of(request, member)).random_values;
+        return sampler.draw(id_of(request, member)).random_values;
     };
     InputSums all, last;
     for (long i = 0; i < request.gearboxes; ++i) {
@@ -232,7 +205,6 @@ std::vector<ShiftedInput> shifted_inputs(const Scene& scene, const RareRateReque
     }
     const double chance = kBeyondChance / std::sqrt(tail.last_families());
     std::vector<ShiftedInput> shifted;
-    const std::vector<ParameterColumn>& columns = scene.ensemble().inputs;
     for (std::size_t i = 0; i < all.sum.size(); ++i) {
         if (std::abs(last.mean(i) - all.mean(i)) > chance * all.deviation(i)) {
             shifted.push_back({columns[i].name, columns[i].unit, all.mean(i), last.mean(i)});
@@ -246,23 +218,6 @@ analysis::SplitTail::Settings settings_of(const RareRateRequest& request) {
 }
 
 }  // namespace
-
-analysis::Alarm RareRateRequest::towards() const {
-    const analysis::Alarm alarm = features::find_feature(feature)->alarm;
-    return rate ? alarm : analysis::opposite(alarm);
-}
-
-Study study_for_rare_rate(const Study& study, const RareRateRequest& request) {
-    Study own = of_feature(study, request.feature, request.noise_level);
-    if (!request.rate) {
-        own = with_fault(own, request.size);
-    }
-    own.ensemble.instances = request.gearboxes;
-    own.ensemble.threshold_records = 1;
-    own.ensemble.importance_sampling.reset();
-    own.ensemble.sampling = SamplingKind::plain;
-    return own;
-}
 
 long largest_gearbox_count(const RareRateRequest& request) {
     return analysis::SplitTail::values_for(settings_of(request),
@@ -296,7 +251,7 @@ RareRateResult estimate_rare_rate(const Scene& scene, const RareRateRequest& req
                                                               result.estimate->variance)
                                      : analysis::kNan;
     if (ranks.leads() && tail.levels() > 1) {
-        result.shifted = shifted_inputs(scene, request, tail);
+        result.shifted = shifted_inputs(scene.sampler(), scene.ensemble().inputs, request, tail);
     }
     return result;
 }

@@ -1,6 +1,7 @@
-// Estimates a small miss rate for faults of one size by importance sampling. The noise of records
+// Estimates small rates of misses and false alarms. For misses due to noise, the noise of records
 // of faulty gearboxes is exponentially tilted towards misses
-// (signals/windowing/noise_importance_sampler.hpp).
+// (signals/windowing/noise_importance_sampler.hpp); for rates due to gearbox-to-gearbox variation,
+// the random inputs are sampled by multilevel splitting (analysis/detection/splitting.hpp).
 #pragma once
 
 #include <optional>
@@ -10,27 +11,10 @@
 #include "analysis/detection/importance_sample.hpp"
 #include "analysis/detection/splitting.hpp"
 #include "mc/ensemble/ensemble.hpp"
+#include "mc/plan/rare_event_studies.hpp"
 #include "mc/plan/scene.hpp"
 
 namespace gearpod::mc {
-
-struct MissRateRequest {
-    std::string feature;
-    double threshold = 0.0;    // alarm threshold in the feature's unit
-    double noise_level = 1.0;  // one of sensor.noise_levels
-    double size = 0.0;         // fault size, SI
-    long gearboxes = 0;
-    int records = 0;  // per gearbox, a multiple of NoiseImportanceSampler::kKinds
-};
-
-// Study restricted to one of its features and one noise level.
-Study of_feature(const Study& study, const std::string& feature, double noise_level);
-// Study in which all test gearboxes have a fault of this size (SI). The other inputs keep their
-// distributions.
-Study with_fault(const Study& study, double size);
-// Study restricted to the feature, noise level and fault size of the question, with its numbers of
-// gearboxes and records.
-Study study_for_miss_rate(const Study& study, const MissRateRequest& request);
 
 struct MissRateResult {
     // Miss rate; empty if too few gearboxes contribute to it.
@@ -53,28 +37,8 @@ MissRateResult estimate_miss_rate(const Scene& scene, const MissRateRequest& req
                                   const Ranks& ranks, Progress& progress,
                                   const Interruption* interruption = nullptr);
 
-// Estimates small false-alarm or miss rates that are due to gearbox-to-gearbox variation, by
-// multilevel splitting of the random inputs (analysis/detection/splitting.hpp).
-
-// Either the threshold of healthy gearboxes for a false-alarm rate, or the miss rate of a given
-// threshold for gearboxes with a fault.
-struct RareRateRequest {
-    std::string feature;
-    double noise_level = 1.0;    // one of sensor.noise_levels
-    std::optional<double> rate;  // false-alarm rate; if empty, the miss rate is estimated for:
-    double size = 0.0;           // fault size, SI
-    double threshold = 0.0;      // alarm threshold in the feature's unit
-    long gearboxes = 0;          // members per level
-
-    // Side on which the rare values lie. Misses lie on the opposite side of alarms.
-    analysis::Alarm towards() const;
-};
-
 // Lower limit of miss rates that are estimated.
 inline constexpr double kSmallestMissRate = 1e-9;
-
-// Study for multilevel splitting. Healthy gearboxes are those of its threshold group.
-Study study_for_rare_rate(const Study& study, const RareRateRequest& request);
 
 // Random input whose distribution near an alarm or a miss differs from that of all gearboxes.
 struct ShiftedInput {

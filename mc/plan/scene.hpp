@@ -84,6 +84,9 @@ class Scene {
     double decay_meshes() const { return plan_->stepping.decay_meshes; }
     // Largest number of mesh periods within which a gearbox must converge.
     int max_meshes() const { return max_meshes_; }
+    // Upper limit of the run-in, in mesh periods. Fluctuations always begin this long before the
+    // first recorded mesh period, so that they do not depend on the actual run-in.
+    int longest_run_in() const { return max_meshes_ / 2; }
     // See SceneStiffness.
     std::vector<double> transitions() const { return gearbox_->stiffness->transitions(); }
     std::vector<double> stiffest_pairs() const { return gearbox_->stiffness->stiffest_pairs(); }

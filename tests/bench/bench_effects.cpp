@@ -71,7 +71,9 @@ class Tile {
         for (const mc::Realization& gearbox : gearboxes) {
             inputs_.push_back(scene_->inputs(gearbox.inputs));
         }
-        excitation_ = mc::draw_excitation(*scene_, gearboxes);
+        excitation_ =
+            mc::draw_excitation(scene_->gearbox(), scene_->draw().seed,
+                                {scene_->longest_run_in(), scene_->signal_meshes()}, gearboxes);
         if (excitation_) {
             mesh_integrator_ =
                 lockstep::make_excited_integrator<kLanes>(scene_->plan(), *excitation_, inputs_);

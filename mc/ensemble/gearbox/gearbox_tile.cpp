@@ -54,7 +54,11 @@ struct SolutionInputs {
     SolutionInputs(const Scene& scene, std::vector<Realization> lanes)
         : realizations(std::move(lanes)),
           faults(fault_curves(scene, realizations)),
-          loads{draw_tooth_errors(scene, realizations), std::nullopt} {
+          loads{scene.gearbox().tooth_errors
+                    ? std::optional(draw_tooth_errors(*scene.gearbox().tooth_errors, scene.draw(),
+                                                      realizations))
+                    : std::nullopt,
+                std::nullopt} {
         for (const Realization& realization : realizations) {
             gearboxes.push_back(scene.inputs(realization.inputs));
         }
@@ -103,7 +107,9 @@ TileSolution solve(const Scene& scene, std::span<const Realization> realizations
     TileSolution solved;
     SolutionInputs inputs(scene, {realizations.begin(), realizations.end()});
     solved.stiffness_s = lap(start);
-    inputs.loads.excitation = draw_excitation(scene, realizations);
+    inputs.loads.excitation =
+        draw_excitation(scene.gearbox(), scene.draw().seed,
+                        {scene.longest_run_in(), scene.signal_meshes()}, realizations);
     const lockstep::Solution solution = solution_of(inputs.loads);
     const double processor_start = thread_processor_s();
     solved.integration = with_lane_count(static_cast<int>(realizations.size()), [&](auto lanes) {
@@ -265,7 +271,8 @@ void add_signals(const Scene& scene, const SensorPaths& path, GearboxTile& tile)
     auto start = WallClock::now();
     tile.views = views_of(scene, tile);
     if (!scene.study().effects.quasi_static()) {
-        tile.tones = draw_tones(scene, tile.realizations);
+        tile.tones = draw_tones(scene.study().sensor.tones, scene.gearbox(), scene.draw().seed,
+                                tile.realizations);
     }
     if (!tile.sensor_recorders.empty()) {
         for (std::size_t s = 0; s < path.size(); ++s) {

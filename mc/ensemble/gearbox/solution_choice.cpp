@@ -34,7 +34,11 @@ double least_mesh_s(const Scene& scene, const lockstep::IntegrationPlan& plan, b
                     int repetitions) {
     const std::vector<Realization> gearboxes(W, {{}, scene.gearbox().nominal});
     const std::vector<dynamics::GearboxInputs> inputs(W, scene.inputs(gearboxes[0].inputs));
-    const auto excitation = with_excitation ? draw_excitation(scene, gearboxes) : std::nullopt;
+    const auto excitation =
+        with_excitation
+            ? draw_excitation(scene.gearbox(), scene.draw().seed,
+                              {scene.longest_run_in(), scene.signal_meshes()}, gearboxes)
+            : std::nullopt;
     lockstep::MeshRecord record = lockstep::make_record(plan, W, false);
     std::function<void(lockstep::TileState&)> integrate;
     if constexpr (W <= 8) {  // there is no kernel with variable excitation for 16 lanes

@@ -54,12 +54,6 @@ void draw_noise(std::vector<NoiseInputs> noise, std::span<const double> mesh_per
     }
 }
 
-// Upper limit of the run-in, in mesh periods. Fluctuations always begin this long before the first
-// recorded mesh period, so that they do not depend on the actual run-in.
-int most_run_in(const Scene& scene) {
-    return scene.max_meshes() / 2;
-}
-
 // Mesh periods in which the slowest mode of the sensor's low-pass filter decays to 1/e.
 double filter_decay_meshes(const Scene& scene) {
     const double rate = 0.5 * lockstep::kFilterDamping[1] * scene.plan().low_pass_rad_s;
@@ -78,13 +72,13 @@ int run_in_meshes(const Scene& scene) {
     // more slowly.
     const double decays = -2.0 * std::log(convergence_tolerance(study));
     const double meshes = decays * std::max(scene.decay_meshes(), filter_decay_meshes(scene));
-    return static_cast<int>(
-        std::min(std::ceil(std::max(kFewest, meshes)), static_cast<double>(most_run_in(scene))));
+    return static_cast<int>(std::min(std::ceil(std::max(kFewest, meshes)),
+                                     static_cast<double>(scene.longest_run_in())));
 }
 
-std::optional<lockstep::Excitation> draw_excitation(const Scene& scene,
+std::optional<lockstep::Excitation> draw_excitation(const GearboxPlan& gearbox, std::uint64_t seed,
+                                                    const ExcitedMeshes& meshes,
                                                     std::span<const Realization> realizations) {
-    const GearboxPlan& gearbox = scene.gearbox();
     const std::optional<ExcitationModel>& model = gearbox.excitation;
     if (!model) {
         return std::nullopt;
@@ -103,14 +97,12 @@ std::optional<lockstep::Excitation> draw_excitation(const Scene& scene,
         add_sine({f.speed, f.speed_order * input_turns, 0.0, f.speed_phase_rad}, speed);
         torque_noise.push_back({f.torque_noise, f.torque_noise_Hz});
         speed_noise.push_back({f.speed_noise, f.speed_noise_Hz});
-        torque_engines.push_back(
-            record_stream(scene.draw().seed, realization.id, StreamPurpose::torque_noise));
-        speed_engines.push_back(
-            record_stream(scene.draw().seed, realization.id, StreamPurpose::speed_noise));
+        torque_engines.push_back(record_stream(seed, realization.id, StreamPurpose::torque_noise));
+        speed_engines.push_back(record_stream(seed, realization.id, StreamPurpose::speed_noise));
         excitation.rotation_m_s.push_back(drivetrain.rotation_m_s(realization.inputs));
     }
     // When the speed drops, the sensor's time continues: the torque needs additional knots.
-    const double first = -most_run_in(scene), last = scene.signal_meshes();
+    const double first = -meshes.longest_run_in, last = meshes.signal;
     if (model->torque) {
         excitation.torque = model->torque->sine ? torque : lockstep::Fluctuation{};
         if (model->torque->noise) {
@@ -134,9 +126,9 @@ std::optional<lockstep::Excitation> draw_excitation(const Scene& scene,
     return excitation;
 }
 
-signals::Tones draw_tones(const Scene& scene, std::span<const Realization> realizations) {
+signals::Tones draw_tones(std::span<const Tone> requested, const GearboxPlan& gearbox,
+                          std::uint64_t seed, std::span<const Realization> realizations) {
     signals::Tones tones;
-    const std::vector<Tone>& requested = scene.study().sensor.tones;
     if (requested.empty()) {
         return tones;
     }
@@ -144,9 +136,8 @@ signals::Tones draw_tones(const Scene& scene, std::span<const Realization> reali
     tones.phase_rad.resize(requested.size() * lanes);
     for (std::size_t lane = 0; lane < lanes; ++lane) {
         tones.mesh_period_s.push_back(
-            dynamics::mesh_period_s(scene.inputs(realizations[lane].inputs)));
-        Philox engine =
-            record_stream(scene.draw().seed, realizations[lane].id, StreamPurpose::tone_phases);
+            dynamics::mesh_period_s(gearbox.inputs(realizations[lane].inputs)));
+        Philox engine = record_stream(seed, realizations[lane].id, StreamPurpose::tone_phases);
         boost::random::uniform_real_distribution<double> turn(0.0, 2.0 * std::numbers::pi);
         for (std::size_t i = 0; i < requested.size(); ++i) {
             tones.phase_rad[i * lanes + lane] = turn(engine);
@@ -154,7 +145,7 @@ signals::Tones draw_tones(const Scene& scene, std::span<const Realization> reali
     }
     for (const Tone& tone : requested) {
         const double turns_per_mesh =
-            tone.shaft ? scene.drivetrain().shaft_turns_per_mesh(*tone.shaft) : 0.0;
+            tone.shaft ? gearbox.drivetrain->shaft_turns_per_mesh(*tone.shaft) : 0.0;
         for (std::size_t lane = 0; lane < lanes; ++lane) {
             tones.frequency_Hz.push_back(tone.shaft ? tone.order * turns_per_mesh /
                                                           tones.mesh_period_s[lane]
@@ -232,31 +223,27 @@ class LaneTeeth {
 
 }  // namespace
 
-std::optional<lockstep::ToothErrors> draw_tooth_errors(const Scene& scene,
-                                                       std::span<const Realization> realizations) {
-    const std::optional<ToothErrorModel>& model = scene.gearbox().tooth_errors;
-    if (!model) {
-        return std::nullopt;
-    }
+lockstep::ToothErrors draw_tooth_errors(const ToothErrorModel& model, const DrawPlan& draw,
+                                        std::span<const Realization> realizations) {
     const std::size_t lanes = realizations.size();
     lockstep::ToothErrors errors;
-    errors.pairs = model->pairs;
-    for (const ToothedBody& body : model->bodies) {
+    errors.pairs = model.pairs;
+    for (const ToothedBody& body : model.bodies) {
         const machine::AlignedVector none(static_cast<std::size_t>(body.teeth) * lanes);
         errors.gears.insert(errors.gears.end(), body.sides.size(), {body.teeth, none, none});
     }
     for (std::size_t lane = 0; lane < lanes; ++lane) {
         const auto normals = [&](StreamPurpose purpose) {
-            return Normals(scene.draw().seed, realizations[lane].id, purpose);
+            return Normals(draw.seed, realizations[lane].id, purpose);
         };
         LaneTeeth teeth(lane, lanes, normals(StreamPurpose::pitch_errors),
                         normals(StreamPurpose::index_waves), normals(StreamPurpose::profile_slopes),
                         errors);
         GearboxId assembly = realizations[lane].id;
         assembly.baseline = 0;  // one assembly for all baseline records
-        Philox engine = record_stream(scene.draw().seed, assembly, StreamPurpose::assembled_teeth);
-        const bool shifted = assembly.record == Record::baseline && redraws(scene.study(), "teeth");
-        for (const ToothedBody& body : model->bodies) {
+        Philox engine = record_stream(draw.seed, assembly, StreamPurpose::assembled_teeth);
+        const bool shifted = assembly.record == Record::baseline && draw.redraws_teeth;
+        for (const ToothedBody& body : model.bodies) {
             boost::random::uniform_int_distribution<int> shift(0, body.teeth - 1);
             teeth.draw(body, scales_of(body, realizations[lane].inputs),
                        shifted ? shift(engine) : 0);

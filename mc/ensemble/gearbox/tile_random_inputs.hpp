@@ -1,5 +1,5 @@
 // Random inputs of a gearbox that are not among its sampled parameters: phases of interfering
-// tones, excitation, and errors of the teeth. The random inputs of a gearbox depend on no other gearbox.
+// tones, excitation, and errors of the teeth. They depend on no other gearbox.
 #pragma once
 
 #include <optional>
@@ -17,7 +17,8 @@ namespace gearpod::mc {
 
 // Interfering tones. Their phases are uniformly distributed, because no tone is synchronous with
 // the meshes. Empty without tones.
-signals::Tones draw_tones(const Scene& scene, std::span<const Realization> realizations);
+signals::Tones draw_tones(std::span<const Tone> tones, const GearboxPlan& gearbox,
+                          std::uint64_t seed, std::span<const Realization> realizations);
 
 // Run-in: mesh periods that are integrated before the first recorded one. In this time, the
 // transient from the onset of tooth errors or variable excitation decays to the convergence
@@ -25,17 +26,18 @@ signals::Tones draw_tones(const Scene& scene, std::span<const Realization> reali
 int run_in_meshes(const Scene& scene);
 
 // Gravity, and the fluctuations of torque and speed. The noise has knots from before the longest
-// run-in until after the last mesh of scene.signal_meshes(), independent of the actual run-in. Its
+// run-in until after the last mesh period of the signal, independent of the actual run-in. Its
 // first knot has a random position. Empty if the excitation is constant.
-std::optional<lockstep::Excitation> draw_excitation(const Scene& scene,
+struct ExcitedMeshes {
+    int longest_run_in, signal;
+};
+std::optional<lockstep::Excitation> draw_excitation(const GearboxPlan& gearbox, std::uint64_t seed,
+                                                    const ExcitedMeshes& meshes,
                                                     std::span<const Realization> realizations);
 
 // Random errors of a gearbox's teeth: waves, eccentricity, scatter and slopes of every gear's
 // flanks.
-
-// `realizations` has one gearbox per lane. The errors of a gearbox depend on no other gearbox.
-// Empty without tooth errors.
-std::optional<lockstep::ToothErrors> draw_tooth_errors(const Scene& scene,
-                                                       std::span<const Realization> realizations);
+lockstep::ToothErrors draw_tooth_errors(const ToothErrorModel& model, const DrawPlan& draw,
+                                        std::span<const Realization> realizations);
 
 }  // namespace gearpod::mc

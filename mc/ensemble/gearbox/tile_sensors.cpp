@@ -76,7 +76,9 @@ TileSensorRecorder::TileSensorRecorder(const Scene& scene, const SensorPaths& pa
       record_meshes_(scene.record().length ? scene.record().turns(realizations.front().inputs) *
                                                  scene.span().planet_teeth
                                            : signal_meshes_) {
-    const signals::Tones tones = draw_tones(scene, realizations), none;
+    const signals::Tones tones = draw_tones(scene.study().sensor.tones, scene.gearbox(),
+                                            scene.draw().seed, realizations),
+                         none;
     for (std::size_t s = 0; s < path.size(); ++s) {
         const SensorPath& sensor = path[s];
         // Tones are added to the response of a sensor later.

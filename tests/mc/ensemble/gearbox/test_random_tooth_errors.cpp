@@ -25,7 +25,7 @@ Study study_with(std::vector<std::string> overrides) {
 
 lockstep::ToothErrors errors_of(const Scene& scene, std::uint64_t index) {
     const Realization gearbox = scene.sampler().draw({Group::test, index});
-    return *draw_tooth_errors(scene, std::span(&gearbox, 1));
+    return draw_tooth_errors(*scene.gearbox().tooth_errors, scene.draw(), std::span(&gearbox, 1));
 }
 
 // Gaps of a pair at the phases k + 1/2 of many meshes: mean over the tooth pairs in contact, and
@@ -146,7 +146,7 @@ TEST_CASE("Tooth errors belong to the gearbox: the same in any lane, for any noi
         for (const GearboxId& id : ids) {
             gearboxes.push_back(scene.sampler().draw(id));
         }
-        return *draw_tooth_errors(scene, gearboxes);
+        return draw_tooth_errors(*scene.gearbox().tooth_errors, scene.draw(), gearboxes);
     };
     const auto alone = of({}, {{Group::test, 5}});
     const auto other = of({"sensor.noise_m_s2=3"}, {{Group::test, 4}, {Group::test, 5}});

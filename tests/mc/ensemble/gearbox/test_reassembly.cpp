@@ -100,7 +100,7 @@ TEST_CASE("Redrawn teeth are the gearbox's own errors, shifted by whole teeth") 
         const std::vector<Realization> both{
             scene.sampler().draw(kTest), scene.sampler().draw(baseline(0)),
             scene.sampler().draw(baseline(1)), scene.sampler().draw(baseline(0))};
-        return draw_tooth_errors(scene, both).value();
+        return draw_tooth_errors(*scene.gearbox().tooth_errors, scene.draw(), both);
     };
     const auto lane = [](const machine::AlignedVector& values, std::size_t which) {
         std::vector<double> own;

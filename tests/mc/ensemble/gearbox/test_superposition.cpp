@@ -158,15 +158,16 @@ class ContactLimit {
             gearboxes.push_back(scene_.sampler().draw({Group::test, i}));
             inputs.push_back(scene_.inputs(gearboxes.back().inputs));
         }
-        const auto errors = draw_tooth_errors(scene_, gearboxes);
+        const auto errors =
+            draw_tooth_errors(*scene_.gearbox().tooth_errors, scene_.draw(), gearboxes);
         const lockstep::FaultCurves faults{&scene_.pairs(), {}, {}};
         const lockstep::Convergence convergence{1e-10, scene_.max_meshes()};
         const lockstep::RecordedSpan span{.meshes = 12, .run_in_meshes = run_in_meshes(scene_)};
         const auto run = [&](const lockstep::Solution& solution) {
             return lockstep::run_tile<8>(scene_.plan(), inputs, faults, solution);
         };
-        return use_superposition ? run(lockstep::SuperposedSolution{*errors, convergence, span})
-                                 : run(lockstep::FullSolution{convergence, span, &*errors});
+        return use_superposition ? run(lockstep::SuperposedSolution{errors, convergence, span})
+                                 : run(lockstep::FullSolution{convergence, span, &errors});
     }
 
   private:

@@ -1,0 +1,43 @@
+// Studies from which the rates of rare events are estimated: those of stored results, restricted to
+// one feature, one noise level and gearboxes of one kind.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "features/feature.hpp"
+#include "mc/study/study.hpp"
+
+namespace gearpod::mc {
+
+// Miss rate for faults of one size.
+struct MissRateRequest {
+    std::string feature;
+    double threshold = 0.0;    // alarm threshold in the feature's unit
+    double noise_level = 1.0;  // one of sensor.noise_levels
+    double size = 0.0;         // fault size, SI
+    long gearboxes = 0;
+    int records = 0;  // per gearbox, a multiple of NoiseImportanceSampler::kKinds
+};
+// Study of test gearboxes that all have a fault of the requested size. The other inputs keep their
+// distributions.
+Study study_for_miss_rate(const Study& study, const MissRateRequest& request);
+
+// Either the threshold of healthy gearboxes for a false-alarm rate, or the miss rate of a given
+// threshold for gearboxes with a fault.
+struct RareRateRequest {
+    std::string feature;
+    double noise_level = 1.0;    // one of sensor.noise_levels
+    std::optional<double> rate;  // false-alarm rate; if empty, the miss rate is estimated for:
+    double size = 0.0;           // fault size, SI
+    double threshold = 0.0;      // alarm threshold in the feature's unit
+    long gearboxes = 0;          // members per level
+
+    // Side on which the rare values lie. Misses lie on the opposite side of alarms.
+    analysis::Alarm towards() const;
+};
+// Study for multilevel splitting. Healthy gearboxes are those of its threshold group, faulty ones
+// are as for a miss rate.
+Study study_for_rare_rate(const Study& study, const RareRateRequest& request);
+
+}  // namespace gearpod::mc
