@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "analysis/monitoring/false_alarms.hpp"
+#include "machine/fields.hpp"
 
 namespace gearpod::analysis {
 
@@ -16,6 +17,7 @@ struct SustainedRule {
 
     int needed() const;  // least number of them
 };
+GEARPOD_FIELDS(SustainedRule, records, share)
 
 // Alarm of every record; empty for records without a value. Detectors that accumulate (ewma, cusum,
 // trend) restart after an alarm, so that each record must raise the alarm anew; a window of the
@@ -48,6 +50,7 @@ struct HeldOutAlarms {
     // Exact interval of the rate for independent records (interval.hpp).
     Interval bounds{kNan, kNan};
 };
+GEARPOD_FIELDS(HeldOutAlarms, rate, alarms, recordings, lower_upper)
 HeldOutAlarms held_out_alarms(const Detector& detector, std::span<const HealthyLife> lives,
                               double rate, double confidence);
 
@@ -60,6 +63,7 @@ struct Drift {
     double change = kNan;
     double tau = kNan, p_value = kNan;  // two-sided
 };
+GEARPOD_FIELDS(Drift, change, tau, p_value)
 Drift drift_of(std::span<const double> values);
 
 }  // namespace gearpod::analysis

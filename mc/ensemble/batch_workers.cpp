@@ -16,17 +16,9 @@
 namespace gearpod::mc {
 
 Seconds& Seconds::operator+=(const Seconds& other) {
-    sampling += other.sampling;
-    stiffness += other.stiffness;
-    integration += other.integration;
-    signals += other.signals;
-    noise += other.noise;
-    features += other.features;
-    meshes += other.meshes;
-    superposed += other.superposed;
-    superposition_fallbacks += other.superposition_fallbacks;
-    gearboxes += other.gearboxes;
-    records += other.records;
+    const auto added = fields_of(other);
+    for_each_field(
+        *this, [&](auto field, auto& value) { value += std::get<decltype(field)::index>(added); });
     return *this;
 }
 

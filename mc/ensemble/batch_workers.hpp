@@ -32,6 +32,8 @@ struct Seconds {
     Seconds& operator+=(const Seconds& other);
     double sum() const { return sampling + stiffness + integration + signals + noise + features; }
 };
+GEARPOD_FIELDS(Seconds, sampling, stiffness, integration, signals, noise, features, meshes_,
+               superposed_, superposition_fallbacks_, gearboxes_, records_)
 
 // Data shared by all workers of a process.
 struct BatchTask {

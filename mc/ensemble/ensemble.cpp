@@ -475,14 +475,14 @@ std::vector<Timing> timing_of(const EnsembleOutcome& outcome) {
     for (const TeamTimes& team : outcome.teams) {
         waiting += team.waiting;
     }
-    std::vector<Timing> all{{"sampling_thread_s", work.sampling},
-                            {"stiffness_thread_s", work.stiffness},
-                            {"integration_thread_s", work.integration},
-                            {"signals_thread_s", work.signals},
-                            {"noise_thread_s", work.noise},
-                            {"features_thread_s", work.features},
-                            {"waiting_thread_s", waiting},
-                            {"ensemble_s", outcome.wall_s}};
+    std::vector<Timing> all;
+    for_each_field(work, [&](auto field, auto value) {
+        if (decltype(field)::written) {
+            all.push_back({std::string(field.name) + "_thread_s", static_cast<double>(value)});
+        }
+    });
+    all.push_back({"waiting_thread_s", waiting});
+    all.push_back({"ensemble_s", outcome.wall_s});
     if (work.superposed + work.superposition_fallbacks > 0) {
         all.push_back({"superposed_records", static_cast<double>(work.superposed), "1"});
         all.push_back({"superposition_fallback_records",

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "analysis/monitoring/monitor_performance.hpp"
+#include "machine/fields.hpp"
 #include "mc/lives/campaign.hpp"
 
 namespace gearpod::mc {
@@ -30,6 +31,8 @@ struct TradeOff {
     std::string feature, detector;
     std::vector<Point> points;
 };
+GEARPOD_FIELDS(TradeOff::Point, stated_per_1000_h, per_1000_h, share, depth_50_m, depth_90_m)
+GEARPOD_FIELDS(TradeOff, feature, detector, points)
 
 // Deviations from each gearbox's baseline, by record: the 5, 50 and 95 % quantiles of the healthy
 // lives that count false alarms, and the first lives with a crack. NaN if there is no value.
@@ -38,6 +41,7 @@ struct FeatureQuantiles {
     std::vector<double> low, median, high;
     std::vector<std::vector<double>> lives;
 };
+GEARPOD_FIELDS(FeatureQuantiles, feature, healthy_05, healthy_50, healthy_95, lives)
 
 // Plan and campaign must outlive the object.
 class LifeMonitor {

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "machine/fields.hpp"
 #include "mc/ensemble/gearbox/healthy_solution.hpp"
 #include "mc/lives/crack_life.hpp"
 #include "mc/lives/load_axis.hpp"
@@ -35,6 +36,7 @@ struct InterpolationErrors {
     // Takes the maximum of both for each error.
     void take(const InterpolationErrors& other);
 };
+GEARPOD_FIELDS(InterpolationErrors, first, last, load, change)
 
 // Processor time in seconds, spent per gearbox and per record.
 struct LifeCosts {

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "analysis/reliability.hpp"
+#include "machine/fields.hpp"
 #include "mc/numerics/paired_correction.hpp"
 #include "mc/numerics/solver_setting.hpp"
 #include "mc/plan/scene.hpp"
@@ -48,6 +49,8 @@ struct NumericalContribution {
     std::optional<CorrectedDetection> corrected = {};
     bool numerical_dominates = false;  // for Pd, or without a threshold for the feature itself
 };
+GEARPOD_FIELDS(NumericalContribution, feature, noise_level, rms, healthy_spread, pd, pd_half_width,
+               a90, a90_interval, correction_, corrected_, dominates_)
 std::vector<NumericalContribution> numerical_contributions(
     const Results& frame, const RowSource& rows,
     const std::optional<analysis::Reliability>& reliability);

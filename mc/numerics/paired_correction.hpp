@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "analysis/reliability.hpp"
+#include "machine/fields.hpp"
 #include "mc/results/result_rows.hpp"
 
 namespace gearpod::mc {
@@ -33,6 +34,7 @@ struct CorrectedDetection {
     // reached.
     double a90 = 0.0, a90_lower = 0.0, a90_upper = 0.0;
 };
+GEARPOD_FIELDS(CorrectedDetection, pd_change, a90, a90_lower, a90_upper)
 
 // By feature and noise level; empty if the frame has no corrections.
 std::vector<CorrectedDetection> corrected_detection(const Results& frame, const RowSource& rows);

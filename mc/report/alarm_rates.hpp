@@ -9,6 +9,7 @@
 
 #include "analysis/report/report.hpp"
 #include "analysis/statistics/interval.hpp"
+#include "machine/fields.hpp"
 #include "mc/results/result_rows.hpp"
 #include "mc/study/study.hpp"
 
@@ -45,6 +46,7 @@ struct OtherFaultAlarms {
     long alarms = 0, tested = 0, without = 0;
     analysis::Interval interval;  // Wilson's, of the rate, at the confidence of the results
 };
+GEARPOD_FIELDS(OtherFaultAlarms, feature_, level_, alarms, tested, without, lower_upper)
 
 // Alarms of every acceleration feature and noise level with a threshold; empty without another
 // fault.

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "analysis/report/report.hpp"
+#include "machine/fields.hpp"
 #include "mc/results/result_rows.hpp"
 
 namespace gearpod::mc {
@@ -17,6 +18,7 @@ struct ContactLossSummary {
     double lower = 0.0, median = 0.0, upper = 0.0;  // quantiles 0.05, 0.5 and 0.95
     std::size_t rows = 0;
 };
+GEARPOD_FIELDS(ContactLossSummary, mesh, mean, lower, median, upper, gearboxes)
 
 // Returns one entry for each mesh that has a value in some row; none where teeth cannot separate.
 std::vector<ContactLossSummary> summarise_contact_loss(const Results& frame, const RowSource& rows);

@@ -313,45 +313,6 @@ analysis::Report lives_report(const LifeMonitor& monitor, bool shows_withheld) {
     return report;
 }
 
-namespace {
-
-using LifeJson = nlohmann::json;
-
-LifeJson trade_offs_json(const LifeMonitor& monitor) {
-    LifeJson all = LifeJson::array();
-    for (const TradeOff& trade : monitor.trade_offs()) {
-        LifeJson points = LifeJson::array();
-        for (const TradeOff::Point& point : trade.points) {
-            points.push_back({{"stated_per_1000_h", point.stated_per_1000_h},
-                              {"per_1000_h", analysis::number(point.per_1000_h)},
-                              {"share", analysis::number(point.share)},
-                              {"depth_50_m", analysis::number(point.depth_50_m)},
-                              {"depth_90_m", analysis::number(point.depth_90_m)}});
-        }
-        all.push_back(
-            {{"feature", trade.feature}, {"detector", trade.detector}, {"points", points}});
-    }
-    return all;
-}
-
-LifeJson fans_json(const LifeMonitor& monitor) {
-    LifeJson all = LifeJson::array();
-    for (const FeatureQuantiles& fan : monitor.feature_quantiles()) {
-        LifeJson lives = LifeJson::array();
-        for (const std::vector<double>& life : fan.lives) {
-            lives.push_back(analysis::numbers(life));
-        }
-        all.push_back({{"feature", fan.feature},
-                       {"healthy_05", analysis::numbers(fan.low)},
-                       {"healthy_50", analysis::numbers(fan.median)},
-                       {"healthy_95", analysis::numbers(fan.high)},
-                       {"lives", lives}});
-    }
-    return all;
-}
-
-}  // namespace
-
 nlohmann::json life_result_json(const MonitoredFeature& one) {
     const analysis::MonitorPerformance& a = one.performance;
     return {{"feature", one.feature},
@@ -362,13 +323,13 @@ nlohmann::json life_result_json(const MonitoredFeature& one) {
              {{"count", a.false_alarms.alarms},
               {"hours", a.false_alarms.hours},
               {"per_1000_h", analysis::number(a.false_alarms.per_1000_h)},
-              {"bounds", analysis::to_json(a.false_alarms.bounds)},
+              {"bounds", analysis::json_of(a.false_alarms.bounds)},
               {"dispersion", a.false_alarms.dispersion},
-              {"expected", analysis::to_json(a.expected_per_1000_h)}}},
+              {"expected", analysis::json_of(a.expected_per_1000_h)}}},
             {"ended", a.ended},
             {"found", a.found},
             {"share", analysis::number(a.share)},
-            {"share_bounds", analysis::to_json(a.share_bounds)},
+            {"share_bounds", analysis::json_of(a.share_bounds)},
             {"share_by_chance", analysis::number(a.share_by_chance)},
             {"share_at_stated_rate", analysis::number(a.share_at_stated_rate)},
             {"net_share", analysis::number(analysis::net_share(a))},
@@ -388,21 +349,23 @@ nlohmann::json life_result_json(const MonitoredFeature& one) {
 nlohmann::json lives_json(const LifeMonitor& monitor, bool shows_withheld) {
     const CampaignPlan& plan = monitor.plan();
     const Campaign& campaign = monitor.campaign();
-    LifeJson watched = LifeJson::array(), lives = LifeJson::array();
-    const InterpolationErrors& off = campaign.interpolation;
-    for (const MonitoredFeature& one : monitor.results()) {
-        watched.push_back(life_result_json(one));
-        watched.back()["alarm_h"] = analysis::numbers(one.performance.alarm_hours);
+    nlohmann::json watched = nlohmann::json::array(), lives = nlohmann::json::array();
+    nlohmann::json interpolation = analysis::fields_json(campaign.interpolation);
+    interpolation.update({{"first_depth_m", plan.middle_m(plan.first_step)},
+                          {"last_depth_m", plan.middle_m(plan.depth_steps - 1)},
+                          {"smallest_depth_m", plan.smallest_m}});
+    for (const MonitoredFeature& result : monitor.results()) {
+        watched.push_back(life_result_json(result));
+        watched.back()["alarm_h"] = analysis::json_of(result.performance.alarm_hours);
     }
     for (const GearboxLife& life : campaign.cracked) {
-        LifeJson hours = LifeJson::array(), depths = LifeJson::array();
+        nlohmann::json hours = nlohmann::json::array(), depths = nlohmann::json::array();
         for (const LifeRecord& record : life.history.records) {
             hours.push_back(record.hours);
             depths.push_back(record.depth_m);
         }
         lives.push_back({{"status", static_cast<int>(life.status)},
-                         {"end_h", life.history.end_hours ? LifeJson(*life.history.end_hours)
-                                                          : LifeJson(nullptr)},
+                         {"end_h", analysis::json_of(life.history.end_hours)},
                          {"hours", hours},
                          {"depth_m", depths}});
     }
@@ -418,14 +381,7 @@ nlohmann::json lives_json(const LifeMonitor& monitor, bool shows_withheld) {
          {{"setting", campaign.threshold_lives.size()}, {"counting", campaign.healthy.size()}}},
         {"false_alarms_per_1000_h", plan.false_alarms_per_1000_h},
         {"failed", campaign.failed},
-        {"interpolation",
-         {{"first_depth_m", plan.middle_m(plan.first_step)},
-          {"first", analysis::number(off.first)},
-          {"last_depth_m", plan.middle_m(plan.depth_steps - 1)},
-          {"last", analysis::number(off.last)},
-          {"load", analysis::number(off.load)},
-          {"smallest_depth_m", plan.smallest_m},
-          {"change", analysis::number(off.change)}}},
+        {"interpolation", interpolation},
         {"costs",
          {{"gearboxes", campaign.costs.gearbox_count},
           {"gearbox_s", campaign.costs.gearboxes},
@@ -435,8 +391,8 @@ nlohmann::json lives_json(const LifeMonitor& monitor, bool shows_withheld) {
         {"findings", findings_json(lives_report(monitor, shows_withheld))},
         {"monitored", watched},
         {"ranking", monitor.ranking()},
-        {"trade_offs", trade_offs_json(monitor)},
-        {"fans", fans_json(monitor)},
+        {"trade_offs", analysis::json_of(monitor.trade_offs())},
+        {"fans", analysis::json_of(monitor.feature_quantiles())},
         {"lives", lives}};
 }
 

@@ -467,58 +467,34 @@ std::string drift_text(const MonitoringOverTime& monitoring) {
 
 nlohmann::json first_json(const MonitoringOverTime& monitoring,
                           const std::optional<FirstAlarm>& alarm) {
-    if (!alarm) {
-        return nullptr;
+    nlohmann::json json = analysis::json_of(alarm);
+    if (alarm) {
+        json["recording"] = monitoring.names.at(alarm->row);
     }
-    return {{"row", alarm->row},
-            {"time", alarm->time},
-            {"recording", monitoring.names.at(alarm->row)},
-            {"recordings_left", alarm->recordings_left},
-            {"time_left", alarm->time_left}};
+    return json;
 }
 
 nlohmann::json gearbox_json(const MonitoringOverTime& monitoring, const GearboxAlarms& gearbox) {
-    nlohmann::json json = {{"name", gearbox.name},
-                           {"recordings", gearbox.recordings},
-                           {"alarms", gearbox.alarms},
-                           {"first", first_json(monitoring, gearbox.first)},
-                           {"sustained", first_json(monitoring, gearbox.sustained)},
-                           {"tooth", nullptr}};
+    nlohmann::json json = analysis::fields_json(gearbox);
+    json["first"] = first_json(monitoring, gearbox.first);
+    json["sustained"] = first_json(monitoring, gearbox.sustained);
     if (gearbox.sustained) {
         json["sustained"]["confirmed_by"] = monitoring.names.at(*gearbox.confirmed);
-    }
-    if (gearbox.tooth) {
-        json["tooth"] = {{"number", gearbox.tooth->tooth},
-                         {"same", gearbox.tooth->same},
-                         {"recordings", gearbox.tooth->recordings}};
     }
     return json;
 }
 
 nlohmann::json series_json(const MonitoringOverTime& monitoring, const GearboxSeries& series) {
-    nlohmann::json deviations = nlohmann::json::object(), teeth = nlohmann::json::array(),
-                   healthy = nlohmann::json::array();
+    nlohmann::json json = analysis::fields_json(series);
+    json["deviations"] = nlohmann::json::object();
     for (std::size_t f = 0; f < series.deviations.size(); ++f) {
-        deviations[monitoring.shown[f]] = analysis::numbers(series.deviations[f]);
+        json["deviations"][monitoring.shown[f]] = analysis::json_of(series.deviations[f]);
     }
-    for (const auto& one : series.teeth) {
-        teeth.push_back(analysis::numbers(one));
+    json["healthy"] = nlohmann::json::array();
+    for (const char healthy : series.healthy) {
+        json["healthy"].push_back(healthy != 0);
     }
-    for (const char one : series.healthy) {
-        healthy.push_back(one != 0);
-    }
-    return {{"name", series.name},
-            {"rows", series.rows},
-            {"time", analysis::numbers(series.time)},
-            {"healthy", healthy},
-            {"alignment", analysis::numbers(series.alignment)},
-            {"tooth_rms", teeth},
-            {"first_tooth", analysis::numbers(series.first_tooth)},
-            {"deviations", deviations},
-            {"level",
-             {{"change", analysis::number(series.level.change)},
-              {"tau", analysis::number(series.level.tau)},
-              {"p_value", analysis::number(series.level.p_value)}}}};
+    return json;
 }
 
 }  // namespace
@@ -583,44 +559,32 @@ analysis::Section monitoring_section(const MonitoringOverTime& monitoring,
 }
 
 nlohmann::json monitoring_json(const MonitoringOverTime& monitoring) {
-    nlohmann::json watched = nlohmann::json::array(), series = nlohmann::json::array();
-    for (const RecordingMonitorResult& one : monitoring.watched) {
+    nlohmann::json json = analysis::fields_json(monitoring);
+    json["smallest_rate"] = analysis::smallest_rate(monitoring.healthy);
+    json["refusal"] = monitoring.refusal;
+    json["watched"] = json["recordings"] = nlohmann::json::array();
+    for (const RecordingMonitorResult& result : monitoring.watched) {
         nlohmann::json gearboxes = nlohmann::json::array();
-        for (const GearboxAlarms& gearbox : one.gearboxes) {
+        for (const GearboxAlarms& gearbox : result.gearboxes) {
             gearboxes.push_back(gearbox_json(monitoring, gearbox));
         }
-        watched.push_back({{"feature", one.feature},
-                           {"detector", one.detector},
-                           {"threshold", analysis::number(one.threshold.value)},
-                           {"healthy",
-                            {{"recordings", one.threshold.records},
-                             {"alarms", one.threshold.alarms},
-                             {"sustained", one.healthy_sustained},
-                             {"rate", one.rate},
-                             {"lower", analysis::number(one.rate_bounds.lower)},
-                             {"upper", analysis::number(one.rate_bounds.upper)}}},
-                           {"held_out",
-                            {{"recordings", one.held_out.records},
-                             {"alarms", one.held_out.alarms},
-                             {"rate", analysis::number(one.held_out.rate)},
-                             {"lower", analysis::number(one.held_out.bounds.lower)},
-                             {"upper", analysis::number(one.held_out.bounds.upper)}}},
-                           {"gearboxes", gearboxes}});
+        json["watched"].push_back({{"feature", result.feature},
+                                   {"detector", result.detector},
+                                   {"threshold", analysis::number(result.threshold.value)},
+                                   {"healthy",
+                                    {{"recordings", result.threshold.records},
+                                     {"alarms", result.threshold.alarms},
+                                     {"sustained", result.healthy_sustained},
+                                     {"rate", result.rate},
+                                     {"lower", analysis::number(result.rate_bounds.lower)},
+                                     {"upper", analysis::number(result.rate_bounds.upper)}}},
+                                   {"held_out", analysis::fields_json(result.held_out)},
+                                   {"gearboxes", gearboxes}});
     }
-    for (const GearboxSeries& one : monitoring.gearboxes) {
-        series.push_back(series_json(monitoring, one));
+    for (const GearboxSeries& series : monitoring.gearboxes) {
+        json["recordings"].push_back(series_json(monitoring, series));
     }
-    return {{"baseline_records", monitoring.baseline_records},
-            {"false_alarm_rate", monitoring.false_alarm_rate},
-            {"smallest_rate", analysis::smallest_rate(monitoring.healthy)},
-            {"sustained",
-             {{"records", monitoring.sustained.records}, {"share", monitoring.sustained.share}}},
-            {"torque_regression", monitoring.torque_regression},
-            {"time_unit", monitoring.time_unit},
-            {"note", monitoring.note},
-            {"refusal", monitoring.refusal},
-            {"watched", watched},
-            {"recordings", series}};
+    return json;
 }
 
 }  // namespace gearpod::mc

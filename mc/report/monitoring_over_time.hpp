@@ -10,6 +10,7 @@
 
 #include "analysis/monitoring/sustained_alarms.hpp"
 #include "analysis/report/report.hpp"
+#include "machine/fields.hpp"
 #include "mc/results/result_rows.hpp"
 
 namespace gearpod::mc {
@@ -22,6 +23,7 @@ struct FirstAlarm {
     long recordings_left = 0;
     double time_left = 0.0;
 };
+GEARPOD_FIELDS(FirstAlarm, row, time, recordings_left, time_left)
 
 // Worst tooth of a gearbox at its sustained alarm, in the baseline's numbering.
 struct AlarmTooth {
@@ -30,6 +32,7 @@ struct AlarmTooth {
     // whose worst tooth lies within one tooth of it.
     long recordings = 0, same = 0;
 };
+GEARPOD_FIELDS(AlarmTooth, number, recordings, same)
 
 // Alarms of a detector in one gearbox's recordings that are not known to be healthy.
 struct GearboxAlarms {
@@ -39,6 +42,7 @@ struct GearboxAlarms {
     std::optional<std::size_t> confirmed;  // row at which the sustained alarm is confirmed
     std::optional<AlarmTooth> tooth;       // known if the recordings are aligned
 };
+GEARPOD_FIELDS(GearboxAlarms, name, recordings, alarms, first_, sustained_, confirmed_, tooth)
 
 struct RecordingMonitorResult {
     std::string feature;  // "fused": all features that the study uses, combined
@@ -67,6 +71,8 @@ struct GearboxSeries {
     // Deviations from the gearbox's own first recordings, by feature of MonitoringOverTime::shown.
     std::vector<std::vector<double>> deviations;
 };
+GEARPOD_FIELDS(GearboxSeries, name, rows, time, healthy_, alignment, tooth_rms, first_tooth, level,
+               deviations_)
 
 struct MonitoringOverTime {
     int baseline_records = 0;
@@ -84,6 +90,9 @@ struct MonitoringOverTime {
     std::string note;                // assumption made; else empty
     std::string refusal;             // why monitoring is impossible; else empty
 };
+GEARPOD_FIELDS(MonitoringOverTime, baseline_records, false_alarm_rate, confidence_, sustained,
+               healthy_, torque_regression, watched_, shown_, gearboxes_, names_, time_unit, note,
+               refusal_)
 
 // Returns nothing unless the rows are recordings with times.
 std::optional<MonitoringOverTime> monitoring_over_time(const Results& frame, const RowSource& rows);

@@ -277,58 +277,21 @@ Json numerical_json(const Results& frame, const std::vector<NumericalContributio
               {"healthy_pairs", frame.numerical->healthy_pairs},
               {"faulty_pairs", frame.numerical->faulty_pairs},
               {"shares", Json::array()}};
-    for (const NumericalContribution& s : contributions) {
-        json["shares"].push_back({{"feature", s.feature},
-                                  {"noise_level", s.noise_level},
-                                  {"rms", analysis::number(s.rms)},
-                                  {"healthy_spread", analysis::number(s.spread)},
-                                  {"pd", analysis::number(s.pd)},
-                                  {"pd_half_width", analysis::number(s.pd_half_width)},
-                                  {"a90", analysis::number(s.a90)},
-                                  {"a90_interval", analysis::number(s.a90_interval)},
-                                  {"larger", s.numerical_dominates ? "numerical" : "statistical"}});
-        if (s.correction) {
-            Json& correction = json["shares"].back()["correction"];
-            for (const auto& number : kPairedCorrectionNumbers) {
-                correction[number.name] = analysis::number((*s.correction).*number.member);
-            }
-            correction["pd_change"] = analysis::number(s.corrected->pd_change);
-            correction["a90"] = analysis::number(s.corrected->a90);
-            correction["a90_lower"] = analysis::number(s.corrected->a90_lower);
-            correction["a90_upper"] = analysis::number(s.corrected->a90_upper);
+    for (const NumericalContribution& contribution : contributions) {
+        Json share = analysis::fields_json(contribution);
+        share["larger"] = contribution.numerical_dominates ? "numerical" : "statistical";
+        if (contribution.correction) {
+            share["correction"] = analysis::fields_json(*contribution.correction);
+            share["correction"].update(analysis::fields_json(*contribution.corrected));
         }
+        json["shares"].push_back(std::move(share));
     }
     return json;
 }
 
-// Contact loss ratio of each mesh; null if teeth cannot separate or an earlier version wrote the
-// file.
-Json contact_loss_json(const std::vector<ContactLossSummary>& meshes) {
-    Json json = Json::array();
-    for (const ContactLossSummary& mesh : meshes) {
-        json.push_back({{"mesh", mesh.mesh},
-                        {"mean", mesh.mean},
-                        {"lower", mesh.lower},
-                        {"median", mesh.median},
-                        {"upper", mesh.upper},
-                        {"gearboxes", mesh.rows}});
-    }
-    return json.empty() ? Json(nullptr) : json;
-}
-
-// Error of the time steps where teeth lose contact; null if it was not measured.
-Json step_error_json(const Results& frame) {
-    if (!frame.step_error) {
-        return nullptr;
-    }
-    Json json;
-    for (const auto& one : kStepErrorNumbers) {
-        json[one.name] = analysis::number((*frame.step_error).*one.member);
-    }
-    for (const auto& one : kStepErrorCounts) {
-        json[one.name] = (*frame.step_error).*one.member;
-    }
-    return json;
+// Null instead of an empty list.
+Json list_or_null(Json list) {
+    return list.empty() ? Json(nullptr) : list;
 }
 
 Json change_json(const analysis::NumberDifference& change) {
@@ -341,29 +304,24 @@ Json change_json(const analysis::NumberDifference& change) {
 // Detection by each sensor and by all together; null with one sensor.
 Json sensors_json(const std::vector<SensorDetection>& sensors) {
     Json json = Json::array();
-    for (const SensorDetection& one : sensors) {
-        json.push_back({{"name", one.name},
-                        {"feature", one.feature},
-                        {"size", one.smallest ? Json(one.smallest->size) : Json(nullptr)},
-                        {"a90", one.change ? change_json(one.change->a90) : Json(nullptr)},
-                        {"auc", one.change ? change_json(one.change->auc) : Json(nullptr)}});
+    for (const SensorDetection& sensor : sensors) {
+        json.push_back({{"name", sensor.name},
+                        {"feature", sensor.feature},
+                        {"size", sensor.smallest ? Json(sensor.smallest->size) : Json(nullptr)},
+                        {"a90", sensor.change ? change_json(sensor.change->a90) : Json(nullptr)},
+                        {"auc", sensor.change ? change_json(sensor.change->auc) : Json(nullptr)}});
     }
-    return json.empty() ? Json(nullptr) : json;
+    return list_or_null(std::move(json));
 }
 
 // Alarms of healthy gearboxes with another fault; null without one.
 Json other_fault_json(const Results& frame, const std::vector<OtherFaultAlarms>& alarms) {
-    Json json = Json::array();
-    for (const OtherFaultAlarms& one : alarms) {
-        json.push_back({{"feature", frame.features[one.feature].name},
-                        {"noise_level", frame.noise_levels[one.level]},
-                        {"alarms", one.alarms},
-                        {"tested", one.tested},
-                        {"lower", one.interval.lower},
-                        {"upper", one.interval.upper},
-                        {"without", one.without}});
+    Json json = analysis::json_of(alarms);
+    for (std::size_t i = 0; i < alarms.size(); ++i) {
+        json[i]["feature"] = frame.features[alarms[i].feature].name;
+        json[i]["noise_level"] = frame.noise_levels[alarms[i].level];
     }
-    return json.empty() ? Json(nullptr) : json;
+    return list_or_null(std::move(json));
 }
 
 Json features_json(const Results& frame) {
@@ -411,8 +369,8 @@ nlohmann::json report_json(const Results& frame, const RowSource& rows,
         analysis::smallest_faults_json(frame.detection, reliability ? &*reliability : nullptr);
     json["findings"] = analysis::findings_json(run.report);
     json["numerical"] = numerical_json(frame, run.numerical);
-    json["step_error"] = step_error_json(frame);
-    json["contact_loss"] = contact_loss_json(run.contact_loss);
+    json["step_error"] = analysis::json_of(frame.step_error);
+    json["contact_loss"] = list_or_null(analysis::json_of(run.contact_loss));
     json["sensors"] = sensors_json(run.sensors);
     json["other_fault"] = other_fault_json(frame, run.other_fault);
     json["features"] = features_json(frame);

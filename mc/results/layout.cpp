@@ -32,6 +32,15 @@ const char* failure_text(Status status) {
 
 namespace {
 
+constexpr const char* kFirstCorrection = "offset";  // of PairedCorrection
+
+// Calls use(field) for every dataset of paired corrections.
+template <class Use>
+void for_each_correction(const Use& use) {
+    const PairedCorrection any;
+    for_each_field(any, [&](auto field, double) { use(field); });
+}
+
 void write_numerical(hid_t root, const NumericalError& error, const Results& frame) {
     const Hdf5Handle group = create_group(root, "numerical");
     write_text(group.get(), ".", "setting", error.setting);
@@ -44,18 +53,20 @@ void write_numerical(hid_t root, const NumericalError& error, const Results& fra
     const std::size_t levels = frame.noise_levels.size();
     for (std::size_t f = 0; f < frame.features.size(); ++f) {
         const Hdf5Handle feature = create_group(group.get(), frame.features[f].name);
-        const auto write = [&](const char* name, const auto& all, auto member) {
+        const auto write = [&](std::string_view name, const auto& all, auto member) {
             std::vector<double> part;
             std::ranges::transform(std::span(all).subspan(f * levels, levels),
                                    std::back_inserter(part), member);
-            write_numbers(feature.get(), name, {levels}, part);
+            write_numbers(feature.get(), std::string(name), {levels}, part);
         };
         write("rms", error.rms, std::identity());
         write("largest", error.largest, std::identity());
         if (!error.corrections.empty()) {
-            for (const auto& number : kPairedCorrectionNumbers) {
-                write(number.name, error.corrections, number.member);
-            }
+            for_each_correction([&](auto field) {
+                write(field.name, error.corrections, [](const PairedCorrection& correction) {
+                    return std::get<decltype(field)::index>(fields_of(correction));
+                });
+            });
         }
         write_text(feature.get(), ".", "unit", frame.features[f].unit);
     }
@@ -73,31 +84,33 @@ NumericalError read_numerical(hid_t root, std::size_t most, const Results& resul
     const std::size_t levels = results.noise_levels.size();
     for (const FeatureResult& result : results.features) {
         const Hdf5Handle feature = open_group(group.get(), result.name);
-        const auto read = [&](const char* name) {
-            std::vector<double> values = read_numbers(feature.get(), name, most).values;
+        const auto read = [&](std::string_view name) {
+            std::vector<double> values =
+                read_numbers(feature.get(), std::string(name), most).values;
             if (values.size() != levels) {
-                throw Hdf5Error(name);
+                throw Hdf5Error(std::string(name));
             }
             return values;
         };
         std::ranges::copy(read("rms"), std::back_inserter(error.rms));
         std::ranges::copy(read("largest"), std::back_inserter(error.largest));
-        if (std::ranges::count(link_names(feature.get()), kPairedCorrectionNumbers[0].name) > 0) {
-            std::vector<PairedCorrection> own(levels);
-            for (const auto& number : kPairedCorrectionNumbers) {
-                const std::vector<double> values = read(number.name);
+        if (std::ranges::count(link_names(feature.get()), kFirstCorrection) > 0) {
+            const std::size_t first = error.corrections.size();
+            error.corrections.resize(first + levels);
+            for_each_correction([&](auto field) {
+                const std::vector<double> values = read(field.name);
                 for (std::size_t level = 0; level < levels; ++level) {
-                    own[level].*number.member = values[level];
+                    auto members = fields_of(error.corrections[first + level]);
+                    std::get<decltype(field)::index>(members) = values[level];
                 }
-            }
-            std::ranges::copy(own, std::back_inserter(error.corrections));
+            });
         }
     }
     if (error.corrections.empty()) {
         return error;
     }
     if (error.corrections.size() != error.rms.size()) {
-        throw Hdf5Error(kPairedCorrectionNumbers[0].name);
+        throw Hdf5Error(kFirstCorrection);
     }
     error.healthy_pairs = static_cast<int>(read_number(group.get(), ".", "healthy_pairs"));
     error.faulty_pairs = static_cast<int>(read_number(group.get(), ".", "faulty_pairs"));
@@ -112,12 +125,9 @@ void write_numerical_groups(hid_t root, const Results& frame) {
     }
     if (frame.step_error) {
         const Hdf5Handle group = create_group(root, "step_error");
-        for (const auto& number : kStepErrorNumbers) {
-            write_number(group.get(), ".", number.name, (*frame.step_error).*number.member);
-        }
-        for (const auto& count : kStepErrorCounts) {
-            write_number(group.get(), ".", count.name, (*frame.step_error).*count.member);
-        }
+        for_each_field(*frame.step_error, [&](auto field, auto value) {
+            write_number(group.get(), ".", std::string(field.name), value);
+        });
     }
 }
 
@@ -128,13 +138,10 @@ void read_numerical_groups(hid_t root, std::size_t most, Results& results) {
     }
     if (std::ranges::count(groups, "step_error") > 0) {
         const Hdf5Handle group = open_group(root, "step_error");
-        StepError& error = results.step_error.emplace();
-        for (const auto& number : kStepErrorNumbers) {
-            error.*number.member = read_number(group.get(), ".", number.name);
-        }
-        for (const auto& count : kStepErrorCounts) {
-            error.*count.member = static_cast<int>(read_number(group.get(), ".", count.name));
-        }
+        for_each_field(results.step_error.emplace(), [&](auto field, auto& value) {
+            value = static_cast<std::remove_reference_t<decltype(value)>>(
+                read_number(group.get(), ".", std::string(field.name)));
+        });
     }
 }
 

@@ -27,7 +27,7 @@ inline const char* columns_name(const Results& frame) {
     return frame.provenance_value("kind") == kLivesKind ? "hours" : "noise_levels";
 }
 
-// Column of Results, the dataset that holds it, and its place among the numbers of a row
+// Column of Results, the dataset that holds it, and its index among the numbers of a row
 // (RowShape).
 template <class Values>
 struct StoredColumn {
@@ -61,6 +61,13 @@ void for_each_column(Frame& frame, const Use& use) {
     }
 }
 
+// Member of a struct, and the name of its dataset or attribute.
+template <class Of, class Value>
+struct NamedMember {
+    const char* name;
+    Value Of::*member;
+};
+
 // Numbers of one cell and of one level by dataset name: long and double members of each.
 inline constexpr NamedMember<analysis::DetectionCell, long> kCellCounts[] = {
     {"detected", &analysis::DetectionCell::detected},
@@ -84,15 +91,6 @@ inline constexpr NamedMember<analysis::LevelDetection, double> kLevelNumbers[] =
 const char* failure_text(Status status);
 
 // Groups /numerical and /step_error of a results file: errors of the time steps.
-
-// Attributes of /step_error: first the double members, then the int members.
-inline constexpr NamedMember<StepError, double> kStepErrorNumbers[] = {
-    {"sensor", &StepError::sensor}, {"te", &StepError::te}};
-inline constexpr NamedMember<StepError, int> kStepErrorCounts[] = {
-    {"steps", &StepError::steps},
-    {"finer_steps", &StepError::finer_steps},
-    {"gearboxes", &StepError::gearboxes},
-    {"meshes", &StepError::meshes}};
 
 // Writes the groups that the frame has.
 void write_numerical_groups(hid_t root, const Results& frame);

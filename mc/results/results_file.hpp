@@ -38,6 +38,7 @@
 #include <vector>
 
 #include "analysis/detection/detection.hpp"
+#include "machine/fields.hpp"
 #include "mc/files/atomic_file.hpp"  // why_not_writable(path), to check before a long run
 #include "mc/files/signal_file.hpp"
 #include "mc/plan/ensemble_plan.hpp"
@@ -126,24 +127,8 @@ struct PairedCorrection {
     double faulty_bias = 0.0, faulty_error = 0.0;
     double scatter_ratio = 0.0;  // standard deviation of healthy gearboxes, own over fine
 };
-
-// Member of a struct, and the name of its dataset or attribute.
-template <class Of, class Value>
-struct NamedMember {
-    const char* name;
-    Value Of::*member;
-};
-inline constexpr NamedMember<PairedCorrection, double> kPairedCorrectionNumbers[] = {
-    {"offset", &PairedCorrection::offset},
-    {"by_value", &PairedCorrection::by_value},
-    {"by_size", &PairedCorrection::by_size},
-    {"by_size_error", &PairedCorrection::by_size_error},
-    {"healthy_bias", &PairedCorrection::healthy_bias},
-    {"healthy_error", &PairedCorrection::healthy_error},
-    {"faulty_bias", &PairedCorrection::faulty_bias},
-    {"faulty_error", &PairedCorrection::faulty_error},
-    {"scatter_ratio", &PairedCorrection::scatter_ratio},
-};
+GEARPOD_FIELDS(PairedCorrection, offset, by_value, by_size, by_size_error, healthy_bias,
+               healthy_error, faulty_bias, faulty_error, scatter_ratio)
 
 // Change of the features of some gearboxes when they are integrated with finer steps.
 struct NumericalError {
@@ -163,6 +148,7 @@ struct StepError {
     int steps = 0, finer_steps = 0;  // per mesh period
     int gearboxes = 0, meshes = 0;   // size of the pilot run: gearboxes, and mesh periods of each
 };
+GEARPOD_FIELDS(StepError, sensor, te, steps, finer_steps, gearboxes, meshes)
 
 // Results of an ensemble. A row is a gearbox, or in the threshold group a record of one. The
 // threshold group comes first, then the test group.

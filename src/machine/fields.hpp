@@ -30,12 +30,13 @@ concept HasFields = requires(Structure& structure) {
     fields_of(structure);
 };
 
-// Name of a member of a struct, at compile time.
-template <class Structure, std::size_t index>
+// Member of a struct at an index, and its name, at compile time.
+template <class Structure, std::size_t position>
 struct FieldName {
+    static constexpr std::size_t index = position;
     static constexpr std::string_view name = [] {
         std::string_view names = field_names(static_cast<const Structure*>(nullptr));
-        for (std::size_t i = 0; i < index; ++i) {
+        for (std::size_t i = 0; i < position; ++i) {
             names.remove_prefix(names.find(',') + 2);
         }
         return names.substr(0, names.find(','));

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "analysis/report/report.hpp"
+#include "machine/fields.hpp"
 #include "mc/files/input/problems.hpp"
 
 namespace gearpod::mc {
@@ -13,6 +14,7 @@ struct VariedKey {
     std::string key;                  // "sensor.noise_m_s2"
     std::vector<std::string> values;  // as TOML text
 };
+GEARPOD_FIELDS(VariedKey, key, values)
 
 // Parses texts "section.key=[a, b, c]" with any TOML values, including tables and arrays. Problems
 // name `--vary`.

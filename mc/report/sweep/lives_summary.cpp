@@ -332,18 +332,14 @@ nlohmann::json lives_sweep_json(const LivesSweep& sweep) {
     using Json = nlohmann::json;
     Json json{{"kind", "lives-sweep"},
               {"title", sweep.title},
-              {"varied", Json::array()},
+              {"varied", analysis::json_of(sweep.keys)},
               {"order", Json::array()},
               {"findings", analysis::findings_json(lives_sweep_report(sweep))},
               {"points", Json::array()}};
     for (const MonitoredFeature& one : sweep.order) {
         json["order"].push_back({{"feature", one.feature}, {"detector", one.detector}});
     }
-    for (const VariedKey& key : sweep.keys) {
-        json["varied"].push_back({{"key", key.key}, {"values", key.values}});
-    }
     for (const LivesPoint& point : sweep.points) {
-        const InterpolationErrors& off = point.interpolation;
         Json one{{"results", point.results},
                  {"values", Json::object()},
                  {"lives", point.cracked},
@@ -352,11 +348,7 @@ nlohmann::json lives_sweep_json(const LivesSweep& sweep) {
                  {"false_alarms_per_1000_h", point.plan.false_alarms_per_1000_h},
                  {"last_depth_m", point.plan.last_m},
                  {"record", printable(point.record)},
-                 {"interpolation",
-                  {{"first", analysis::number(off.first)},
-                   {"last", analysis::number(off.last)},
-                   {"load", analysis::number(off.load)},
-                   {"change", analysis::number(off.change)}}},
+                 {"interpolation", analysis::fields_json(point.interpolation)},
                  {"monitored", Json::array()},
                  {"ranking", point.ranking}};
         for (std::size_t k = 0; k < sweep.keys.size(); ++k) {
