@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "analysis/reliability.hpp"
+#include "machine/fields.hpp"
 #include "mc/plan/scene.hpp"
 #include "mc/results/results_file.hpp"
 
@@ -29,6 +30,8 @@ struct DetectionChange {
     double a90 = -1.0;           // largest relative change of an a90 that both reach; -1: none
     double a90_interval = 0.0;   // of that a90: (upper bound - a90) / a90; infinite if not reached
 };
+GEARPOD_FIELDS(DetectionChange, gearboxes, alarms_changed, pd_change, pd_half_width, a90_change_,
+               a90_interval)
 DetectionChange detection_change(const PilotEnsemble& here, const PilotEnsemble& reference);
 
 }  // namespace gearpod::mc

@@ -421,13 +421,9 @@ Json setting_json(const AccuracyReport& report, const SettingResult& r) {
                 {"frontier", r.frontier},
                 {"error", errors(report, r.error)}});
     if (r.detection) {
-        const DetectionChange& d = *r.detection;
-        row["detection"] = {{"gearboxes", d.gearboxes},
-                            {"alarms_changed", d.alarms},
-                            {"pd_change", d.pd},
-                            {"pd_half_width", d.pd_half_width},
-                            {"a90_change", d.a90 < 0.0 ? Json(nullptr) : Json(d.a90)},
-                            {"a90_interval", analysis::number(d.a90_interval)}};
+        row["detection"] = analysis::fields_json(*r.detection);
+        row["detection"]["a90_change"] =
+            r.detection->a90 < 0.0 ? Json(nullptr) : Json(r.detection->a90);
     }
     return row;
 }
@@ -459,8 +455,7 @@ Json effect_json(const AccuracyReport& report, const MeasuredEffect& e) {
 }
 
 Json peer_json(const PeerResult& p) {
-    Json row{{"name", p.name},     {"command", p.command}, {"gearbox_s", p.integration_s},
-             {"mesh_s", p.mesh_s}, {"sensor", p.sensor},   {"te", p.te}};
+    Json row = analysis::fields_json(p);
     double worst = 0.0;
     for (const auto& [feature, error] : p.features) {
         row["features"][feature] = analysis::number(error);
@@ -520,13 +515,9 @@ std::string accuracy_json(const AccuracyReport& report, const Study& study) {
                         {"own", map.own},
                         {"own_steps", map.own_steps},
                         {"most_explicit_steps", lockstep::kMostExplicitSteps},
-                        {"curves", Json::array()}};
-    for (const StabilityCurve& curve : map.curves) {
-        all["stability"]["curves"].push_back(
-            {{"integrator", curve.integrator}, {"steps", curve.steps}});
-    }
-    for (const HardCase& one : map.hard) {
-        all["stability"]["hard_cases"].push_back({{"name", one.name}, {"steps", one.steps}});
+                        {"curves", analysis::json_of(map.curves)}};
+    if (!map.hard.empty()) {
+        all["stability"]["hard_cases"] = analysis::json_of(map.hard);
     }
     for (const PeerResult& peer : report.peers) {
         all["peers"].push_back(peer_json(peer));

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "machine/fields.hpp"
 #include "mc/numerics/accuracy/pilot_detection.hpp"
 #include "mc/numerics/accuracy/stability_map.hpp"
 #include "mc/numerics/measured_effects.hpp"
@@ -63,6 +64,7 @@ struct PeerResult {
     double sensor = 0.0, te = 0.0;                         // as in PilotError
     std::vector<std::pair<std::string, double>> features;  // relative
 };
+GEARPOD_FIELDS(PeerResult, name, command, gearbox_s, mesh_s, sensor, te, features_)
 
 struct AccuracyReport {
     std::vector<std::string> features;

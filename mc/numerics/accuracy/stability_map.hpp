@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "machine/fields.hpp"
 #include "mc/plan/planner.hpp"
 
 namespace gearpod::mc {
@@ -13,12 +14,14 @@ struct StabilityCurve {
     std::string integrator;
     std::vector<double> steps;  // fewest stable ones, by factor
 };
+GEARPOD_FIELDS(StabilityCurve, integrator, steps)
 
 // The gearbox with one of the properties that tests/hard examines.
 struct HardCase {
     std::string name;
     std::vector<double> steps;  // fewest stable ones, by curve of the map
 };
+GEARPOD_FIELDS(HardCase, name, steps)
 
 struct StabilityMap {
     std::vector<double> factors;         // on the largest stiffness of every gear pair
