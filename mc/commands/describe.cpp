@@ -28,7 +28,6 @@
 #include "mc/plan/scene_error.hpp"
 #include "mc/report/description/describe_effects.hpp"
 #include "mc/report/description/describe_forecast.hpp"
-#include "mc/report/description/describe_gearbox.hpp"
 #include "mc/report/description/describe_lives.hpp"
 #include "mc/report/description/terminal_text.hpp"
 #include "mc/study/false_alarm_target.hpp"
@@ -282,8 +281,9 @@ int describe_command(const DescribeOptions& options) {
         scene.emplace(*made.scene);
         memory.setup_bytes = peak_memory_bytes();
         print_python_features(*study);
-        print_gearbox(*scene);
-        print_effects(*scene);
+        for (const DescriptionSection& section : description_of(*scene)) {
+            print_section(section);
+        }
         print_life(*scene);
         missing = "cost";
         print_cost(*scene, made.choice);

@@ -7,7 +7,7 @@
 #include "mc/commands/options/options.hpp"
 #include "mc/library/run/command_files.hpp"
 #include "mc/library/stiffness_modes.hpp"
-#include "mc/report/description/describe_gearbox.hpp"
+#include "mc/plan/description.hpp"
 #include "mc/study/gears.hpp"
 
 namespace gearpod::mc {

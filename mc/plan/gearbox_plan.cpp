@@ -240,4 +240,21 @@ dynamics::GearboxInputs GearboxPlan::inputs(const InstanceInputs& instance) cons
     return all;
 }
 
+signals::BearingImpulses bearing_impulses(const GearboxPlan& gearbox, const InstanceInputs& inputs,
+                                          const Bearing& bearing) {
+    const double shaft_Hz = bearing.shaft
+                                ? gearbox.drivetrain->shaft_turns_per_mesh(*bearing.shaft) /
+                                      dynamics::mesh_period_s(gearbox.inputs(inputs))
+                                : bearing.shaft_Hz;
+    const double load_turns = load_turns_per_turn(bearing);
+    return {
+        .rate_Hz = impulses_per_turn(bearing) * shaft_Hz,
+        .slip = bearing.slip,
+        .load_turns_Hz = load_turns * shaft_Hz,
+        .load_zone_rad = load_turns > 0.0 ? bearing.load_zone_deg * std::numbers::pi / 180.0 : 0.0,
+        .amplitude_m_s2 = inputs.bearing_level * bearing.amplitude_m_s2,
+        .resonance_Hz = bearing.resonance_Hz,
+        .damping = bearing.damping};
+}
+
 }  // namespace gearpod::mc

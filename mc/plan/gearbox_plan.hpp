@@ -14,6 +14,7 @@
 #include "lockstep/plan/tooth_pairs.hpp"
 #include "mc/plan/drivetrain.hpp"
 #include "mc/plan/scene_stiffness.hpp"
+#include "signals/noise/bearing_impulses.hpp"
 
 namespace gearpod::mc {
 
@@ -126,5 +127,9 @@ struct GearboxPlan {
     std::optional<ExcitationModel> excitation;    // empty: torque, speed and weight are steady
     std::vector<StagePlan> stages;                // in the order of the study
 };
+
+// Impulses of one of the study's bearings in a gearbox with these inputs.
+signals::BearingImpulses bearing_impulses(const GearboxPlan& gearbox, const InstanceInputs& inputs,
+                                          const Bearing& bearing);
 
 }  // namespace gearpod::mc

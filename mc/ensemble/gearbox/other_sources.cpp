@@ -30,10 +30,10 @@ void add_bearings(const Scene& scene, const Realization& realization, SourceRole
             Philox engine =
                 record_stream(scene.draw().seed, realization.id,
                               with_suffix(StreamPurpose::bearing_impulses, std::to_string(i)));
-            signals::add_bearing_vibration(bearing_impulses(scene, realization.inputs, bearings[i]),
-                                           scene.study().sensor.low_pass_Hz,
-                                           scene.record().sample_s(realization.inputs), engine,
-                                           samples);
+            signals::add_bearing_vibration(
+                bearing_impulses(scene.gearbox(), realization.inputs, bearings[i]),
+                scene.study().sensor.low_pass_Hz, scene.record().sample_s(realization.inputs),
+                engine, samples);
         }
     }
 }
@@ -172,23 +172,6 @@ void add_samples(const Scene& scene, const std::vector<double>& samples, LaneSig
 }
 
 }  // namespace
-
-signals::BearingImpulses bearing_impulses(const Scene& scene, const InstanceInputs& inputs,
-                                          const Bearing& bearing) {
-    const double shaft_Hz = bearing.shaft
-                                ? scene.drivetrain().shaft_turns_per_mesh(*bearing.shaft) /
-                                      dynamics::mesh_period_s(scene.inputs(inputs))
-                                : bearing.shaft_Hz;
-    const double load_turns = load_turns_per_turn(bearing);
-    return {
-        .rate_Hz = impulses_per_turn(bearing) * shaft_Hz,
-        .slip = bearing.slip,
-        .load_turns_Hz = load_turns * shaft_Hz,
-        .load_zone_rad = load_turns > 0.0 ? bearing.load_zone_deg * std::numbers::pi / 180.0 : 0.0,
-        .amplitude_m_s2 = inputs.bearing_level * bearing.amplitude_m_s2,
-        .resonance_Hz = bearing.resonance_Hz,
-        .damping = bearing.damping};
-}
 
 void add_background(const Scene& scene, std::span<const Realization> realizations,
                     std::span<LaneSignals> records) {

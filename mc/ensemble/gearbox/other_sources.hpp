@@ -10,10 +10,6 @@
 
 namespace gearpod::mc {
 
-// Impulses of one of the study's bearings in a gearbox with these inputs.
-signals::BearingImpulses bearing_impulses(const Scene& scene, const InstanceInputs& inputs,
-                                          const Bearing& bearing);
-
 // Adds the background sources to the samples of all sensors of records and folds them again. No
 // effect without samples. Coupled stages have vibrated with the gearbox (LaneSignals::coupled);
 // other stages are integrated here. Samples count as evenly spaced even if the speed fluctuates. A

@@ -1,22 +1,9 @@
-// Parts of a gearbox without damping.
+// Measures for `describe` which optional effects a study calls for.
 #pragma once
 
-#include <string>
-
 #include "mc/plan/planner.hpp"
-#include "mc/study/study.hpp"
 
 namespace gearpod::mc {
-
-// Names the vibrating parts whose damping is 0 in every gearbox, for example "bearings of sun and
-// ring, support of the ring". Empty if every part has damping, or in quasi-static studies.
-std::string undamped(const Study& study);
-
-// Prints the physical effects of a scene for `describe`: effects simulated and effects omitted.
-
-void print_effects(const Scene& scene);
-
-// Measures for `describe` which optional effects the scene calls for.
 
 // Prints one entry for each optional effect: its computing time, and whether it changes a feature
 // by more than numerics.tolerance, or 1 % without it. Uses the study's own solver setting, short

@@ -28,6 +28,13 @@ void print_paragraph(const std::string& text) {
     fmt::print("  {}\n", wrapped_text(text, kTextColumn));
 }
 
+void print_section(const DescriptionSection& section) {
+    print_heading(section.heading);
+    for (const auto& [name, text] : section.entries) {
+        name.empty() ? print_paragraph(text) : print_entry(name, text);
+    }
+}
+
 namespace {
 
 constexpr std::size_t kWidth = 80;
@@ -51,8 +58,8 @@ std::vector<std::string> elements(std::string_view value) {
             all.back() += c;
         }
     }
-    for (std::string& one : all) {
-        one.erase(one.find_last_not_of(' ') + 1);
+    for (std::string& element : all) {
+        element.erase(element.find_last_not_of(' ') + 1);
     }
     return all;
 }

@@ -4,6 +4,8 @@
 #include <string>
 #include <string_view>
 
+#include "mc/plan/description.hpp"
+
 namespace gearpod::mc {
 
 void print_heading(const std::string& text);
@@ -14,6 +16,9 @@ void print_entry(const std::string& name, const std::string& value);
 
 // Prints a text as indented lines.
 void print_paragraph(const std::string& text);
+
+// Prints a heading and its entries.
+void print_section(const DescriptionSection& section);
 
 // Study text for a terminal.
 

@@ -1,0 +1,27 @@
+// Description of a plan in sentences for `describe`: the nominal gearbox, the effects simulated
+// with their nominal sizes, and the effects omitted.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "stiffness/mesh_stiffness.hpp"
+
+namespace gearpod::mc {
+
+class Scene;
+
+struct DescriptionEntry {
+    std::string name, text;  // without a name: a paragraph
+};
+struct DescriptionSection {
+    std::string heading;
+    std::vector<DescriptionEntry> entries;
+};
+std::vector<DescriptionSection> description_of(const Scene& plan);
+
+// Contact ratio on the nominal path, its parts for helical teeth, and the time that a tooth pair
+// may touch if corner contact extends the path.
+std::string contact_ratio_text(const stiffness::MeshStiffness& mesh);
+
+}  // namespace gearpod::mc
