@@ -53,9 +53,13 @@ int write_outputs(const CampaignPlan& plan, const Results& frame, const RowSourc
         !outputs.evidence.empty()) {
         auto json = lives_json(monitor, outputs.shows_withheld);
         if (!outputs.evidence.empty()) {
+            std::vector<std::string> features;
+            for (const features::Feature* feature : plan.ensemble.features) {
+                features.emplace_back(feature->name);
+            }
             json["evidence"] = evidence_json(analysis::EvidenceKind::lives,
                                              lives_report(monitor, outputs.shows_withheld),
-                                             plan.features, outputs.results, &frame);
+                                             features, outputs.results, &frame);
             if (!write_evidence(outputs.evidence, json,
                                 {{"the results file", outputs.results},
                                  {"--json", outputs.json},
@@ -86,7 +90,7 @@ int write_outputs(const CampaignPlan& plan, const Results& frame, const RowSourc
 }
 
 // Rank 0's part of the run, after the checks. Returns the exit code.
-int run_lives_on_leader(const LivesOptions& options, const Study& study, const LifeTiles& tiles,
+int run_lives_on_leader(const LivesOptions& options, const LifeTiles& tiles,
                         double interpolation_error, const Ranks& ranks, Checkpoint& checkpoint,
                         const Interruption& interruption) {
     const RunOptions& run = options.run;
@@ -99,15 +103,15 @@ int run_lives_on_leader(const LivesOptions& options, const Study& study, const L
                                                .store = checkpoint,
                                                .progress = progress,
                                                .interruption = &interruption,
-                                               .checkpoint_s = study.ensemble.checkpoint_s});
+                                               .checkpoint_s = campaign.ensemble.checkpoint_s});
     progress.finish();
     std::string trouble = outcome.failure;
     if (trouble.empty() && outcome.interruption.empty()) {
         interruption.disable_cancellation();
         try {
-            Results frame = lives_frame(study);
+            Results frame = lives_frame(campaign);
             for (const auto& entry :
-                 provenance(EnsemblePlan(study), ranks.size(), outcome.threads())) {
+                 provenance(campaign.ensemble, ranks.size(), outcome.threads())) {
                 frame.provenance.push_back(entry);
             }
             frame.provenance.emplace_back("state", "complete");
@@ -162,11 +166,10 @@ std::optional<InterpolationChoice> prepare_lives(const RunOptions& run, StudySce
     return {};
 }
 
-std::unique_ptr<Checkpoint> lives_checkpoint(const RunOptions& run, const Study& study) {
+std::unique_ptr<Checkpoint> lives_checkpoint(const RunOptions& run, const CampaignPlan& plan) {
     try {
         return open_checkpoint(
-            EnsemblePlan(study), row_shape(lives_frame(study)),
-            lives_plan(make_campaign_plan(study)), results_path(run),
+            plan.ensemble, row_shape(lives_frame(plan)), lives_plan(plan), results_path(run),
             {.resume = run.resume, .force = run.force, .quiet = run.quiet, .check = check_lives});
     } catch (const std::exception& error) {
         fmt::print(stderr, "{}\n", error.what());
@@ -217,11 +220,14 @@ int lives_study(const LivesOptions& options, const Ranks& ranks) {
             }
             choice = prepare_lives(run, scene);
         });
-    const auto tiles = made ? std::make_unique<LifeTiles>(*made.scene, choice->plan) : nullptr;
-    // Results state the numbers of torques and speeds.
-    const auto study = made ? std::optional(with_loads(made.scene->study(), choice->plan.torques,
-                                                       choice->plan.speeds))
-                            : std::nullopt;
+    std::unique_ptr<LifeTiles> tiles;
+    if (made) {
+        LifePlan plan = choice->plan;
+        // Results state the numbers of torques and speeds.
+        plan.campaign =
+            make_campaign_plan(with_loads(made.scene->study(), plan.torques, plan.speeds));
+        tiles = std::make_unique<LifeTiles>(*made.scene, std::move(plan));
+    }
     std::unique_ptr<Checkpoint> checkpoint;
     if (ranks.leads()) {
         const bool good_outputs = can_write_json_and_page(
@@ -229,7 +235,7 @@ int lives_study(const LivesOptions& options, const Ranks& ranks) {
             {{"the study", run.study.path}, {"--out", results_path(run)}}, run.force);
         const bool good_out = check_output(run), good_progress = check_progress(run);
         if (tiles && good_limit && good_outputs && good_out && good_progress) {
-            checkpoint = lives_checkpoint(run, *study);
+            checkpoint = lives_checkpoint(run, tiles->plan().campaign);
         }
     }
     const std::string refusal =
@@ -246,8 +252,8 @@ int lives_study(const LivesOptions& options, const Ranks& ranks) {
             {.ranks = ranks, .store = nothing, .progress = silent, .interruption = &interruption});
         return std::stoi(ranks.from_leader(""));
     }
-    const int code = run_lives_on_leader(options, *study, *tiles, choice->error, ranks, *checkpoint,
-                                         interruption);
+    const int code =
+        run_lives_on_leader(options, *tiles, choice->error, ranks, *checkpoint, interruption);
     ranks.from_leader(std::to_string(code));
     return code;
 }

@@ -40,11 +40,11 @@ constexpr std::array<RecordColumn, 5> kRecordColumns{{{"crack_depth", "m", &Life
 }  // namespace
 
 BatchPlan lives_plan(const CampaignPlan& plan) {
-    return {plan.threshold_lives + plan.counting_lives, plan.cracked_lives};
+    return {plan.ensemble.threshold_gearboxes + plan.counting_lives, plan.ensemble.test_gearboxes};
 }
 
-Results lives_frame(const Study& study) {
-    Results frame = results_frame(EnsemblePlan(study_of_gearboxes(study)));
+Results lives_frame(const CampaignPlan& plan) {
+    Results frame = results_frame(plan.ensemble);
     frame.parameters.pop_back();  // the fault size, which is not constant
     frame.variants.clear();
     frame.contact_loss.clear();  // superposed records have no contact loss ratio
@@ -56,8 +56,8 @@ Results lives_frame(const Study& study) {
         frame.features.push_back({column.name, column.unit, analysis::Alarm::high, {}});
     }
     frame.noise_levels.clear();
-    for (int i = 0; i < study.life.records; ++i) {
-        frame.noise_levels.push_back(i * *study.life.interval_h);
+    for (int i = 0; i < plan.records; ++i) {
+        frame.noise_levels.push_back(i * plan.interval_h);
     }
     frame.request.groups.clear();
     frame.provenance.emplace_back("kind", kLivesKind);
@@ -65,14 +65,13 @@ Results lives_frame(const Study& study) {
 }
 
 CampaignPlan check_lives(const std::string& path, const Results& frame, const RowSource& rows) {
-    const auto study = read_study_text(frame.provenance_value("study"), path).study;
-    if (!study || !study->life.interval_h) {
+    const auto plan = recorded_campaign_plan(frame.provenance_value("study"), path);
+    if (!plan) {
         throw std::runtime_error(path + ": its study cannot be read, or has no [life]");
     }
-    CampaignPlan plan = make_campaign_plan(*study);
     check_against(path, frame, rows,
-                  ExpectedResults{lives_frame(*study), lives_plan(plan), "lives", true});
-    return plan;
+                  ExpectedResults{lives_frame(*plan), lives_plan(*plan), "lives", true});
+    return *plan;
 }
 
 bool measures_interpolation(const GearboxId& id) {
@@ -84,14 +83,12 @@ void add_life(const CampaignPlan& plan, const Realization& gearbox, const Gearbo
               const InterpolationErrors& errors, BatchRows& rows) {
     const auto& records = life.history.records;
     rows.status.push_back(static_cast<int>(life.status));
-    rows.values.insert(rows.values.end(), gearbox.random_values.begin(),
-                       gearbox.random_values.end());
-    rows.values.insert(rows.values.end(), plan.noise_weights, 1.0);
+    plan.ensemble.append_inputs(gearbox.random_values, 1.0, rows.values);
     rows.values.insert(rows.values.end(), {life.history.end_hours.value_or(kNoNumber),
                                            static_cast<double>(records.size()), errors.first,
                                            errors.last, errors.load});
     const std::size_t missing_records = static_cast<std::size_t>(plan.records) - records.size();
-    for (std::size_t f = 0; f < plan.features.size(); ++f) {
+    for (std::size_t f = 0; f < plan.ensemble.features.size(); ++f) {
         if (life.status == Status::ok) {
             rows.values.insert(rows.values.end(), life.values[f].begin(), life.values[f].end());
         } else {
@@ -123,7 +120,7 @@ LifeRow life_of_row(const CampaignPlan& plan, const Results& frame, const Result
         history.end_hours = columns[0];
     }
     history.records.resize(static_cast<std::size_t>(columns[1]));
-    const std::size_t features = plan.features.size();
+    const std::size_t features = plan.ensemble.features.size();
     for (std::size_t r = 0; r < history.records.size(); ++r) {
         history.records[r].hours = frame.noise_levels[r];
         for (std::size_t c = 0; c < kRecordColumns.size(); ++c) {
@@ -194,7 +191,7 @@ EnsembleOutcome run_lives(const LifeTiles& tiles, const BatchPlan& plan, const E
     const BatchComputer compute = [&tiles](const Batch& batch, Seconds& seconds) {
         return life_rows(tiles, batch, seconds);
     };
-    return run_batches(tiles.scene().ensemble(), plan, run,
+    return run_batches(tiles.plan().campaign.ensemble, plan, run,
                        [&]() -> BatchComputers { return [compute] { return compute; }; });
 }
 
@@ -214,7 +211,7 @@ void store_run_costs(const LifePlan& plan, double interpolation_error,
 
 Campaign campaign_of(const CampaignPlan& plan, const Results& frame, const RowSource& rows) {
     Campaign campaign;
-    const auto threshold_lives = static_cast<std::size_t>(plan.threshold_lives);
+    const auto threshold_lives = static_cast<std::size_t>(plan.ensemble.threshold_gearboxes);
     for_each_row(rows, [&](const ResultRow& row) {
         LifeRow read = life_of_row(plan, frame, row);
         campaign.interpolation.take(read.interpolation);
@@ -247,7 +244,7 @@ Campaign run_campaign(const Scene& scene) {
     if (!outcome.failure.empty()) {
         throw std::runtime_error(outcome.failure);
     }
-    Results frame = lives_frame(scene.study());
+    Results frame = lives_frame(campaign);
     store_run_costs(tiles.plan(), std::numeric_limits<double>::quiet_NaN(), outcome, frame);
     return campaign_of(campaign, frame, StoredRows(store, plan, outcome.batches));
 }

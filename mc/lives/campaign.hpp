@@ -16,7 +16,7 @@ namespace gearpod::mc {
 BatchPlan lives_plan(const CampaignPlan& plan);
 
 // Results of kind kLivesKind without rows; the columns are empty.
-Results lives_frame(const Study& study);
+Results lives_frame(const CampaignPlan& plan);
 
 // Checks the rows. Returns the plan by which they were computed. Throws std::runtime_error as
 // check_results() does.

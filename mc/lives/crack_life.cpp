@@ -42,7 +42,7 @@ LifeHistory CrackLife::history(const Realization& gearbox, bool cracked) const {
     const InstanceInputs& inputs = gearbox.inputs;
     const CampaignPlan& campaign = plan_.campaign;
     LifeHistory history;
-    Philox engine = gearbox_stream(campaign.seed, id, StreamPurpose::life_records);
+    Philox engine = gearbox_stream(plan_.seed, id, StreamPurpose::life_records);
     boost::random::normal_distribution<double> unit;
     for (int i = 0; i < campaign.records; ++i) {
         LifeRecord record;
@@ -53,7 +53,7 @@ LifeHistory CrackLife::history(const Realization& gearbox, bool cracked) const {
         history.records.push_back(record);
     }
     if (plan_.distributions.speed.varies()) {
-        Philox speeds = gearbox_stream(campaign.seed, id, StreamPurpose::life_speeds);
+        Philox speeds = gearbox_stream(plan_.seed, id, StreamPurpose::life_speeds);
         boost::random::normal_distribution<double> of_speed;
         for (LifeRecord& record : history.records) {
             record.speed = plan_.distributions.speed.factor(of_speed(speeds));

@@ -15,6 +15,9 @@ class LifeMonitor::MonitoredDeviations {
     MonitoredDeviations(const CampaignPlan& plan, const Campaign& campaign,
                         std::vector<std::size_t> features)
         : plan_(plan), features_(std::move(features)) {
+        for (const features::Feature* feature : plan.ensemble.features) {
+            alarms_.push_back(feature->alarm);
+        }
         threshold_lives_ = healthy(campaign.threshold_lives);
         healthy_ = healthy(campaign.healthy);
         cracked_ = cracked(campaign.cracked);
@@ -23,7 +26,7 @@ class LifeMonitor::MonitoredDeviations {
     analysis::MonitorPerformance performance(const analysis::Detector& detector,
                                              double per_1000_h) const {
         return analysis::monitor_performance(detector, threshold_lives_, healthy_, cracked_,
-                                             per_1000_h, plan_.confidence);
+                                             per_1000_h, plan_.ensemble.request.confidence);
     }
 
     FeatureQuantiles quantiles(const std::string& name) const {
@@ -61,9 +64,9 @@ class LifeMonitor::MonitoredDeviations {
         const auto baseline = static_cast<std::size_t>(plan_.baseline_records);
         if (features_.size() == 1) {
             return analysis::baseline_deviations(life.values[features_[0]], torque, baseline,
-                                                 plan_.alarms[features_[0]]);
+                                                 alarms_[features_[0]]);
         }
-        return analysis::fused_deviations(life.values, torque, baseline, plan_.alarms);
+        return analysis::fused_deviations(life.values, torque, baseline, alarms_);
     }
 
     std::vector<analysis::HealthyLife> healthy(const std::vector<GearboxLife>& lives) const {
@@ -102,6 +105,7 @@ class LifeMonitor::MonitoredDeviations {
 
     const CampaignPlan& plan_;
     const std::vector<std::size_t> features_;
+    std::vector<analysis::Alarm> alarms_;
     std::vector<analysis::HealthyLife> threshold_lives_, healthy_;
     std::vector<analysis::CrackedLife> cracked_;
 };
@@ -119,10 +123,11 @@ bool ranks_before(const MonitoredFeature& a, const MonitoredFeature& b) {
 
 LifeMonitor::LifeMonitor(const CampaignPlan& plan, const Campaign& campaign)
     : plan_(plan), campaign_(campaign) {
-    std::vector<std::size_t> all(plan.features.size());
+    std::vector<std::size_t> all(plan.ensemble.features.size());
     std::iota(all.begin(), all.end(), std::size_t{0});
     for (const std::size_t f : all) {
-        monitored_.push_back({plan.features[f], MonitoredDeviations(plan, campaign, {f})});
+        monitored_.push_back({std::string(plan.ensemble.features[f]->name),
+                              MonitoredDeviations(plan, campaign, {f})});
     }
     if (all.size() > 1 && plan.baseline_records > 0) {
         monitored_.push_back({"fused", MonitoredDeviations(plan, campaign, all)});

@@ -11,7 +11,7 @@ LifeTiles::LifeTiles(const Scene& scene, LifePlan plan)
       crack_(plan_) {}
 
 std::size_t LifeTiles::lanes() const {
-    return static_cast<std::size_t>(scene_.study().numerics.lanes);
+    return static_cast<std::size_t>(plan_.campaign.ensemble.lanes);
 }
 
 std::size_t LifeTiles::gap_count() const {

@@ -59,7 +59,7 @@ class LifeTiles::Lane {
         const double spans = static_cast<double>(span_.turns) * span_.recordings / span_.all_turns;
         noise_.sensor.resize(healthy.front().sensor.size());
         noise_.te_turn.assign(healthy.front().te_turn.size(), 0.0);
-        Philox engine = gearbox_stream(plan.campaign.seed, id_, StreamPurpose::reference_noise);
+        Philox engine = gearbox_stream(plan.seed, id_, StreamPurpose::reference_noise);
         if (noise_by_density(tiles_.scene_.study())) {
             draw_unit_noise(tiles_.scene_, inputs_, NoiseEngines<Philox>{engine, engine, engine},
                             std::span(noise_.sensor));
@@ -73,7 +73,7 @@ class LifeTiles::Lane {
             value *= sigma;
         }
         const auto normals = [&](StreamPurpose purpose) {
-            Philox stream = gearbox_stream(plan.campaign.seed, id_, purpose);
+            Philox stream = gearbox_stream(plan.seed, id_, purpose);
             std::vector<double> unit(static_cast<std::size_t>(records));
             signals::draw_normals(stream, std::span(unit));
             return unit;
@@ -277,7 +277,7 @@ class LifeTiles::Lane {
     std::vector<std::size_t> starts_of(std::size_t r) const {
         std::vector<std::size_t> starts;
         if (!span_.whole()) {
-            Philox engine = gearbox_stream(tiles_.plan_.campaign.seed, record_id(id_, r, false),
+            Philox engine = gearbox_stream(tiles_.plan_.seed, record_id(id_, r, false),
                                            StreamPurpose::life_recording_starts);
             boost::random::uniform_int_distribution<std::size_t> turn(
                 0, static_cast<std::size_t>(span_.all_turns) - 1);
@@ -410,7 +410,7 @@ LaneSignals LifeTiles::synthetic_signals(std::uint64_t number) const {
     };
     LaneSignals all;
     Philox engine =
-        gearbox_stream(plan_.campaign.seed, {Group::test, number}, StreamPurpose::forecast_signals);
+        gearbox_stream(plan_.seed, {Group::test, number}, StreamPurpose::forecast_signals);
     all.sensor.resize(samples(scene_.samples_per_mesh(), scene_.span_meshes()));
     signals::draw_normals(engine, std::span(all.sensor));
     all.te_turn.resize(samples(scene_.te_samples_per_mesh(), scene_.span().planet_teeth));

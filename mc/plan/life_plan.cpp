@@ -154,13 +154,6 @@ RecordDistributions::RecordDistributions(const Study& study)
           return input.distribution.per_record() && input.quantity == RecordQuantity::noise;
       })) {}
 
-Study study_of_gearboxes(const Study& study) {
-    Study all = study;
-    std::erase_if(all.random,
-                  [](const RandomInput& input) { return input.distribution.per_record(); });
-    return all;
-}
-
 namespace {
 
 // Step of depth in which the crack begins to grow.
@@ -170,40 +163,40 @@ int first_step_of(const Life& life) {
     return std::min(static_cast<int>(steps + kRounding), life.depth_steps - 1);
 }
 
-std::vector<analysis::Alarm> alarms_of(const Study& study) {
-    std::vector<analysis::Alarm> alarms;
-    for (const features::Feature* feature : used_features(study)) {
-        alarms.push_back(feature->alarm);
-    }
-    return alarms;
+// Study of the gearboxes: inputs that vary by record keep their nominal values.
+Study study_of_gearboxes(const Study& study) {
+    Study all = study;
+    std::erase_if(all.random,
+                  [](const RandomInput& input) { return input.distribution.per_record(); });
+    return all;
 }
 
 }  // namespace
 
 CampaignPlan make_campaign_plan(const Study& study) {
-    return {
-        .title = study.title,
-        .assumptions = mc::assumptions(study, true),
-        .features = study.features.use,
-        .alarms = alarms_of(study),
-        .seed = static_cast<std::uint64_t>(study.ensemble.seed),
-        .noise_weights = study.ensemble.uses_importance_sampling() ? 1U : 0U,
-        .threshold_lives = study.ensemble.threshold_instances,
-        .counting_lives = study.life.healthy_lives,
-        .cracked_lives = study.ensemble.instances,
-        .records = study.life.records,
-        .baseline_records = study.monitoring.baseline_records,
-        .interval_h = study.life.interval_h.value(),
-        .begin_m = crack_begin_m(study.life),
-        .smallest_m = smallest_depth_m(study.life),
-        .last_m = study.life.last_depth_m.value(),
-        .depth_steps = study.life.depth_steps,
-        .first_step = first_step_of(study.life),
-        .torque_regression = study.monitoring.torque_regression,
-        .detectors = study.monitoring.detectors,
-        .false_alarms_per_1000_h = study.monitoring.false_alarms_per_1000_h,
-        .confidence = study.detection.confidence,
-    };
+    EnsemblePlan ensemble(study);
+    ensemble.inputs = EnsemblePlan(study_of_gearboxes(study)).inputs;
+    return {.ensemble = std::move(ensemble),
+            .assumptions = mc::assumptions(study, true),
+            .counting_lives = study.life.healthy_lives,
+            .records = study.life.records,
+            .baseline_records = study.monitoring.baseline_records,
+            .interval_h = study.life.interval_h.value(),
+            .begin_m = crack_begin_m(study.life),
+            .smallest_m = smallest_depth_m(study.life),
+            .last_m = study.life.last_depth_m.value(),
+            .depth_steps = study.life.depth_steps,
+            .first_step = first_step_of(study.life),
+            .torque_regression = study.monitoring.torque_regression,
+            .detectors = study.monitoring.detectors,
+            .false_alarms_per_1000_h = study.monitoring.false_alarms_per_1000_h};
+}
+
+std::optional<CampaignPlan> recorded_campaign_plan(const std::string& study_text,
+                                                   const std::string& name) {
+    const std::optional<Study> study = read_study_text(study_text, name).study;
+    return study && study->life.interval_h ? std::optional(make_campaign_plan(*study))
+                                           : std::nullopt;
 }
 
 namespace {
@@ -268,6 +261,13 @@ std::variant<ParisStart, DepthCurve> growth_of(const Life& life) {
 
 LifePlan make_life_plan(const Study& study, const GearboxPlan& gearbox) {
     const Life& life = study.life;
+    std::vector<std::string> used, ignored;
+    if (gearbox.tooth_errors) {
+        used.emplace_back("tooth errors");
+    }
+    for (const RandomInput& input : study_of_gearboxes(study).random) {
+        (input.kind == InputKind::fault_size ? ignored : used).push_back(input.key);
+    }
     return {.campaign = make_campaign_plan(study),
             .distributions = RecordDistributions(study),
             .torques = {life.given_torques.value_or(2), life.polynomial_torques,
@@ -279,8 +279,11 @@ LifePlan make_life_plan(const Study& study, const GearboxPlan& gearbox) {
             .length = life_record_length(study),
             .recordings = life.recordings,
             .record = record_text(study, gearbox),
+            .seed = static_cast<std::uint64_t>(study.ensemble.seed),
             .sampler = std::make_shared<const Sampler>(DrawPlan(study_of_gearboxes(study))),
             .drivetrain = gearbox.drivetrain,
+            .gearbox_inputs = std::move(used),
+            .ignored_inputs = std::move(ignored),
             .tooth = cracked_tooth(study, gearbox),
             .growth = growth_of(life),
             .fracture_toughness_Pa_m05 = life.fracture_toughness_Pa_m05};

@@ -9,7 +9,7 @@
 #include <variant>
 #include <vector>
 
-#include "analysis/detection/detection.hpp"
+#include "mc/plan/ensemble_plan.hpp"
 #include "mc/plan/gearbox_plan.hpp"
 #include "mc/plan/record_plan.hpp"
 #include "mc/plan/sampling.hpp"
@@ -89,15 +89,11 @@ struct RecordSpan {
 
 // What a results file of lives contains and how it is monitored.
 struct CampaignPlan {
-    std::string title;        // of the study
+    // Of a gearbox: its inputs are those that do not vary by record.
+    EnsemblePlan ensemble;
     std::string assumptions;  // see assumptions()
-    std::vector<std::string> features;
-    std::vector<analysis::Alarm> alarms;  // by feature
-    std::uint64_t seed = 0;
-    std::size_t noise_weights = 0;  // number of columns for the weight of a record's noise: 0 or 1
-    // Healthy lives that set the thresholds, others that count false alarms, and lives with a
-    // crack.
-    long threshold_lives = 0, counting_lives = 0, cracked_lives = 0;
+    // Healthy lives that count false alarms, in addition to those that set the thresholds.
+    long counting_lives = 0;
     int records = 0, baseline_records = 0;
     double interval_h = 0.0;  // between records
     // Depth of the crack when it begins to grow, smallest one of interest, and depth at which a
@@ -109,7 +105,6 @@ struct CampaignPlan {
     bool torque_regression = false;
     std::vector<std::string> detectors;
     double false_alarms_per_1000_h = 0.0;
-    double confidence = 0.0;
 
     // Depth at the end of that number of steps, and at the middle of a step. The errors of
     // interpolation between depths are measured at the middle of the first and the last step.
@@ -118,6 +113,10 @@ struct CampaignPlan {
 };
 // Precondition: the study has lives.
 CampaignPlan make_campaign_plan(const Study& study);
+// Plan of the study whose text a results file holds; `name` stands for it in messages. Empty if
+// this program cannot read the study, or if it has no lives.
+std::optional<CampaignPlan> recorded_campaign_plan(const std::string& study_text,
+                                                   const std::string& name);
 
 // Growth of the crack: by Paris' law from a first depth, or along a curve of hours since the crack
 // started and its depth then.
@@ -152,8 +151,12 @@ struct LifePlan {
     int recordings;       // averaged in a record
     std::string record;   // its length and the tooth pairs in it, "26 turns of ..."
     // Gearboxes.
+    std::uint64_t seed;
     std::shared_ptr<const Sampler> sampler;  // inputs that vary by record are nominal
     std::shared_ptr<const Drivetrain> drivetrain;
+    // What differs between gearboxes: tooth errors, and keys of random inputs. Keys of random
+    // inputs without effect, because the crack grows to its size.
+    std::vector<std::string> gearbox_inputs, ignored_inputs;
     // Crack.
     CrackedTooth tooth;
     std::variant<ParisStart, DepthCurve> growth;
@@ -172,8 +175,6 @@ std::vector<SceneError> life_problems(const Study& study, const FeaturePlan& fea
 
 // Keys given in the study that have no effect on lives, because they concern single records.
 std::vector<std::string> keys_without_effect_on_lives(const Study& study);
-// Study of the gearboxes: inputs that vary by record keep their nominal values.
-Study study_of_gearboxes(const Study& study);
 // The study with these numbers of torques and speeds.
 Study with_loads(Study study, const LoadNumber& torques, const LoadNumber& speeds);
 

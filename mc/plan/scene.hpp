@@ -42,6 +42,7 @@ class Scene {
     const std::vector<SceneError>& life_problems() const { return life_problems_; }
     // Throws the first of them.
     const LifePlan& life() const;
+    bool life_requested() const { return study_.life.interval_h.has_value(); }
     // Draws the gearboxes of the study.
     const Sampler& sampler() const { return *sampler_; }
     const DrawPlan& draw() const { return sampler_->plan(); }

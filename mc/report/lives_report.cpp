@@ -213,7 +213,7 @@ Section results_section(const LifeMonitor& monitor) {
                     "crack depth at which 50 % and 90 % of the cracks are found. w50, "
                     "w90: time from the alarm to failure that 50 % and 90 % of the cracks "
                     "found exceed.",
-                    percent_text(plan.confidence)));
+                    percent_text(plan.ensemble.request.confidence)));
     section.state("effect", effect_text(monitor));
     for (std::size_t reason = 0; const auto& [text, names] : unranked) {
         section.state(fmt::format("unranked.{}", reason++),
@@ -279,7 +279,7 @@ std::vector<std::string> life_result_columns(const CampaignPlan& plan) {
             "by chance",
             "net",
             "a50, mm",
-            fmt::format("a90, mm ({} bound)", percent_text(plan.confidence)),
+            fmt::format("a90, mm ({} bound)", percent_text(plan.ensemble.request.confidence)),
             "w50, h",
             "w90, h"};
 }
@@ -371,7 +371,7 @@ nlohmann::json lives_json(const LifeMonitor& monitor, bool shows_withheld) {
     }
     return {
         {"kind", "lives"},
-        {"title", plan.title},
+        {"title", plan.ensemble.title},
         {"interval_h", plan.interval_h},
         {"record", printable(campaign.record)},
         {"baseline_records", plan.baseline_records},

@@ -42,64 +42,48 @@ std::string load_text(const RecordDistribution& law, const LoadNumber& number, d
                 : "");
 }
 
-// True for fault inputs, which only `run` uses: in a life the crack grows to its depth.
-bool is_of_fault(const RandomInput& input) {
-    return input.kind == InputKind::fault_size;
-}
-
-std::string growth_text(const Study& study) {
-    std::string text = study.life.curve_h.empty()
-                           ? "Paris law, with the torque and speed of the records"
-                           : "along the given curve";
-    for (const RandomInput& input : study.random) {
-        text += is_of_fault(input) ? "; " + input.key + " in [random] is ignored" : "";
-    }
-    return text;
-}
-
-std::string of_gearbox(const Study& study) {
-    std::string text = has_tooth_errors(study) ? "tooth errors" : "";
-    for (const RandomInput& input : study_of_gearboxes(study).random) {
-        if (!is_of_fault(input)) {
-            text += (text.empty() ? "" : ", ") + input.key;
-        }
-    }
-    return text.empty() ? "nothing: all gearboxes are identical" : text;
-}
-
 }  // namespace
 
 void print_life(const Scene& scene) {
-    const Study& study = scene.study();
-    const Life& life = study.life;
-    if (!life.interval_h) {
+    if (!scene.life_requested()) {
         return;
     }
     print_heading("lives");
-    try {
-        print_entry("record", scene.life().record);
-    } catch (const SceneError& error) {
+    if (!scene.life_problems().empty()) {
+        const SceneError& problem = scene.life_problems().front();
         print_entry("no lives",
-                    fmt::format("{}: {}; {}", error.key(), error.what(), error.remedy()));
+                    fmt::format("{}: {}; {}", problem.key(), problem.what(), problem.remedy()));
         return;
     }
-    print_entry("random per gearbox", of_gearbox(study));
     const LifePlan& plan = scene.life();
     const RecordDistributions& laws = plan.distributions;
+    print_entry("record", plan.record);
+    print_entry("random per gearbox",
+                plan.gearbox_inputs.empty()
+                    ? "nothing: all gearboxes are identical"
+                    : fmt::format("{}", fmt::join(plan.gearbox_inputs, ", ")));
     print_entry("torque per record",
                 load_text(laws.torque, plan.torques, plan.interpolation_tolerance));
     print_entry("speed per record",
                 load_text(laws.speed, plan.speeds, plan.interpolation_tolerance));
     print_entry("gain per record", laws.gain.text());
     print_entry("noise per record", laws.noise.text());
-    print_entry("crack growth", growth_text(study));
+    std::string growth = std::holds_alternative<ParisStart>(plan.growth)
+                             ? "Paris law, with the torque and speed of the records"
+                             : "along the given curve";
+    for (const std::string& key : plan.ignored_inputs) {
+        growth += "; " + key + " in [random] is ignored";
+    }
+    print_entry("crack growth", growth);
+    const CampaignPlan& campaign = plan.campaign;
     print_entry("crack depths integrated",
                 fmt::format("0 and {} depths up to {:g} mm, with interpolation in between",
-                            life.depth_steps, 1e3 * *life.last_depth_m));
-    print_entry("gearboxes", fmt::format("{} with a crack, {} healthy for the thresholds, {} "
-                                         "healthy to count false alarms",
-                                         study.ensemble.instances,
-                                         study.ensemble.threshold_instances, life.healthy_lives));
+                            campaign.depth_steps, 1e3 * campaign.last_m));
+    print_entry("gearboxes",
+                fmt::format("{} with a crack, {} healthy for the thresholds, {} "
+                            "healthy to count false alarms",
+                            campaign.ensemble.test_gearboxes, campaign.ensemble.threshold_gearboxes,
+                            campaign.counting_lives));
 }
 
 namespace {
@@ -132,7 +116,7 @@ double tile_s(const LifeTiles& tiles, const IntegratedMeshes& meshes, double mes
 double mean_records(const LifeTiles& tiles) {
     constexpr std::uint64_t kMost = 64;
     const auto count = std::clamp<std::uint64_t>(
-        static_cast<std::uint64_t>(tiles.plan().campaign.cracked_lives), 1, kMost);
+        static_cast<std::uint64_t>(tiles.plan().campaign.ensemble.test_gearboxes), 1, kMost);
     double sum = 0.0;
     for (std::uint64_t i = 0; i < count; ++i) {
         sum += static_cast<double>(tiles.history({Group::test, i}).records.size());
@@ -157,7 +141,7 @@ double tile_bytes(const LifeTiles& tiles) {
 }
 
 double file_bytes(const LifeTiles& tiles) {
-    const RowShape shape = row_shape(lives_frame(tiles.scene().study()));
+    const RowShape shape = row_shape(lives_frame(tiles.plan().campaign));
     return 8.0 * static_cast<double>(lives_plan(tiles.plan().campaign).rows()) *
            static_cast<double>(shape.values() + 1);
 }

@@ -124,7 +124,7 @@ std::vector<int> life_outcomes(const LivesPoint& point, const MonitoredFeature& 
 // pooled test for other gearboxes.
 double p_of_equal_shares(const LivesPoint& a, const MonitoredFeature& at_a, const LivesPoint& b,
                          const MonitoredFeature& at_b) {
-    if (a.plan.seed != b.plan.seed) {
+    if (a.plan.ensemble.seed != b.plan.ensemble.seed) {
         return analysis::pooled_p_value(at_a.performance.found, at_a.performance.ended,
                                         at_b.performance.found, at_b.performance.ended);
     }
@@ -212,7 +212,7 @@ std::string lives_differences_text(const LivesSweep& sweep) {
     }
     const auto best = std::ranges::max_element(known, {}, &KnownShare::share);
     const double pairs = 0.5 * static_cast<double>(known.size() * (known.size() - 1));
-    const double confidence = best->point->plan.confidence;
+    const double confidence = best->point->plan.ensemble.request.confidence;
     std::size_t smaller = 0;
     std::vector<std::string> within;
     for (auto one = known.begin(); one != known.end(); ++one) {
@@ -344,7 +344,7 @@ nlohmann::json lives_sweep_json(const LivesSweep& sweep) {
                  {"values", Json::object()},
                  {"lives", point.cracked},
                  {"failed", point.failed},
-                 {"confidence", point.plan.confidence},
+                 {"confidence", point.plan.ensemble.request.confidence},
                  {"false_alarms_per_1000_h", point.plan.false_alarms_per_1000_h},
                  {"last_depth_m", point.plan.last_m},
                  {"record", printable(point.record)},

@@ -63,7 +63,7 @@ TEST_CASE("Records follow the law given by [random], not centred on a value of t
         CHECK(apart < 1.63 / std::sqrt(4000.0));
     }
     // The gearbox has no column of its own for this input.
-    for (const auto& column : mc::EnsemblePlan(mc::study_of_gearboxes(study)).inputs) {
+    for (const auto& column : scene.life().campaign.ensemble.inputs) {
         CHECK(column.name != "torque_N_m");
     }
 }
