@@ -18,8 +18,8 @@ Copula::Copula(const Study& study) {
     }
     for (std::size_t i = 0; i < study.random.size(); ++i) {
         const std::string& key = study.random[i].key;
-        const bool has = std::ranges::any_of(study.correlations, [&](const Correlation& one) {
-            return one.first == key || one.second == key;
+        const bool has = std::ranges::any_of(study.correlations, [&](const Correlation& pair) {
+            return pair.first == key || pair.second == key;
         });
         has_.push_back(has ? 1 : 0);
         if (has) {
@@ -27,15 +27,15 @@ Copula::Copula(const Study& study) {
         }
     }
     const auto count = static_cast<Eigen::Index>(inputs_.size());
-    const auto place = [&](const std::string& key) {
+    const auto index_of = [&](const std::string& key) {
         const auto found = std::ranges::find_if(
             inputs_, [&](std::size_t input) { return study.random[input].key == key; });
         return found - inputs_.begin();
     };
     Eigen::MatrixXd matrix = Eigen::MatrixXd::Identity(count, count);
-    for (const Correlation& one : study.correlations) {
-        const auto i = place(one.first), j = place(one.second);
-        matrix(i, j) = matrix(j, i) = 2.0 * std::sin(std::numbers::pi / 6.0 * one.rank);
+    for (const Correlation& pair : study.correlations) {
+        const auto i = index_of(pair.first), j = index_of(pair.second);
+        matrix(i, j) = matrix(j, i) = 2.0 * std::sin(std::numbers::pi / 6.0 * pair.rank);
     }
     const Eigen::LLT<Eigen::MatrixXd> cholesky(matrix);
     exists_ = cholesky.info() == Eigen::Success;

@@ -424,7 +424,7 @@ struct Until {
 };
 
 // Sampling of the gearboxes' random inputs: independent, or as points of a scrambled Sobol sequence
-// (mc/plan/sampling_plan).
+// (mc/plan/draw_plan.hpp).
 enum class SamplingKind { plain, sobol };
 
 struct Ensemble {

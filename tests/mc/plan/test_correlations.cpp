@@ -117,16 +117,16 @@ TEST_CASE("Correlated inputs have the requested rank correlation and their own d
             const Pairs pairs = draw(
                 {kTorque + "{distribution='normal',mean=400,sd=20}", kMass + text, kPairOf}, 5000);
             CHECK(spearman(pairs.torque, pairs.mass) == Approx(kRank).margin(2.0 * error));
-            const Distribution own = distribution_of(text);
+            const Distribution mass = distribution_of(text);
             // Its quantiles have their nominal frequency.
             for (const double share : {0.1, 0.5, 0.9}) {
                 const auto below = std::ranges::count_if(
-                    pairs.mass, [&](double x) { return x <= own.quantile(share); });
+                    pairs.mass, [&](double x) { return x <= mass.quantile(share); });
                 CHECK(static_cast<double>(below) / 5000.0 == Approx(share).margin(0.02));
             }
             std::vector<double> drawn = samples_of(text, 5000);
             std::ranges::nth_element(drawn, drawn.begin() + 4000);
-            CHECK(own.quantile(0.8) == Approx(drawn[4000]).epsilon(0.03));
+            CHECK(mass.quantile(0.8) == Approx(drawn[4000]).epsilon(0.03));
         }
     }
 }

@@ -45,14 +45,15 @@ std::size_t column_of(const Study& study, const std::string& name) {
     return column;
 }
 
-// Share 1 - s of an exchange in which `mixed` became (1 - s) own + sqrt(1 - (1 - s)^2) other.
-double kept_share(const std::vector<double>& mixed, const std::vector<double>& own,
+// Share 1 - s of an exchange in which `mixed` became (1 - s) before +
+// sqrt(1 - (1 - s)^2) other.
+double kept_share(const std::vector<double>& mixed, const std::vector<double>& before,
                   const std::vector<double>& other) {
     // Two positions determine both factors.
-    const double determinant = own[0] * other[1] - own[1] * other[0];
+    const double determinant = before[0] * other[1] - before[1] * other[0];
     const double kept = (mixed[0] * other[1] - mixed[1] * other[0]) / determinant;
     for (std::size_t i = 0; i < mixed.size(); ++i) {
-        const double expected = kept * own[i] + std::sqrt(1.0 - kept * kept) * other[i];
+        const double expected = kept * before[i] + std::sqrt(1.0 - kept * kept) * other[i];
         REQUIRE(mixed[i] == Approx(expected).margin(1e-12));
     }
     return kept;
@@ -61,12 +62,12 @@ double kept_share(const std::vector<double>& mixed, const std::vector<double>& o
 }  // namespace
 
 TEST_CASE("Exchanged numbers are normal mixtures of both with the weights of the given share") {
-    const std::vector<double> own = numbers(4);
+    const std::vector<double> unmixed = numbers(4);
     for (const double share : {0.0, 0.01, 0.3, 1.0}) {
         const std::vector<double> mixed = numbers(4, {{100, share}});
-        CHECK(kept_share(mixed, own, numbers(100)) == Approx(1.0 - share).margin(1e-12));
+        CHECK(kept_share(mixed, unmixed, numbers(100)) == Approx(1.0 - share).margin(1e-12));
     }
-    CHECK(numbers(4, {{100, 0.0}}) == own);
+    CHECK(numbers(4, {{100, 0.0}}) == unmixed);
 }
 
 TEST_CASE("A later exchange mixes the result of the earlier ones") {
@@ -84,13 +85,13 @@ TEST_CASE("Noise is exchanged number by number, separately for each record and r
             id.record = other.record = record;
             id.repeat = other.repeat = repeat;
             id.exchanged.reset();
-            const std::vector<double> own = many_numbers(id);
+            const std::vector<double> unmixed = many_numbers(id);
             std::vector<double> plain(kNumbers);
             Philox engine = noise_stream(kSeed, id, StreamPurpose::sensor_noise);
             signals::draw_normals(engine, std::span(plain));
-            CHECK(own == plain);
+            CHECK(unmixed == plain);
             id.exchanged = exchanged;
-            CHECK(kept_share(many_numbers(id), own, many_numbers(other)) == Approx(0.9));
+            CHECK(kept_share(many_numbers(id), unmixed, many_numbers(other)) == Approx(0.9));
         }
     }
 }
@@ -112,7 +113,7 @@ TEST_CASE("Random inputs of exchanging gearboxes keep their law and change by no
         const auto with = [&](std::span<const InputExchange> exchanged) {
             GearboxId id{Group::test, index};
             id.exchanged = exchanged;
-            const auto& [own_id, inputs, random_values] = sampler.draw(id);
+            const auto& [drawn_id, inputs, random_values] = sampler.draw(id);
             CHECK(random_values[column] == inputs.path_exponent);
             CHECK(inputs.path_exponent ==
                   standard_normal_cdf(

@@ -66,10 +66,11 @@ TEST_CASE("Planets differ by given and by random deviations, independently in ea
     auto twice = scatter;
     twice[0] = "gearbox.pin_tangential_rms_um=16";
     twice[1] = "gearbox.pin_radial_rms_um=6";
-    const Planets one = sampler.draw({Group::test, 7}).inputs.planets;
-    const Planets two = Sampler(DrawPlan{study_with(twice)}).draw({Group::test, 7}).inputs.planets;
-    CHECK(two[2].pin_x_m == Approx(2.0 * one[2].pin_x_m));
-    CHECK(two[2].bearing_stiffness == one[2].bearing_stiffness);
+    const Planets once = sampler.draw({Group::test, 7}).inputs.planets;
+    const Planets twice_as_far =
+        Sampler(DrawPlan{study_with(twice)}).draw({Group::test, 7}).inputs.planets;
+    CHECK(twice_as_far[2].pin_x_m == Approx(2.0 * once[2].pin_x_m));
+    CHECK(twice_as_far[2].bearing_stiffness == once[2].bearing_stiffness);
 }
 
 TEST_CASE("Different planets repeat every mesh: reused records equal integration of all meshes") {

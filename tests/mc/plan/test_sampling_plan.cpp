@@ -153,11 +153,11 @@ TEST_CASE("Each fault size and each group has its own scramble") {
     for (int seed = 0; seed < kSeeds; ++seed) {
         study.ensemble.seed = seed;
         const Sampler sampler(DrawPlan{study});
-        const double one = share_of(sampler, Group::test, 15) - 0.5;  // round 3, first size
+        const double first = share_of(sampler, Group::test, 15) - 0.5;  // round 3, first size
         const double other = share_of(sampler, Group::test, 16) - 0.5;
         const double healthy = share_of(sampler, Group::threshold, 3) - 0.5;
-        between_sizes += 12.0 * one * other / kSeeds;
-        between_groups += 12.0 * one * healthy / kSeeds;
+        between_sizes += 12.0 * first * other / kSeeds;
+        between_groups += 12.0 * first * healthy / kSeeds;
     }
     CHECK(std::abs(between_sizes) < 4.0 / std::sqrt(kSeeds));
     CHECK(std::abs(between_groups) < 4.0 / std::sqrt(kSeeds));
