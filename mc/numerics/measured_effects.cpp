@@ -35,7 +35,9 @@ TimedPilot timed_pilot(const Planner& planner, int repeats) {
 
 // Measures the change from the pilot `before` to that of a variant.
 MeasuredEffect measure(TimedPilot before, const EffectVariant& variant, int repeats) {
-    MeasuredEffect measured{variant.effect, variant.in_study};
+    MeasuredEffect measured;
+    measured.effect = variant.effect;
+    measured.in_study = variant.in_study;
     try {
         TimedPilot after = timed_pilot(variant.planner(), repeats);
         measured.time_ratio =

@@ -24,7 +24,9 @@ std::string location_of(const Study& study) {
 }  // namespace
 
 FaultPlan make_fault_plan(const Study& study) {
-    FaultPlan plan{.words = "a fault", .size_key = &fault_size_key(study)};
+    FaultPlan plan;
+    plan.words = "a fault";
+    plan.size_key = &fault_size_key(study);
     if (study.fault.kind == nullptr) {
         return plan;
     }

@@ -22,8 +22,9 @@ struct FaultPlan {
     std::string location;  // "planet 1, sun side"
     // Location on the tooth, and the datum from which the sizes are measured.
     std::string origin;
-    SizeShare share;      // part of the tooth that a size takes
-    const Key* size_key;  // gives the size; without a fault, the depth of a crack, which is then 0
+    SizeShare share{};  // part of the tooth that a size takes
+    // Gives the size; without a fault, the depth of a crack, which is then 0.
+    const Key* size_key = nullptr;
     // Sizes at which stiffness curves are shown: the levels, or the edges of groups, without 0.
     // Ascending, SI.
     std::vector<double> sizes;

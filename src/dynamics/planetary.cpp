@@ -119,8 +119,8 @@ Eigen::MatrixXd motions_from_degrees(const PlanetaryLayout& layout) {
 }
 
 DampingTerms mesh_damping(const PlanetaryLayout& layout, const PlanetaryInputs& inputs, int pair) {
-    const int gear = pair < layout.planets ? sun : ring;
-    return mesh_damping_terms(layout.mesh_damping, inputs.mesh_damping, inputs.mass_kg[gear],
+    const int central = pair < layout.planets ? sun : ring;
+    return mesh_damping_terms(layout.mesh_damping, inputs.mesh_damping, inputs.mass_kg[central],
                               inputs.planet_mass_kg(pair % layout.planets));
 }
 

@@ -117,12 +117,12 @@ struct TorsionalMotion {
         const auto ring_deflection = [=](const Real* z, int l) {
             return std::fma(-z[l], cr, z[W + l] - z[o + l]);
         };
-        const auto sun = pair_force<Mesh, W>(pairs, n, sun_deflection, q, v);
-        const auto ring = pair_force<Mesh, W>(pairs, p.planets + n, ring_deflection, q, v);
+        const auto sun_force = pair_force<Mesh, W>(pairs, n, sun_deflection, q, v);
+        const auto ring_force = pair_force<Mesh, W>(pairs, p.planets + n, ring_deflection, q, v);
 #pragma omp simd
         for (int l = 0; l < W; ++l) {
-            const Real f_sun = sun(pairs, n, l, q, v);
-            const Real f_ring = ring(pairs, p.planets + n, l, q, v);
+            const Real f_sun = sun_force(pairs, n, l, q, v);
+            const Real f_ring = ring_force(pairs, p.planets + n, l, q, v);
             f[l] = std::fma(std::fma(f_ring, ratio, f_sun), cs, f[l]);
             f[W + l] -= f_ring;
             f[2 * W + l] -= f_sun;
@@ -228,14 +228,14 @@ struct TranslationalMotion {
                 z[3 * W + l] - z[o + l], cr,
                 std::fma(z[4 * W + l] - z[o + W + l], sr, z[5 * W + l] - z[o + 2 * W + l]));
         };
-        const auto sun = pair_force<Mesh, W>(pairs, n, sun_deflection, q, v);
-        const auto ring = pair_force<Mesh, W>(pairs, p.planets + n, ring_deflection, q, v);
+        const auto sun_force = pair_force<Mesh, W>(pairs, n, sun_deflection, q, v);
+        const auto ring_force = pair_force<Mesh, W>(pairs, p.planets + n, ring_deflection, q, v);
 #pragma omp simd
         for (int l = 0; l < W; ++l) {
             const Real x = q[o + l], y = q[o + W + l];
             const Real vx = v[o + l], vy = v[o + W + l];
-            const Real f_sun = sun(pairs, n, l, q, v);
-            const Real f_ring = ring(pairs, p.planets + n, l, q, v);
+            const Real f_sun = sun_force(pairs, n, l, q, v);
+            const Real f_ring = ring_force(pairs, p.planets + n, l, q, v);
 
             const Real kb = p.bearing_stiffness[planet + n][l];
             const Real cb = p.bearing_damping[planet + n][l];
