@@ -9,6 +9,7 @@
 #include "analysis/statistics/difference_tests.hpp"
 #include "analysis/statistics/link.hpp"
 #include "analysis/statistics/rank_statistics.hpp"
+#include "machine/no_value.hpp"
 
 namespace gearpod::analysis {
 namespace {
@@ -92,7 +93,7 @@ InputInfluence influence(const InputColumn& input, const std::vector<Stratum>& s
     const double distance = std::abs(area - 0.5);
     result.p_value = variance > 0.0
                          ? 2.0 * link_probability(Link::probit, -distance / std::sqrt(variance))
-                         : std::numeric_limits<double>::quiet_NaN();
+                         : kNan;
     return result;
 }
 

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <memory>
 #include <optional>
 #include <random>
@@ -12,6 +11,7 @@
 
 #include "analysis/detection/threshold.hpp"
 #include "analysis/pod/curve_covariance.hpp"
+#include "machine/no_value.hpp"
 
 namespace gearpod::analysis {
 namespace {
@@ -49,9 +49,9 @@ bool separated(const HitMissTable& table) {
                 return row.size;
             }
         }
-        return std::numeric_limits<double>::quiet_NaN();
+        return kNan;
     }();
-    double largest_hit = std::numeric_limits<double>::quiet_NaN();
+    double largest_hit = kNan;
     for (const HitMissRow& row : table) {
         if (row.hits > 0.0) {
             largest_hit = row.size;
@@ -89,7 +89,7 @@ Fitted fit_form(const HitMissTable& table, Scales& scales, const PodForm& form,
     Fitted result;
     HitMissFit& fit = result.fit;
     fit.curve.form = form;
-    fit.log_likelihood = fit.aic = std::numeric_limits<double>::quiet_NaN();
+    fit.log_likelihood = fit.aic = kNan;
     fit.refusal = outcome_refusal(table);
     if (!fit.refusal.empty()) {
         return result;

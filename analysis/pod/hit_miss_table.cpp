@@ -3,11 +3,11 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
-#include <limits>
 #include <numbers>
 #include <stdexcept>
 
 #include "analysis/statistics/gauss_rule.hpp"
+#include "machine/no_value.hpp"
 
 namespace gearpod::analysis {
 
@@ -41,7 +41,7 @@ double largest_miss(const HitMissTable& table) {
             return row->size;
         }
     }
-    return std::numeric_limits<double>::quiet_NaN();
+    return kNan;
 }
 
 double smallest_hit(const HitMissTable& table) {
@@ -50,7 +50,7 @@ double smallest_hit(const HitMissTable& table) {
             return row.size;
         }
     }
-    return std::numeric_limits<double>::quiet_NaN();
+    return kNan;
 }
 
 double total_tests(const HitMissTable& table) {

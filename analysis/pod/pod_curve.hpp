@@ -7,6 +7,7 @@
 
 #include "analysis/statistics/link.hpp"
 #include "machine/fields.hpp"
+#include "machine/no_value.hpp"
 
 namespace gearpod::analysis {
 
@@ -27,10 +28,9 @@ inline double place_of(const SizeEstimate& estimate) {
 
 inline SizeEstimate estimate_within(double size, double smallest, double largest) {
     if (!(size <= largest)) {
-        return {SizeEstimate::Where::not_reached, std::numeric_limits<double>::quiet_NaN()};
+        return {SizeEstimate::Where::not_reached, kNan};
     }
-    return size < smallest ? SizeEstimate{SizeEstimate::Where::below_tested,
-                                          std::numeric_limits<double>::quiet_NaN()}
+    return size < smallest ? SizeEstimate{SizeEstimate::Where::below_tested, kNan}
                            : SizeEstimate{SizeEstimate::Where::reached, size};
 }
 

@@ -5,11 +5,11 @@
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <stdexcept>
 
 #include "analysis/statistics/distributions.hpp"
 #include "analysis/statistics/outcome_terms.hpp"
+#include "machine/no_value.hpp"
 
 namespace gearpod::analysis {
 namespace {
@@ -404,7 +404,7 @@ GoodnessOfFit goodness_of_fit(const HitMissTable& table, const PodCurve& curve) 
     GoodnessOfFit fit;
     const auto sizes = static_cast<int>(table.size());
     const double tests = total_tests(table);
-    fit.statistic = fit.p_value = std::numeric_limits<double>::quiet_NaN();
+    fit.statistic = fit.p_value = kNan;
     double statistic = 0.0;
     if (tests >= kReplicates * sizes) {
         statistic = saturated_statistic(table, curve);

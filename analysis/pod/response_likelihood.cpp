@@ -254,8 +254,8 @@ double ResponseLikelihood::maximum_through(double x, double y, double u,
 }
 
 bool ResponseLikelihood::has_between(const Maximum& maximum) const {
-    constexpr double kNone = -5.0;  // ln of between over within
-    return by_specimen_ && maximum.parameters[3] - maximum.parameters[2] > kNone;
+    constexpr double kLeastLogRatio = -5.0;  // of between over within
+    return by_specimen_ && maximum.parameters[3] - maximum.parameters[2] > kLeastLogRatio;
 }
 
 ResponseModel ResponseLikelihood::model(const Maximum& maximum) const {

@@ -1,10 +1,10 @@
 #include "analysis/statistics/interval.hpp"
 
 #include <cmath>
-#include <limits>
 #include <stdexcept>
 
 #include "analysis/statistics/distributions.hpp"
+#include "machine/no_value.hpp"
 
 namespace gearpod::analysis {
 
@@ -14,8 +14,7 @@ Interval wilson_interval(long detected, long tested, double confidence) {
             "Wilson interval: needs 0 <= detected <= tested and a confidence");
     }
     if (tested == 0) {
-        const double nan = std::numeric_limits<double>::quiet_NaN();
-        return {nan, nan};
+        return {kNan, kNan};
     }
     const double z = normal_upper_quantile(0.5 * (1.0 - confidence));
     const auto n = static_cast<double>(tested);
@@ -33,8 +32,7 @@ Interval clopper_pearson_interval(long detected, long tested, double confidence)
             "Clopper-Pearson interval: needs 0 <= detected <= tested and a confidence");
     }
     if (tested == 0) {
-        const double nan = std::numeric_limits<double>::quiet_NaN();
-        return {nan, nan};
+        return {kNan, kNan};
     }
     const double tail = 0.5 * (1.0 - confidence);
     const auto k = static_cast<double>(detected);

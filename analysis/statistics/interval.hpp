@@ -1,12 +1,11 @@
 // Interval of an estimate, and the value that marks a missing estimate.
 #pragma once
 
-#include <limits>
+#include "machine/no_value.hpp"
 
 namespace gearpod::analysis {
 
 // Marks a quantity that could not be estimated.
-inline constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
 struct Interval {
     double lower = 0.0;

@@ -3,7 +3,8 @@
 #include <Eigen/Cholesky>
 #include <Eigen/Core>
 #include <cmath>
-#include <limits>
+
+#include "machine/no_value.hpp"
 
 namespace gearpod::analysis {
 namespace {
@@ -69,8 +70,7 @@ std::optional<std::vector<double>> learned_sum(const LearningSample& sample) {
     for (std::size_t i = 0; i < sample.faulty.size(); ++i) {
         const Eigen::VectorXd values = values_of(sample, i);
         const Weights& own = *of[sample.half[i]];
-        sums.push_back(values.allFinite() ? own.weights.dot(values) - own.offset
-                                          : std::numeric_limits<double>::quiet_NaN());
+        sums.push_back(values.allFinite() ? own.weights.dot(values) - own.offset : kNan);
     }
     return sums;
 }

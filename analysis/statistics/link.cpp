@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "analysis/statistics/quiet_policy.hpp"
+#include "machine/no_value.hpp"
 
 namespace gearpod::analysis {
 
@@ -69,7 +70,7 @@ double link_quantile(Link link, double probability) {
     if (!(probability > 0.0 && probability < 1.0)) {
         return probability == 0.0   ? -std::numeric_limits<double>::infinity()
                : probability == 1.0 ? std::numeric_limits<double>::infinity()
-                                    : std::numeric_limits<double>::quiet_NaN();
+                                    : kNan;
     }
     switch (link) {
         case Link::logit:

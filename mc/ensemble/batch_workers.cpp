@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <exception>
-#include <limits>
 #include <vector>
 
 #include "machine/clocks.hpp"
+#include "machine/no_value.hpp"
 #include "machine/team.hpp"
 #include "mc/ensemble/coupling/record_positions.hpp"
 #include "mc/ensemble/gearbox/other_sources.hpp"
@@ -98,8 +98,7 @@ std::vector<double> BatchWorker::variants_of(const Realization& record, const La
     const EnsemblePlan& plan = task_.scene.ensemble();
     std::vector<double> all;
     for (const VariantColumns& variant : plan.variants) {
-        std::vector<double> values(plan.shape.features * plan.shape.levels,
-                                   std::numeric_limits<double>::quiet_NaN());
+        std::vector<double> values(plan.shape.features * plan.shape.levels, kNan);
         if (variant.sensor) {
             const std::size_t s = *variant.sensor;
             SensorSignals measured = signals_of_sensor(task_.scene.study(), signals, s);
@@ -120,9 +119,8 @@ void BatchWorker::add_row(const Realization& record, const GearboxTile& computed
 
     const EnsemblePlan& plan = task_.scene.ensemble();
     const RowShape& shape = plan.shape;
-    constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
-    std::vector<double> values(shape.features * shape.levels, kNone);
-    std::vector<double> variants(shape.variants * values.size(), kNone);
+    std::vector<double> values(shape.features * shape.levels, kNan);
+    std::vector<double> variants(shape.variants * values.size(), kNan);
     double noise_weight = 1.0;
     if (status == Status::ok) {
         values = features_.compute(signals, record);
@@ -134,12 +132,12 @@ void BatchWorker::add_row(const Realization& record, const GearboxTile& computed
     rows.values.insert(rows.values.end(), values.begin(), values.end());
     std::vector<double> loss = contact_loss(computed, lane, shape.meshes);
     if (status != Status::ok) {
-        std::ranges::fill(loss, kNone);
+        std::ranges::fill(loss, kNan);
     }
     rows.values.insert(rows.values.end(), loss.begin(), loss.end());
     if (shape.integration > 0) {
         const std::vector<char>& superposed = computed.integration.superposed;
-        rows.values.push_back(status != Status::ok                           ? kNone
+        rows.values.push_back(status != Status::ok                           ? kNan
                               : !superposed.empty() && superposed[lane] != 0 ? 1.0
                                                                              : 0.0);
     }

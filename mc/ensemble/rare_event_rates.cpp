@@ -4,6 +4,7 @@
 #include <memory>
 #include <stdexcept>
 
+#include "machine/no_value.hpp"
 #include "mc/ensemble/ensemble.hpp"
 #include "mc/ensemble/messages.hpp"
 
@@ -39,7 +40,7 @@ std::string failure_reason(const EnsembleOutcome& outcome) {
 }
 
 double equivalent_sample_size(double rate, double variance) {
-    return rate < 1.0 ? (1.0 - rate) / (rate * variance) : analysis::kNan;
+    return rate < 1.0 ? (1.0 - rate) / (rate * variance) : kNan;
 }
 
 MissRateResult estimate_miss_rate(const Scene& scene, const MissRateRequest& request,
@@ -83,7 +84,7 @@ MissRateResult estimate_miss_rate(const Scene& scene, const MissRateRequest& req
     result.records = static_cast<long>(all.values.size());
     result.counted = result.misses
                          ? equivalent_sample_size(result.misses->expected, result.misses->variance)
-                         : analysis::kNan;
+                         : kNan;
     return result;
 }
 
@@ -241,7 +242,7 @@ RareRateResult estimate_rare_rate(const Scene& scene, const RareRateRequest& req
                                    : tail.at(request.threshold, confidence);
     result.threshold = result.estimate && request.rate
                            ? tail.threshold_interval(*request.rate, *result.estimate)
-                           : analysis::Interval{analysis::kNan, analysis::kNan};
+                           : analysis::Interval{kNan, kNan};
     result.computed = tail.computed();
     result.failed = run.failed();
     result.levels = tail.levels();
@@ -249,7 +250,7 @@ RareRateResult estimate_rare_rate(const Scene& scene, const RareRateRequest& req
     result.least_kept = tail.least_kept();
     result.counted = result.estimate ? equivalent_sample_size(result.estimate->expected,
                                                               result.estimate->variance)
-                                     : analysis::kNan;
+                                     : kNan;
     if (ranks.leads() && tail.levels() > 1) {
         result.shifted = shifted_inputs(scene.sampler(), scene.ensemble().inputs, request, tail);
     }

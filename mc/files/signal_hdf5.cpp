@@ -3,8 +3,8 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <limits>
 
+#include "machine/no_value.hpp"
 #include "mc/files/column_search.hpp"
 #include "mc/files/hdf5_data.hpp"
 #include "mc/files/hdf5_index.hpp"
@@ -188,9 +188,7 @@ class SignalHdf5 : public NamedColumns {
                 take(offset, offset_name, attribute);
             } else if (plain == "fillvalue" || plain == "missingvalue") {
                 for (double& value : values) {
-                    value = std::ranges::count(attribute.numbers, value) > 0
-                                ? std::numeric_limits<double>::quiet_NaN()
-                                : value;
+                    value = std::ranges::count(attribute.numbers, value) > 0 ? kNan : value;
                 }
             } else if (const auto number = attribute.number();
                        number && *number != 1.0 && is_among(plain, kUnusedNames)) {

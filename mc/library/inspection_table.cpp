@@ -4,12 +4,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <span>
 
 #include "analysis/report/inspection_report.hpp"
+#include "machine/no_value.hpp"
 #include "mc/files/input/problems.hpp"
 #include "mc/files/input/terminal_text.hpp"
 
@@ -156,9 +156,7 @@ std::vector<double> powers(const std::string& scale, Problems& problems) {
         return {1.0, 0.0};
     }
     if (scale == "linear" || scale == "log" || scale == "box-cox") {
-        return {scale == "linear" ? 1.0
-                : scale == "log"  ? 0.0
-                                  : std::numeric_limits<double>::quiet_NaN()};
+        return {scale == "linear" ? 1.0 : scale == "log" ? 0.0 : kNan};
     }
     const auto power = number_of(scale, false);
     if (!power || !(std::abs(*power) <= 10.0)) {

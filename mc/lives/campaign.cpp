@@ -6,15 +6,13 @@
 #include <array>
 #include <charconv>
 #include <cmath>
-#include <limits>
 #include <stdexcept>
 
+#include "machine/no_value.hpp"
 #include "mc/ensemble/ensemble.hpp"
 
 namespace gearpod::mc {
 namespace {
-
-constexpr double kNoNumber = std::numeric_limits<double>::quiet_NaN();
 
 // Columns that follow those of the random inputs.
 struct LifeColumn {
@@ -84,23 +82,23 @@ void add_life(const CampaignPlan& plan, const Realization& gearbox, const Gearbo
     const auto& records = life.history.records;
     rows.status.push_back(static_cast<int>(life.status));
     plan.ensemble.append_inputs(gearbox.random_values, 1.0, rows.values);
-    rows.values.insert(rows.values.end(), {life.history.end_hours.value_or(kNoNumber),
-                                           static_cast<double>(records.size()), errors.first,
-                                           errors.last, errors.load});
+    rows.values.insert(rows.values.end(),
+                       {life.history.end_hours.value_or(kNan), static_cast<double>(records.size()),
+                        errors.first, errors.last, errors.load});
     const std::size_t missing_records = static_cast<std::size_t>(plan.records) - records.size();
     for (std::size_t f = 0; f < plan.ensemble.features.size(); ++f) {
         if (life.status == Status::ok) {
             rows.values.insert(rows.values.end(), life.values[f].begin(), life.values[f].end());
         } else {
-            rows.values.insert(rows.values.end(), records.size(), kNoNumber);
+            rows.values.insert(rows.values.end(), records.size(), kNan);
         }
-        rows.values.insert(rows.values.end(), missing_records, kNoNumber);
+        rows.values.insert(rows.values.end(), missing_records, kNan);
     }
     for (const RecordColumn& column : kRecordColumns) {
         for (const LifeRecord& record : records) {
             rows.values.push_back(record.*column.member);
         }
-        rows.values.insert(rows.values.end(), missing_records, kNoNumber);
+        rows.values.insert(rows.values.end(), missing_records, kNan);
     }
 }
 
@@ -147,7 +145,7 @@ constexpr const char *kGearboxTime = "gearboxes_processor_s", *kRecordTime = "re
 // NaN if the file does not contain it.
 double error_in(const Results& frame) {
     const std::string text = frame.provenance_value(kInterpolationError);
-    double error = std::numeric_limits<double>::quiet_NaN();
+    double error = kNan;
     std::from_chars(text.data(), text.data() + text.size(), error);
     return error;
 }
@@ -245,7 +243,7 @@ Campaign run_campaign(const Scene& scene) {
         throw std::runtime_error(outcome.failure);
     }
     Results frame = lives_frame(campaign);
-    store_run_costs(tiles.plan(), std::numeric_limits<double>::quiet_NaN(), outcome, frame);
+    store_run_costs(tiles.plan(), kNan, outcome, frame);
     return campaign_of(campaign, frame, StoredRows(store, plan, outcome.batches));
 }
 

@@ -2,9 +2,9 @@
 // while gearboxes are integrated.
 #pragma once
 
-#include <limits>
 #include <string>
 
+#include "machine/no_value.hpp"
 #include "mc/lives/life_tile.hpp"
 
 namespace gearpod::mc {
@@ -45,7 +45,7 @@ struct InterpolationChoice {
     // Sum of the errors along torque and speed, each the largest over the pilots: rms over the
     // span, relative to the change made by the smallest crack of interest at the gearbox's own
     // load. 0 if nothing is interpolated between loads; NaN if no pilot was integrated.
-    double error = std::numeric_limits<double>::quiet_NaN();
+    double error = kNan;
     int loads = 0;  // number of loads at which the pilots were integrated
 };
 

@@ -2,12 +2,12 @@
 // each of a few depths and loads, and their records are superpositions.
 #pragma once
 
-#include <limits>
 #include <span>
 #include <string>
 #include <vector>
 
 #include "machine/fields.hpp"
+#include "machine/no_value.hpp"
 #include "mc/ensemble/gearbox/healthy_solution.hpp"
 #include "mc/lives/crack_life.hpp"
 #include "mc/lives/load_axis.hpp"
@@ -27,11 +27,11 @@ struct GearboxLife {
 // of the crack there. `load`: the largest error halfway between neighbouring integrated torques and
 // speeds, without a crack, relative to the signal there.
 struct InterpolationErrors {
-    double first = std::numeric_limits<double>::quiet_NaN();
-    double last = std::numeric_limits<double>::quiet_NaN();
-    double load = std::numeric_limits<double>::quiet_NaN();  // 0 if all records have the same load
+    double first = kNan;
+    double last = kNan;
+    double load = kNan;  // 0 if all records have the same load
     // InterpolationChoice::error; NaN if the file does not contain it.
-    double change = std::numeric_limits<double>::quiet_NaN();
+    double change = kNan;
 
     // Takes the maximum of both for each error.
     void take(const InterpolationErrors& other);

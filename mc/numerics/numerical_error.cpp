@@ -5,10 +5,10 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
-#include <limits>
 
 #include "analysis/detection/detection.hpp"
 #include "lockstep/kernels/kernel_table.hpp"
+#include "machine/no_value.hpp"
 #include "mc/ensemble/batch_workers.hpp"
 #include "mc/ensemble/gearbox/gearbox_tile.hpp"
 #include "mc/ensemble/gearbox/solution_choice.hpp"
@@ -18,7 +18,6 @@
 namespace gearpod::mc {
 namespace {
 
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 constexpr int kFiner = 4;
 constexpr double kConverged = 1e-10;
 
@@ -131,7 +130,7 @@ std::vector<Counts> count_near(const Results& frame, const RowSource& rows) {
 
 void set_rate_contribution(const analysis::LevelDetection& level, const Counts& counts,
                            NumericalContribution& contribution) {
-    contribution.pd = contribution.pd_half_width = kNaN;
+    contribution.pd = contribution.pd_half_width = kNan;
     if (!std::isfinite(level.threshold)) {
         return;
     }
@@ -149,7 +148,7 @@ void set_rate_contribution(const analysis::LevelDetection& level, const Counts& 
 
 void set_size_contribution(const analysis::HitMissPod& pod, NumericalContribution& contribution) {
     using Where = analysis::SizeEstimate::Where;
-    contribution.a90 = contribution.a90_interval = kNaN;
+    contribution.a90 = contribution.a90_interval = kNan;
     if (!pod.refusal.empty() || pod.a90.estimate.where != Where::reached ||
         !std::isfinite(contribution.pd)) {
         return;
@@ -270,7 +269,7 @@ std::vector<NumericalContribution> numerical_contributions(
         if (reliability) {
             set_size_contribution(reliability->features[f].levels[level].hit_miss, contribution);
         } else {
-            contribution.a90 = contribution.a90_interval = kNaN;
+            contribution.a90 = contribution.a90_interval = kNan;
         }
         if (!corrected.empty()) {
             contribution.corrected = corrected[i];

@@ -2,15 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
+#include "machine/no_value.hpp"
 #include "machine/team.hpp"
 #include "mc/results/reliability_of_results.hpp"
 
 namespace gearpod::mc {
 namespace {
 
-constexpr double kNoFit = std::numeric_limits<double>::quiet_NaN();
 constexpr double kNormalQuantile = 1.959964;  // of 0.975
 
 double mean(const std::vector<double>& values) {
@@ -41,7 +40,7 @@ Regression regress(const std::vector<double>& y, const std::vector<double>& x) {
 }
 
 PairedCorrection no_correction() {
-    return {kNoFit, kNoFit, kNoFit, kNoFit, kNoFit, kNoFit, kNoFit, kNoFit, kNoFit};
+    return {kNan, kNan, kNan, kNan, kNan, kNan, kNan, kNan, kNan};
 }
 
 // Rows with corrected features. `deviations`: standard errors by which the part that grows with the
@@ -87,12 +86,12 @@ struct CorrectedResults {
     double a90(std::size_t feature, std::size_t level) const {
         using Where = analysis::SizeEstimate::Where;
         if (!reliability) {
-            return kNoFit;
+            return kNan;
         }
         const analysis::HitMissPod& pod = reliability->features[feature].levels[level].hit_miss;
         return pod.refusal.empty() && pod.a90.estimate.where == Where::reached
                    ? pod.a90.estimate.size
-                   : kNoFit;
+                   : kNan;
     }
 };
 
@@ -111,7 +110,7 @@ double standard_deviation(const std::vector<double>& values) {
     for (const double value : values) {
         squares += (value - middle) * (value - middle);
     }
-    return values.size() > 1 ? std::sqrt(squares / static_cast<double>(values.size() - 1)) : kNoFit;
+    return values.size() > 1 ? std::sqrt(squares / static_cast<double>(values.size() - 1)) : kNan;
 }
 
 PairedCorrection fit_correction(const PairedValues& pairs) {
@@ -176,12 +175,11 @@ std::vector<CorrectedDetection> corrected_detection(const Results& frame, const 
             const auto& corrected = middle.rates[f].levels[level].cells;
             const std::size_t at = f * frame.noise_levels.size() + level;
             if (!std::isfinite(frame.numerical->corrections[at].by_size)) {
-                all.push_back({kNoFit, kNoFit, kNoFit, kNoFit});
+                all.push_back({kNan, kNan, kNan, kNan});
                 continue;
             }
             CorrectedDetection one;
-            one.pd_change =
-                std::isfinite(frame.detection[f].levels[level].threshold) ? 0.0 : kNoFit;
+            one.pd_change = std::isfinite(frame.detection[f].levels[level].threshold) ? 0.0 : kNan;
             for (std::size_t c = 0; c < own.size(); ++c) {
                 one.pd_change = std::max(one.pd_change, std::abs(corrected[c].pd - own[c].pd));
             }
@@ -189,8 +187,8 @@ std::vector<CorrectedDetection> corrected_detection(const Results& frame, const 
             const double ends[] = {one.a90, low.a90(f, level), high.a90(f, level)};
             const bool reached =
                 std::ranges::all_of(ends, [](double a) { return std::isfinite(a); });
-            one.a90_lower = reached ? *std::ranges::min_element(ends) : kNoFit;
-            one.a90_upper = reached ? *std::ranges::max_element(ends) : kNoFit;
+            one.a90_lower = reached ? *std::ranges::min_element(ends) : kNan;
+            one.a90_upper = reached ? *std::ranges::max_element(ends) : kNan;
             all.push_back(one);
         }
     }

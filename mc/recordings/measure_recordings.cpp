@@ -5,12 +5,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <map>
 #include <mutex>
 #include <optional>
 #include <set>
 
+#include "machine/no_value.hpp"
 #include "machine/team.hpp"
 #include "mc/files/input/problems.hpp"
 #include "mc/files/input/terminal_text.hpp"
@@ -21,8 +21,6 @@
 
 namespace gearpod::mc {
 namespace {
-
-constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
 
 class ListMeasurement {
   public:
@@ -125,7 +123,7 @@ class ListMeasurement {
     void read(const Place& place) {
         const std::size_t i = index_of(place);
         MeasuredRecording& measured = measured_.recordings[i];
-        measured.alignment = kUnknown;
+        measured.alignment = kNan;
         try {
             signals_[i] = signal_of(i);
             const GroupBaseline* baseline = usable_baseline(place);
@@ -201,7 +199,7 @@ class ListMeasurement {
         }
         // A group without a usable baseline has no values of features that compare.
         const auto columns = measurable(scene_.study(), compared_);
-        measured.values.assign(columns.size(), kUnknown);
+        measured.values.assign(columns.size(), kNan);
         std::string why;
         bool any = false;
         for (const MeasuredFeature& feature : all.features) {

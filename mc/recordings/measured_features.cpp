@@ -4,10 +4,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <utility>
 
 #include "features/statistics/signal_statistics.hpp"
+#include "machine/no_value.hpp"
 #include "mc/ensemble/gearbox/realization_features.hpp"
 #include "mc/ensemble/gearbox/span_analysis.hpp"
 #include "mc/files/signal_file.hpp"
@@ -226,7 +226,7 @@ void measure_in_python(const Scene& scene, std::span<const Feature* const> avail
 }  // namespace
 
 double ToothMap::worst() const {
-    return rms.empty() ? std::numeric_limits<double>::quiet_NaN()
+    return rms.empty() ? kNan
                        : first + static_cast<double>(std::max_element(rms.begin(), rms.end()) -
                                                      rms.begin());
 }
@@ -348,8 +348,7 @@ std::vector<double> measured_values(const Scene& scene, const MeasuredSignal& si
     const features::FeatureInput input = measured.of(signal);
     std::vector<double> values;
     for (std::size_t f = 0; f < requested.size(); ++f) {
-        values.push_back(available[f] != 0 ? requested[f]->compute(input)
-                                           : std::numeric_limits<double>::quiet_NaN());
+        values.push_back(available[f] != 0 ? requested[f]->compute(input) : kNan);
     }
     return values;
 }

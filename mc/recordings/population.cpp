@@ -4,19 +4,17 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <stdexcept>
 
 #include "analysis/detection/threshold.hpp"
 #include "analysis/statistics/rank_statistics.hpp"
+#include "machine/no_value.hpp"
 #include "mc/files/input/terminal_text.hpp"
 #include "mc/results/results_file.hpp"
 #include "mc/study/study.hpp"
 
 namespace gearpod::mc {
 namespace {
-
-constexpr double kNoValue = std::numeric_limits<double>::quiet_NaN();
 
 [[noreturn]] void refuse(const std::string& path, const std::string& why) {
     throw std::runtime_error(path + ": " + why);
@@ -123,7 +121,7 @@ std::vector<AlarmDecision> compare_with_population(
     for (const PopulationFeature& known : population.features) {
         const auto at = static_cast<std::size_t>(
             std::ranges::find(features, known.name, &features::Feature::name) - features.begin());
-        const double value = at < measured.size() ? measured[at] : kNoValue;
+        const double value = at < measured.size() ? measured[at] : kNan;
         if (!std::isfinite(value)) {
             continue;
         }
@@ -156,7 +154,7 @@ std::vector<AlarmDecision> compare_with_population(
 std::vector<double> values_of(const std::vector<MeasuredFeature>& measured) {
     std::vector<double> values;
     for (const MeasuredFeature& one : measured) {
-        values.push_back(one.missing.empty() ? one.value : kNoValue);
+        values.push_back(one.missing.empty() ? one.value : kNan);
     }
     return values;
 }

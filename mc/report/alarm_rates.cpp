@@ -18,6 +18,7 @@
 #include "analysis/statistics/interval.hpp"
 #include "features/feature.hpp"
 #include "features/statistics/signal_statistics.hpp"
+#include "machine/no_value.hpp"
 #include "mc/study/other_sources.hpp"
 
 namespace gearpod::mc {
@@ -43,7 +44,7 @@ std::vector<double> ends_of(const std::vector<double>& times) {
 double threshold_of(const Results& frame, std::size_t feature) {
     return feature < frame.detection.size() && !frame.detection[feature].levels.empty()
                ? frame.detection[feature].levels.front().threshold
-               : std::numeric_limits<double>::quiet_NaN();
+               : kNan;
 }
 
 }  // namespace

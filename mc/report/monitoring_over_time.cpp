@@ -14,6 +14,7 @@
 #include "analysis/monitoring/baseline_deviations.hpp"
 #include "analysis/report/json_values.hpp"
 #include "analysis/report/wording.hpp"
+#include "machine/no_value.hpp"
 #include "mc/study/random/philox.hpp"
 #include "mc/study/study.hpp"
 
@@ -129,7 +130,7 @@ FirstAlarm first_alarm(const GearboxRecords& gearbox, std::size_t i) {
 // Worst tooth of a recording in mesh periods from the baseline's start; NaN if unknown.
 double worst_position(const GearboxSeries& series, std::size_t i) {
     if (series.teeth.empty() || series.teeth[i].empty()) {
-        return analysis::kNan;
+        return kNan;
     }
     const auto& rms = series.teeth[i];
     return series.first_tooth[i] +
@@ -202,7 +203,7 @@ GearboxSeries series_of(const Results& frame, const GearboxRecords& gearbox) {
         if (row < alignments.size() && row < maps.size()) {
             series.alignment.push_back(std::strtod(alignments[row].c_str(), nullptr));
             const std::vector<double> map = numbers_of(maps[row]);
-            series.first_tooth.push_back(map.empty() ? analysis::kNan : map.front());
+            series.first_tooth.push_back(map.empty() ? kNan : map.front());
             series.teeth.emplace_back(map.begin() + (map.empty() ? 0 : 1), map.end());
         }
     }

@@ -12,6 +12,7 @@
 #include "analysis/statistics/learned_sum.hpp"
 #include "features/feature.hpp"
 #include "features/statistics/signal_statistics.hpp"
+#include "machine/no_value.hpp"
 #include "mc/ensemble/ranks.hpp"
 #include "mc/results/reliability_of_results.hpp"
 
@@ -101,8 +102,7 @@ std::vector<double> deviations(const Results& results, const FeatureResult& feat
         kNormal * features::median(healthy) * (feature.alarm == analysis::Alarm::high ? 1.0 : -1.0);
     std::vector<double> all;
     for (const double value : feature.values) {
-        all.push_back(scale != 0.0 ? (value - centre) / scale
-                                   : std::numeric_limits<double>::quiet_NaN());
+        all.push_back(scale != 0.0 ? (value - centre) / scale : kNan);
     }
     return all;
 }
@@ -136,9 +136,7 @@ std::optional<OneSensor> learned_sensors(const std::vector<OneSensor>& sensors) 
         }
         auto sums = analysis::learned_sum(sample);
         any = any || sums;
-        set_joint(sums ? *std::move(sums)
-                       : std::vector<double>(sample.half.size(),
-                                             std::numeric_limits<double>::quiet_NaN()),
+        set_joint(sums ? *std::move(sums) : std::vector<double>(sample.half.size(), kNan),
                   all.results.features[f]);
     }
     return any ? std::optional(std::move(all)) : std::nullopt;
@@ -158,8 +156,7 @@ OneSensor all_sensors(const std::vector<OneSensor>& sensors, bool largest) {
             for (std::size_t row = 0; row < own.size(); ++row) {
                 const double n = static_cast<double>(sensors.size());
                 // A missing value stays missing.
-                joint[row] = std::isnan(own[row]) || std::isnan(joint[row])
-                                 ? std::numeric_limits<double>::quiet_NaN()
+                joint[row] = std::isnan(own[row]) || std::isnan(joint[row]) ? kNan
                              : largest ? std::max(joint[row], own[row])
                                        : joint[row] + own[row] / n;
             }

@@ -4,12 +4,12 @@
 // period. NaN for less than three planet turns and for a zero signal.
 #pragma once
 
-#include <limits>
 #include <vector>
 
 #include "features/signals.hpp"
 #include "features/spectral_kurtosis.hpp"
 #include "features/statistics/signal_statistics.hpp"
+#include "machine/no_value.hpp"
 #include "signals/demodulation/demodulation.hpp"
 
 namespace gearpod::features {
@@ -18,14 +18,14 @@ inline double cyclic_coherence(const SensorSamples& sensor, const SensorTurn& av
     constexpr std::size_t kFewestTurns = 3;
     const std::size_t turn = average.turn.size();
     return sensor.samples.size() < kFewestTurns * turn
-               ? std::numeric_limits<double>::quiet_NaN()
+               ? kNan
                : signals::cyclic_coherence(sensor.samples, turn,
                                            turn / static_cast<std::size_t>(average.mesh_order));
 }
 
 // Lines of the planet turn in the squared-envelope spectrum of the sensor samples over the record,
-// in the band of spectral_kurtosis.hpp. Antoni (2007); R. B. Randall and J. Antoni, Mech. Syst. Signal
-// Process. 25 (2011) 485-520.
+// in the band of spectral_kurtosis.hpp. Antoni (2007); R. B. Randall and J. Antoni, Mech. Syst.
+// Signal Process. 25 (2011) 485-520.
 //
 // A faulty planet tooth modulates the vibration once per planet turn. With E the magnitudes of the
 // Fourier transform of the squared envelope, the feature is
@@ -41,15 +41,14 @@ inline double cyclic_coherence(const SensorSamples& sensor, const SensorTurn& av
 inline double envelope_order(const SensorSamples& sensor, const SensorTurn& average) {
     constexpr std::size_t kFewestTurns = 3, kMostHarmonics = 5;
     constexpr double kRounding = 1e-12;
-    constexpr double kNoRatio = std::numeric_limits<double>::quiet_NaN();
     const std::size_t turns = sensor.samples.size() / average.turn.size();
     const auto teeth = static_cast<std::size_t>(average.mesh_order);
     if (turns < kFewestTurns) {
-        return kNoRatio;
+        return kNan;
     }
     const signals::Kurtogram kurtogram = kurtogram_of(sensor, average);
     if (kurtogram.peak() == nullptr) {
-        return kNoRatio;
+        return kNan;
     }
     const std::vector<double> spectrum =
         signals::envelope_spectrum(kurtogram.squared_envelope(*kurtogram.peak()));
@@ -64,7 +63,7 @@ inline double envelope_order(const SensorSamples& sensor, const SensorTurn& aver
         lines += spectrum[line];
         background += median(std::move(near));
     }
-    return background > kRounding * spectrum[0] ? lines / background : kNoRatio;
+    return background > kRounding * spectrum[0] ? lines / background : kNan;
 }
 
 }  // namespace gearpod::features

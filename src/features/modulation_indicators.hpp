@@ -6,10 +6,10 @@
 #include <algorithm>
 #include <cmath>
 #include <complex>
-#include <limits>
 #include <vector>
 
 #include "features/signals.hpp"
+#include "machine/no_value.hpp"
 #include "signals/demodulation/demodulation.hpp"
 
 namespace gearpod::features {
@@ -50,7 +50,7 @@ inline double amplitude_modulation(const SensorTurn& sensor) {
         sum += std::abs(value);
     }
     const double mean = sum / static_cast<double>(modulation.size());
-    double largest = modulation.empty() ? std::numeric_limits<double>::quiet_NaN() : 0.0;
+    double largest = modulation.empty() ? kNan : 0.0;
     for (const auto& value : modulation) {
         largest = std::max(largest, std::abs(std::abs(value) / mean - 1.0));
     }
@@ -61,7 +61,7 @@ inline double phase_modulation(const SensorTurn& sensor) {
     const auto modulation =
         signals::mesh_modulation(sensor.turn, sensor.amplitude, sensor.mesh_order);
     if (modulation.empty()) {
-        return std::numeric_limits<double>::quiet_NaN();
+        return kNan;
     }
     double phase = 0.0, low = 0.0, high = 0.0;
     for (std::size_t i = 1; i < modulation.size(); ++i) {

@@ -2,12 +2,12 @@
 #pragma once
 
 #include <algorithm>
-#include <limits>
 #include <numeric>
 #include <vector>
 
 #include "features/signals.hpp"
 #include "features/statistics/signal_statistics.hpp"
+#include "machine/no_value.hpp"
 #include "signals/prediction/inverse_filters.hpp"
 
 namespace gearpod::features {
@@ -29,14 +29,14 @@ inline std::vector<double> turn_about_mean(const SensorTurn& sensor) {
 //     e_i = x_i - sum over j = 1 to p of a_j x_(i-j),
 //
 // where x is the average without its mean, periodic over the turn. The coefficients minimise the
-// mean of e^2 (Yule-Walker equations of the circular autocorrelation, inverse_filters.hpp). The order p is
-// two mesh periods of samples, at most a quarter of the turn: one mesh period would suffice for all
-// mesh harmonics, two add their sidebands. NaN if x is rounding errors of the turn.
+// mean of e^2 (Yule-Walker equations of the circular autocorrelation, inverse_filters.hpp). The
+// order p is two mesh periods of samples, at most a quarter of the turn: one mesh period would
+// suffice for all mesh harmonics, two add their sidebands. NaN if x is rounding errors of the turn.
 
 inline double ar_residual_kurtosis(const SensorTurn& sensor) {
     const std::vector<double> x = turn_about_mean(sensor);
     if (x.empty()) {
-        return std::numeric_limits<double>::quiet_NaN();
+        return kNan;
     }
     const std::size_t per_mesh = x.size() / static_cast<std::size_t>(sensor.mesh_order);
     const std::size_t order = std::min(2 * per_mesh, x.size() / 4);
@@ -62,7 +62,7 @@ inline double med_kurtosis(const SensorTurn& sensor) {
     constexpr int kIterations = 10;
     const std::vector<double> x = turn_about_mean(sensor);
     if (x.empty()) {
-        return std::numeric_limits<double>::quiet_NaN();
+        return kNan;
     }
     const std::size_t per_mesh = x.size() / static_cast<std::size_t>(sensor.mesh_order);
     const std::size_t length = std::max<std::size_t>(2, std::min(per_mesh, x.size() / 8));

@@ -2,12 +2,12 @@
 #pragma once
 
 #include <cmath>
-#include <limits>
 #include <numeric>
 #include <vector>
 
 #include "features/signals.hpp"
 #include "features/statistics/signal_statistics.hpp"
+#include "machine/no_value.hpp"
 
 namespace gearpod::features {
 
@@ -48,7 +48,7 @@ inline double te_m8a(const TeParts& te) {
 // and if the difference signals are rounding errors.
 
 inline double separated_fm4(const SeparatedPlanets& planets) {
-    double largest = std::numeric_limits<double>::quiet_NaN();
+    double largest = kNan;
     for (std::size_t p = 0; p < planets.turn.size(); ++p) {
         if (!is_rounding(planets.difference[p], planets.turn[p])) {
             largest = std::fmax(largest, standardised_moment(planets.difference[p], 4));
@@ -91,7 +91,7 @@ inline double energy_operator(const SensorTurn& sensor) {
         deviation[i] = energy[i] - sum / static_cast<double>(n);
     }
     return is_rounding(r, sensor.turn) || is_rounding(deviation, square)
-               ? std::numeric_limits<double>::quiet_NaN()
+               ? kNan
                : standardised_moment(energy, 4);
 }
 

@@ -20,6 +20,7 @@
 #include <vector>
 
 #include "features/signals.hpp"
+#include "machine/no_value.hpp"
 #include "signals/demodulation/demodulation.hpp"
 #include "signals/spectra/fourier_transform.hpp"
 
@@ -55,7 +56,7 @@ inline double spectral_kurtosis(const SensorTurn& sensor) {
             largest = std::max(largest, kurtosis);
         }
     }
-    return std::isfinite(largest) ? largest : std::numeric_limits<double>::quiet_NaN();
+    return std::isfinite(largest) ? largest : kNan;
 }
 
 // Largest kurtosis of the complex envelope of the sensor samples over the bands of the kurtogram
@@ -73,8 +74,7 @@ inline signals::Kurtogram kurtogram_of(const SensorSamples& sensor, const Sensor
 
 inline double kurtogram_peak(const SensorSamples& sensor, const SensorTurn& average) {
     const signals::Kurtogram kurtogram = kurtogram_of(sensor, average);
-    return kurtogram.peak() == nullptr ? std::numeric_limits<double>::quiet_NaN()
-                                       : kurtogram.peak()->kurtosis;
+    return kurtogram.peak() == nullptr ? kNan : kurtogram.peak()->kurtosis;
 }
 
 }  // namespace gearpod::features

@@ -7,11 +7,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <vector>
 
 #include "features/signals.hpp"
 #include "features/statistics/signal_statistics.hpp"
+#include "machine/no_value.hpp"
 #include "signals/spectra/order_spectrum.hpp"
 
 namespace gearpod::features {
@@ -39,7 +39,7 @@ inline double te_speed_window_ratio(const TeParts& te) {
     }
     const double largest = *std::ranges::max_element(rms);
     const double middle = median(std::move(rms));
-    return middle > 0.0 ? largest / middle : std::numeric_limits<double>::quiet_NaN();
+    return middle > 0.0 ? largest / middle : kNan;
 }
 
 // Lines of the fault order in the instantaneous angular speed of the encoders, relative to the

@@ -3,10 +3,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numeric>
 
 #include "features/signals.hpp"
+#include "machine/no_value.hpp"
 
 namespace gearpod::features {
 
@@ -45,7 +45,7 @@ inline double te_fm0(const TeTurn& te) {
         harmonics += te.amplitude[order];
     }
     // NaN if the encoder's sampling rate is too low for any mesh harmonic.
-    return harmonics > 0.0 ? (*high - *low) / harmonics : std::numeric_limits<double>::quiet_NaN();
+    return harmonics > 0.0 ? (*high - *low) / harmonics : kNan;
 }
 
 // Frequency centre: sum of f s(f) over sum of s(f), f > 0, in orders of the planet turn: Park et

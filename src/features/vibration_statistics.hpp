@@ -3,11 +3,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numeric>
 
 #include "features/signals.hpp"
 #include "features/statistics/signal_statistics.hpp"
+#include "machine/no_value.hpp"
 
 namespace gearpod::features {
 
@@ -68,8 +68,7 @@ inline double fm0(const SensorTurn& sensor) {
         harmonics += sensor.amplitude[order];
     }
     const double range = *high - *low;
-    return harmonics > kRounding * range ? range / harmonics
-                                         : std::numeric_limits<double>::quiet_NaN();
+    return harmonics > kRounding * range ? range / harmonics : kNan;
 }
 
 }  // namespace gearpod::features

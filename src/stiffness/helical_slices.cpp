@@ -156,8 +156,8 @@ double HelicalSlices::reaches(double gap_m, double closest, double end) const {
 }
 
 void HelicalSlices::add_slice(const std::array<Positions, 2>& engaged, const FaceRange& face) {
-    constexpr double kNone = std::numeric_limits<double>::infinity();
-    Slice slice{engaged, face, kNone, 0, kNone, 0};
+    constexpr double kInfinity = std::numeric_limits<double>::infinity();
+    Slice slice{engaged, face, kInfinity, 0, kInfinity, 0};
     for (const Positions& own : engaged) {
         if (own.length() < kShortestSlice)
             continue;

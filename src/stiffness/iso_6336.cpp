@@ -2,8 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numbers>
+
+#include "machine/no_value.hpp"
 
 namespace gearpod::stiffness {
 
@@ -173,7 +174,7 @@ RootSection root_section(const gears::Gear& gear, const Helix& h) {
 double root_stress(const gears::Gear& gear, const Helix& h, double force_per_width_module_Pa) {
     const RootSection s = root_section(gear, h);
     if (!(s.chord > 0.0 && s.lever > 0.0 && s.fillet_radius > 0.0)) {
-        return std::numeric_limits<double>::quiet_NaN();
+        return kNan;
     }
     const double form =
         6.0 * s.lever * std::cos(s.force_angle) / (s.chord * s.chord * std::cos(h.normal_angle));

@@ -4,13 +4,13 @@
 #include <boost/random/uniform_01.hpp>
 #include <cmath>
 #include <iterator>
-#include <limits>
 #include <memory>
 #include <numbers>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "machine/no_value.hpp"
 #include "machine/team.hpp"
 #include "mc/ensemble/coupling/neighbour_stages.hpp"
 #include "mc/ensemble/gearbox/record_window.hpp"
@@ -82,7 +82,7 @@ void add_coupled_stages(const Scene& scene, const CoupledSpan& span, const LaneS
         const double per_mesh = source.plan->samples_per_mesh();
         std::vector<double> vibration = record.coupled[i];
         if (!std::ranges::all_of(vibration, [](double value) { return std::isfinite(value); })) {
-            std::ranges::fill(samples, std::numeric_limits<double>::quiet_NaN());
+            std::ranges::fill(samples, kNan);
             return;  // a gearbox of the train has failed
         }
         // Both ends lie outside of the record. They fade out, so that the vibration can be
@@ -113,9 +113,8 @@ void add_coupled_fault(const Scene& scene, std::size_t stage,
         all_lane_signals(scene, path, tile, scene.signal_meshes());
     for (std::size_t r = 0; r < samples.size(); ++r) {
         for (std::size_t i = 0; i < samples[r].size(); ++i) {
-            samples[r][i] += tile.status[r] == Status::ok
-                                 ? faulty[r].sensor[i] - records[r].sensor[i]
-                                 : std::numeric_limits<double>::quiet_NaN();
+            samples[r][i] +=
+                tile.status[r] == Status::ok ? faulty[r].sensor[i] - records[r].sensor[i] : kNan;
         }
     }
 }
@@ -148,7 +147,7 @@ void add_stage(const Scene& scene, std::size_t stage, std::span<const StageRecor
                 add_stage_vibration(scene, stage, *part[i].record, part[i].gearbox,
                                     signals[i].sensor, part[i].factor, *part[i].samples);
             } else {
-                std::ranges::fill(*part[i].samples, std::numeric_limits<double>::quiet_NaN());
+                std::ranges::fill(*part[i].samples, kNan);
             }
         }
     }

@@ -4,13 +4,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <mutex>
 #include <nlohmann/json.hpp>
 #include <numbers>
 #include <set>
 #include <utility>
 
+#include "machine/no_value.hpp"
 #include "machine/team.hpp"
 #include "mc/ensemble/gearbox/realization_signals.hpp"
 #include "mc/ensemble/gearbox/record_window.hpp"
@@ -114,7 +114,7 @@ std::vector<double> PythonFeatures::compute(const std::string& work) {
     for (const auto& error : reply.at("errors")) {
         problems_.push_back({error.at(0), error.at(1), error.at(2), error.at(3)});
     }
-    values.resize(used_.size() * request->levels.size(), std::numeric_limits<double>::quiet_NaN());
+    values.resize(used_.size() * request->levels.size(), kNan);
     return values;
 }
 
@@ -312,8 +312,7 @@ void RealizationFeatures::load_change(const LaneSignals& gearbox, const Realizat
 std::vector<double> RealizationFeatures::compute(const LaneSignals& gearbox,
                                                  const Realization& realization,
                                                  std::vector<LevelSignals>* signals) {
-    std::vector<double> values(features_.size() * levels_,
-                               std::numeric_limits<double>::quiet_NaN());
+    std::vector<double> values(features_.size() * levels_, kNan);
     load(gearbox, realization);
     for (std::size_t level = 0; level < levels_; ++level) {
         features::FeatureInput input = at(level), change;
@@ -356,7 +355,7 @@ std::vector<double> RealizationFeatures::compute(const LaneSignals& gearbox,
         add_python_values(realization, values);
     }
     for (double& value : values) {
-        value = std::isfinite(value) ? value : std::numeric_limits<double>::quiet_NaN();
+        value = std::isfinite(value) ? value : kNan;
     }
     return values;
 }

@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <array>
 #include <charconv>
-#include <limits>
 
+#include "machine/no_value.hpp"
 #include "mc/files/signal_file.hpp"
 #include "mc/files/text/text_dialect.hpp"
 #include "mc/files/text/text_fields.hpp"
@@ -161,7 +161,7 @@ class SignalCsv : public SignalFile {
             column.values.push_back(*value);
             column.commas.add(text);
         } else if (is_missing(text)) {
-            column.values.push_back(std::numeric_limits<double>::quiet_NaN());
+            column.values.push_back(kNan);
             if (column.missing++ == 0) {
                 column.first_missing =
                     fmt::format("{}:{}: column {}: {}", path_, number, dialect_.columns[c].name,

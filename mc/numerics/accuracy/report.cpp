@@ -7,12 +7,12 @@
 #include <cmath>
 #include <fstream>
 #include <iterator>
-#include <limits>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 
 #include "analysis/report/json_values.hpp"
 #include "lockstep/steps/stability.hpp"
+#include "machine/no_value.hpp"
 #include "mc/files/input/input_file.hpp"
 #include "mc/files/input/number_text.hpp"
 #include "mc/files/input/terminal_text.hpp"
@@ -23,8 +23,6 @@ namespace gearpod::mc {
 namespace {
 
 using Text = std::back_insert_iterator<std::string>;
-
-constexpr double kNoShare = std::numeric_limits<double>::quiet_NaN();
 
 std::string short_number(double value) {
     return std::isfinite(value) ? fmt::format("{:.1e}", value) : "-";
@@ -290,7 +288,7 @@ void add_peers(const AccuracyReport& report, Text out) {
 }  // namespace
 
 double AccuracyReport::share_of_scatter(const PilotError& error, int f) const {
-    double largest = kNoShare;
+    double largest = kNan;
     for (int level = 0; level < levels(); ++level) {
         const auto at = static_cast<std::size_t>(f * levels() + level);
         if (at < scatter.size() && at < error.rms.size() && scatter[at] > 0.0) {
@@ -301,7 +299,7 @@ double AccuracyReport::share_of_scatter(const PilotError& error, int f) const {
 }
 
 double AccuracyReport::largest_share_of_scatter(const PilotError& error) const {
-    double largest = kNoShare;
+    double largest = kNan;
     for (int f = 0; f < static_cast<int>(features.size()); ++f) {
         largest = std::fmax(largest, share_of_scatter(error, f));
     }

@@ -4,10 +4,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <map>
 #include <utility>
 
+#include "machine/no_value.hpp"
 #include "mc/files/input/find_in.hpp"
 #include "mc/files/input/spelling.hpp"
 #include "mc/files/signal_units.hpp"
@@ -173,7 +173,7 @@ class TableReading {
         std::vector<double> all;
         for (const Feature& feature : features::record_features()) {
             const std::string name(feature.name), field = text(name);
-            all.push_back(std::numeric_limits<double>::quiet_NaN());
+            all.push_back(kNan);
             if (is_missing(field) || !is_plain_sensor_feature(feature)) {
                 continue;
             }

@@ -11,6 +11,7 @@
 
 #include "analysis/report/false_alarm_text.hpp"
 #include "analysis/report/wording.hpp"
+#include "machine/no_value.hpp"
 #include "mc/ensemble/results_check.hpp"
 #include "mc/files/input/find_in.hpp"
 #include "mc/report/numerical_quality.hpp"
@@ -114,8 +115,7 @@ SweepDifferences find_differences(const RunSweep& sweep) {
         return all;
     }
     all.feature = sweep.order.front();
-    all.a90.resize(sweep.points.size(),
-                   {analysis::kNan, analysis::kNan, {}, analysis::kNan, "none"});
+    all.a90.resize(sweep.points.size(), {kNan, kNan, {}, kNan, "none"});
     std::vector<std::pair<double, std::size_t>> known;
     for (std::size_t p = 0; p < sweep.points.size(); ++p) {
         if (const double a90 = shown_a90(sweep.points[p], all.feature); std::isfinite(a90)) {

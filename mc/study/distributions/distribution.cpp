@@ -4,11 +4,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <tuple>
 #include <utility>
 #include <variant>
 
+#include "machine/no_value.hpp"
 #include "mc/files/input/document.hpp"
 #include "mc/files/input/spelling.hpp"
 #include "mc/study/distributions/continuous_distributions.hpp"
@@ -96,7 +96,7 @@ class FieldReader {
                               : false;
     }
 
-    static void make_bad(double& target) { target = std::numeric_limits<double>::quiet_NaN(); }
+    static void make_bad(double& target) { target = kNan; }
     template <class Type>
     static void make_bad(Type&) {}
 

@@ -2,14 +2,15 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numeric>
+
+#include "machine/no_value.hpp"
 
 namespace gearpod::features {
 
 double median(std::vector<double> values) {
     if (values.empty()) {
-        return std::numeric_limits<double>::quiet_NaN();
+        return kNan;
     }
     const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
     std::nth_element(values.begin(), middle, values.end());

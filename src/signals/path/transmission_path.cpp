@@ -4,11 +4,12 @@
 
 #include <array>
 #include <cmath>
-#include <limits>
 #include <numbers>
 #include <stdexcept>
 #include <string>
 #include <utility>
+
+#include "machine/no_value.hpp"
 
 namespace gearpod::signals {
 namespace {
@@ -43,8 +44,6 @@ const PathWindow& path_window(std::string_view name) {
 
 namespace {
 
-constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
-
 // Angles of a sensor per turn.
 constexpr long kSensorAngles = 36'000;
 
@@ -76,7 +75,7 @@ PathGrid::PathGrid(const PathWindow& window, const gears::PlanetPlaces& planets,
     : PathGrid(planets, phases, layout) {
     const Turn turn = turn_of(planets, sense, sensor);
     // Planets a whole number of samples apart share their angles and window values.
-    std::vector<double> known(static_cast<std::size_t>(turn.steps / turn.places), kUnknown);
+    std::vector<double> known(static_cast<std::size_t>(turn.steps / turn.places), kNan);
     const auto weight = [&](int, long planet) {
         const double angle = turn.step_rad * static_cast<double>(planet);
         if (planet % turn.places != 0) {
