@@ -274,7 +274,7 @@ InstanceInputs nominal_inputs(const Study& study) {
     return instance_inputs(recipe, recipe.nominal);
 }
 
-PlanetScatter::PlanetScatter(const Gearbox& gearbox, DrawnPer pins) : pins(pins) {
+PlanetScatter::PlanetScatter(const Gearbox& gearbox, DrawnPer pin_owner) : pins(pin_owner) {
     for (std::size_t n = 0; n < static_cast<std::size_t>(gearbox.planets); ++n) {
         angles_rad.push_back(angle_of(gearbox, n));
     }

@@ -154,7 +154,7 @@ InstanceInputs nominal_inputs(const Study& study);
 
 // Random differences between planets.
 struct PlanetScatter {
-    PlanetScatter(const Gearbox& gearbox, DrawnPer pins);
+    PlanetScatter(const Gearbox& gearbox, DrawnPer pin_owner);
 
     std::vector<double> angles_rad;  // of the planets on the carrier
     DrawnPer pins;                   // position errors of the pins
