@@ -154,16 +154,17 @@ void print_cost(const Scene& scene, const std::optional<NumericsChoice>& choice)
         print_entry(
             "convergence",
             fmt::format("to the periodic orbit within {:g} (requested: {:g})",
-                        convergence_tolerance(study), study.numerics.convergence_tolerance));
+                        scene.solve().convergence.tolerance, study.numerics.convergence_tolerance));
     }
     print_entry("record", record_length_text(scene.record()));
-    print_entry("mesh periods integrated",
-                fmt::format("about {:.0f}; the signals span {}{}{}", integrated_meshes(scene),
-                            scene.span_meshes(),
-                            superposition(scene).healthy
-                                ? fmt::format("; {:.0f} without the fault", healthy_meshes(scene))
-                                : "",
-                            compares_records(study) ? "; more for the baseline record" : ""));
+    print_entry(
+        "mesh periods integrated",
+        fmt::format("about {:.0f}; the signals span {}{}{}", scene.solve().integrated_meshes,
+                    scene.span_meshes(),
+                    std::holds_alternative<Superposed>(scene.solve().strategy)
+                        ? fmt::format("; {:.0f} without the fault", scene.solve().healthy_meshes)
+                        : "",
+                    compares_records(study) ? "; more for the baseline record" : ""));
     print_entry(
         "gearboxes",
         fmt::format(
@@ -175,7 +176,7 @@ void print_cost(const Scene& scene, const std::optional<NumericsChoice>& choice)
                       study.ensemble.uses_importance_sampling() ? "exponentially tilted " : "")
                 : "",
             study.sensor.noise_levels.size(), study.sensor.noise_levels.size() == 1 ? "" : "s"));
-    const std::optional<std::size_t> distinct = distinct_integrations(scene);
+    const std::optional<std::size_t> distinct = scene.solve().settings.distinct_integrations;
     print_entry("distinct solutions",
                 distinct ? fmt::format("{}; gearboxes that differ only in path exponent and noise "
                                        "share one time integration",

@@ -40,7 +40,7 @@ struct BatchTask {
     explicit BatchTask(const Scene& shared_scene)
         : scene(shared_scene),
           path(sensor_paths(scene)),
-          cache(scene),
+          cache(scene.solve()),
           healthy(healthy_reference(scene, path)) {
         for (std::size_t s = 1; s < path.size(); ++s) {
             additional.push_back(healthy_reference(scene, path, s));

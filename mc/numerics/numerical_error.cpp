@@ -350,7 +350,7 @@ std::optional<StepError> find_step_error(const Scene& plan, double most_meshes) 
     const std::size_t steps = coarse.plan().grid.steps.size(),
                       finer_steps = fine.plan().grid.steps.size();
     const double ratio = static_cast<double>(finer_steps) / static_cast<double>(steps);
-    if (integrated_meshes(coarse) * (1.0 + ratio) > most_meshes) {
+    if (coarse.solve().integrated_meshes * (1.0 + ratio) > most_meshes) {
         return std::nullopt;
     }
     const GearboxTile tile = pilot_tile(coarse), reference = pilot_tile(fine);
@@ -382,7 +382,7 @@ std::optional<StepError> find_step_error(const Scene& plan, double most_meshes) 
 std::optional<StepError> find_step_error_of_run(const Scene& plan, std::size_t gearboxes) {
     constexpr double kShare = 0.02;
     const double tiles = static_cast<double>(gearboxes) / plan.ensemble().lanes;
-    return find_step_error(plan, kShare * tiles * integrated_meshes(plan));
+    return find_step_error(plan, kShare * tiles * plan.solve().integrated_meshes);
 }
 
 std::string step_error_text(const StepError& error) {

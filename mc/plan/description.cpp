@@ -355,10 +355,10 @@ class Describer {
     void add_stage(std::size_t number) {
         const NeighbourStage& stage = study_.sensor.stages[number];
         const StagePlan& planned = gearbox_.stages[number];
-        const GearboxPlan& gearbox = planned.plan->gearbox();
+        const GearboxPlan& gearbox = *planned.gearbox;
         add("neighbouring stage",
             "\"{}\": {}; its {} on the {}{}{}; meshes at {:.4g} Hz; gain x {:g}; {}{}", stage.name,
-            planned.plan->study().title, member_name(*stage.stage_shaft), member_name(*stage.shaft),
+            stage.study->title, member_name(*stage.stage_shaft), member_name(*stage.shaft),
             stage.of.empty() ? "" : fmt::format(" of \"{}\"", stage.of),
             other_speed_text(stage, gearbox), std::abs(gearbox.mesh_frequency_Hz), stage.gain,
             shaft_text(planned.shaft),

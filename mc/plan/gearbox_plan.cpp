@@ -6,7 +6,6 @@
 #include <utility>
 #include <variant>
 
-#include "mc/plan/scene.hpp"
 #include "mc/study/fluctuations.hpp"
 #include "mc/study/gears.hpp"
 #include "mc/study/housing.hpp"
@@ -227,7 +226,7 @@ GearboxPlan::GearboxPlan(const Study& study)
       stiffness(std::make_shared<const SceneStiffness>(study, *drivetrain)),
       excitation(excitation_model(study)) {
     for (const Member member : kAllMembers) {
-        teeth[member] = teeth_of(study, member).value_or(0);
+        teeth[member] = has_toothed_member(kind, member) ? teeth_of(study, member).value() : 0;
     }
     if (has_tooth_errors(study)) {
         tooth_errors = ToothErrorBuilder(study, *this).make();

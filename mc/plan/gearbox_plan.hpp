@@ -18,7 +18,8 @@
 
 namespace gearpod::mc {
 
-class Scene;
+class Sampler;
+struct GearboxPlan;
 
 // Dynamic model of a gearbox at rest: degrees of freedom, masses, springs and dampers. Also defined
 // for planetary gearboxes without teeth, which have vibration modes only.
@@ -96,7 +97,8 @@ struct StagePlan {
     Member member[2];
     std::optional<std::size_t> other;  // earlier stage at the other end; empty: the study's gearbox
     std::optional<StageShaft> shaft;   // if it twists; empty: both gearboxes turn steadily
-    std::shared_ptr<const Scene> plan;  // of its gearboxes
+    std::shared_ptr<const GearboxPlan> gearbox;  // of the stage
+    std::shared_ptr<const Sampler> sampler;      // draws its gearboxes
 };
 
 struct GearboxPlan {

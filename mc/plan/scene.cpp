@@ -30,19 +30,16 @@ Scene::Scene(const Study& study)
       ensemble_(std::make_shared<const EnsemblePlan>(study)),
       sampler_(std::make_shared<const Sampler>(DrawPlan(study))) {
     auto gearbox = std::make_shared<GearboxPlan>(study);
-    plan_ = std::make_shared<const ScenePlan>(make_plan(study, *sampler_, *gearbox));
-    gearbox->stages = make_stages(study, *gearbox);
+    auto steps = std::make_shared<const ScenePlan>(make_plan(study, *sampler_, *gearbox));
+    stages_ = std::make_shared<const std::vector<Scene>>(stage_scenes(study));
+    gearbox->stages = make_stages(study, *gearbox, stages_);
     gearbox_ = std::move(gearbox);
     features_ = make_feature_plan(study, drivetrain().span());
-    record_ = make_record_plan(study, *gearbox_, features_, plan_->integration.grid.samples,
-                               plan_->te_samples);
-    set_max_meshes();
+    record_ = make_record_plan(study, *gearbox_, features_, steps->integration.grid.samples,
+                               steps->te_samples);
+    solve_ = std::make_shared<const SolvePlan>(SolveSettings(study), *gearbox_, record_,
+                                               std::move(steps));
     plan_life();
-}
-
-void Scene::set_max_meshes() {
-    max_meshes_ =
-        study_.effects.quasi_static() ? 1 : choose_max_meshes(study_, plan_->stepping.decay_meshes);
 }
 
 void Scene::plan_life() {
@@ -73,17 +70,20 @@ Scene Scene::with(const Numerics& numerics) const {
         gearbox->stages = gearbox_->stages;
         scene.gearbox_ = std::move(gearbox);
     }
-    if (!share_steps(given, numerics)) {
-        scene.plan_ = std::make_shared<const ScenePlan>(
-            make_plan(scene.study_, *scene.sampler_, *scene.gearbox_));
-    }
-    scene.set_max_meshes();
+    const auto steps = share_steps(given, numerics)
+                           ? solve_->steps
+                           : std::make_shared<const ScenePlan>(
+                                 make_plan(scene.study_, *sampler_, *scene.gearbox_));
+    scene.solve_ = std::make_shared<const SolvePlan>(SolveSettings(scene.study_), *scene.gearbox_,
+                                                     record_, steps);
     return scene;
 }
 
 Scene Scene::recording_at_most(int meshes) const {
     Scene scene = *this;
     scene.record_.recorded_meshes = std::min(record_.signal_meshes, meshes);
+    scene.solve_ = std::make_shared<const SolvePlan>(solve_->settings, *gearbox_, scene.record_,
+                                                     solve_->steps);
     return scene;
 }
 

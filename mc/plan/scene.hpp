@@ -14,6 +14,7 @@
 #include "mc/plan/sampling.hpp"
 #include "mc/plan/scene_error.hpp"
 #include "mc/plan/scene_plan.hpp"
+#include "mc/plan/solve_plan.hpp"
 #include "mc/study/study.hpp"
 
 namespace gearpod::mc {
@@ -48,11 +49,14 @@ class Scene {
     const DrawPlan& draw() const { return sampler_->plan(); }
     const EnsemblePlan& ensemble() const { return *ensemble_; }
     const GearboxPlan& gearbox() const { return *gearbox_; }
+    // Plans of the neighbouring stages, in the order of the study.
+    const std::vector<Scene>& stages() const { return *stages_; }
+    const SolvePlan& solve() const { return *solve_; }
     const Drivetrain& drivetrain() const { return *gearbox_->drivetrain; }
     const std::vector<SceneMesh>& meshes() const { return gearbox_->stiffness->meshes(); }
     const lockstep::PairSet& pairs() const { return gearbox_->pairs(); }
     const SceneFault& fault() const { return gearbox_->fault(); }
-    const lockstep::IntegrationPlan& plan() const { return plan_->integration; }
+    const lockstep::IntegrationPlan& plan() const { return solve_->integration(); }
     const lockstep::FaultPattern& pattern() const { return fault().pattern(); }
     // Gear pair that the first passage of the faulty tooth weakens, or -1.
     int faulty_pair() const { return gearbox_->faulty_pair(); }
@@ -77,17 +81,14 @@ class Scene {
     int te_samples_per_mesh() const { return record_.te_samples; }
     double nominal_mesh_frequency_Hz() const { return gearbox_->mesh_frequency_Hz; }
     // See Stepping.
-    int least_steps() const { return plan_->stepping.least; }
-    double explicit_steps() const { return plan_->stepping.explicit_steps; }
-    double longest_step() const { return plan_->stepping.longest_step; }
+    int least_steps() const { return solve_->stepping().least; }
+    double explicit_steps() const { return solve_->stepping().explicit_steps; }
+    double longest_step() const { return solve_->stepping().longest_step; }
     // Calibration of the steps on a pilot sample; empty if there was none.
-    const std::optional<Calibration>& calibration() const { return plan_->calibration; }
-    double decay_meshes() const { return plan_->stepping.decay_meshes; }
+    const std::optional<Calibration>& calibration() const { return solve_->steps->calibration; }
+    double decay_meshes() const { return solve_->stepping().decay_meshes; }
     // Largest number of mesh periods within which a gearbox must converge.
-    int max_meshes() const { return max_meshes_; }
-    // Upper limit of the run-in, in mesh periods. Fluctuations always begin this long before the
-    // first recorded mesh period, so that they do not depend on the actual run-in.
-    int longest_run_in() const { return max_meshes_ / 2; }
+    int max_meshes() const { return solve_->convergence.max_meshes; }
     // See SceneStiffness.
     std::vector<double> transitions() const { return gearbox_->stiffness->transitions(); }
     std::vector<double> stiffest_pairs() const { return gearbox_->stiffness->stiffest_pairs(); }
@@ -98,17 +99,16 @@ class Scene {
     }
 
   private:
-    void set_max_meshes();
     void plan_life();
 
     Study study_;
     std::shared_ptr<const EnsemblePlan> ensemble_;
     std::shared_ptr<const Sampler> sampler_;
     std::shared_ptr<const GearboxPlan> gearbox_;
-    std::shared_ptr<const ScenePlan> plan_;
+    std::shared_ptr<const std::vector<Scene>> stages_;
+    std::shared_ptr<const SolvePlan> solve_;
     FeaturePlan features_;
     RecordPlan record_;
-    int max_meshes_ = 0;
     std::vector<SceneError> life_problems_;
     std::shared_ptr<const LifePlan> life_;  // null if there are problems
 };

@@ -298,8 +298,8 @@ class PlanBuilder {
         return {study_.errors.ring_planet_m, study_.errors.ring_planet_phase_rad};
     }
 
-    // Pilot sample: the nominal gearbox and the first test gearboxes. All have the largest fault, or
-    // every second one if it is wear. The same for every run of the study.
+    // Pilot sample: the nominal gearbox and the first test gearboxes. All have the largest fault,
+    // or every second one if it is wear. The same for every run of the study.
     lockstep::Pilot pilot() const {
         const SceneFault& fault = stiffness_.fault();
         const std::vector<double> sizes = fault_sizes(study_);

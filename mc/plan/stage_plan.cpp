@@ -159,39 +159,50 @@ void check_other_fault(const NeighbourStage& stage, const Study& study) {
 
 }  // namespace
 
-std::vector<StagePlan> make_stages(const Study& study, const GearboxPlan& gearbox) {
-    const std::vector<NeighbourStage>& given = study.sensor.stages;
+std::vector<Scene> stage_scenes(const Study& study) {
+    std::vector<Scene> scenes;
     const std::vector<Study> studies = stage_studies(study);
-    std::vector<StagePlan> stages;
     for (std::size_t i = 0; i < studies.size(); ++i) {
+        const NeighbourStage& stage = study.sensor.stages[i];
+        try {
+            scenes.emplace_back(studies[i]);
+        } catch (const SceneError& error) {
+            throw SceneError(kStagesKey, named(stage, error.key() + ": " + error.what()),
+                             error.remedy(), error.kind());
+        }
+        check_other_fault(stage, studies[i]);
+    }
+    return scenes;
+}
+
+std::vector<StagePlan> make_stages(const Study& study, const GearboxPlan& gearbox,
+                                   const std::shared_ptr<const std::vector<Scene>>& scenes) {
+    const std::vector<NeighbourStage>& given = study.sensor.stages;
+    std::vector<StagePlan> stages;
+    for (std::size_t i = 0; i < given.size(); ++i) {
         const NeighbourStage& stage = given[i];
+        const Scene& scene = (*scenes)[i];
         StagePlan& made = stages.emplace_back();
         made.name = stage.name;
         made.gain = stage.gain;
         made.role = stage.role;
         made.member[0] = *stage.shaft;
         made.member[1] = *stage.stage_shaft;
+        made.gearbox = {scenes, &scene.gearbox()};
+        made.sampler = {scenes, &scene.sampler()};
         if (!stage.of.empty()) {
             made.other = std::ranges::find(given, stage.of, &NeighbourStage::name) - given.begin();
         }
-        try {
-            made.plan = std::make_shared<const Scene>(studies[i]);
-        } catch (const SceneError& error) {
-            throw SceneError(kStagesKey, named(stage, error.key() + ": " + error.what()),
-                             error.remedy(), error.kind());
-        }
-        check_other_fault(stage, studies[i]);
         if (stage.coupled()) {
-            made.shaft =
-                make_shaft(stage, made.other ? stages[*made.other].plan->gearbox() : gearbox,
-                           made.plan->gearbox());
+            made.shaft = make_shaft(stage, made.other ? *stages[*made.other].gearbox : gearbox,
+                                    *made.gearbox);
         }
     }
     return stages;
 }
 
 const GearboxPlan& other_end(const GearboxPlan& gearbox, const StagePlan& stage) {
-    return stage.other ? gearbox.stages[*stage.other].plan->gearbox() : gearbox;
+    return stage.other ? *gearbox.stages[*stage.other].gearbox : gearbox;
 }
 
 double shaft_torque_N_m(const GearboxPlan& gearbox, Member shaft, const InstanceInputs& inputs) {
@@ -210,10 +221,10 @@ std::vector<double> train_frequencies_Hz(const GearboxPlan& gearbox) {
     for (std::size_t i = 0; i < gearbox.stages.size(); ++i) {
         const StagePlan& stage = gearbox.stages[i];
         if (stage.shaft) {
-            gearboxes.push_back(&stage.plan->gearbox());
+            gearboxes.push_back(stage.gearbox.get());
             first.push_back(size);
             first_of_stage[i] = size;
-            size += degrees(stage.plan->gearbox());
+            size += degrees(*stage.gearbox);
         }
     }
     dynamics::GearboxMatrices train = dynamics::zero_matrices(static_cast<int>(size));
@@ -251,9 +262,8 @@ double coupled_run_in(const GearboxPlan& gearbox, double tolerance, int run_in_m
             const double rate_1_s =
                 2.0 * std::numbers::pi * stage.shaft->frequency_Hz * stage.shaft->damping_ratio;
             const double decay_s = -std::log(tolerance) / rate_1_s;
-            run_in =
-                std::max({run_in, decay_s / period(gearbox),
-                          (kMarginMeshes + 1) * period(stage.plan->gearbox()) / period(gearbox)});
+            run_in = std::max({run_in, decay_s / period(gearbox),
+                               (kMarginMeshes + 1) * period(*stage.gearbox) / period(gearbox)});
         }
     }
     return std::ceil(run_in);
@@ -295,8 +305,8 @@ class TrainGearbox {
         : train_(scene.gearbox()),
           stage_(stage ? &train_.stages[*stage] : nullptr),
           study_(stage ? *study.sensor.stages[*stage].study : study),
-          integration_(stage_ ? stage_->plan->plan() : scene.plan()),
-          gearbox_(stage_ ? stage_->plan->gearbox() : train_),
+          integration_((stage ? scene.stages()[*stage] : scene).solve().integration()),
+          gearbox_(stage_ ? *stage_->gearbox : train_),
           name_(stage_ ? fmt::format("stage \"{}\": ", stage_->name) : "") {
         for (const StagePlan& other : train_.stages) {
             if (!other.shaft) {
@@ -428,7 +438,7 @@ class TrainGearbox {
             shaft.damping = stage.shaft->damping_N_m_s_rad;
             dynamics::add(matrices, shaft);
             const double inverse = inverse_inertia(other_end(train_, stage), ends[0]) +
-                                   inverse_inertia(stage.plan->gearbox(), ends[1]);
+                                   inverse_inertia(*stage.gearbox, ends[1]);
             fastest_1_s = std::max(
                 {fastest_1_s, std::sqrt(shaft.stiffness * inverse), shaft.damping * inverse});
         }
@@ -464,7 +474,8 @@ void check_train(const Study& study, const Scene& scene) {
                          "with an elastic shaft to another stage no mesh period repeats another",
                          "use \"full\"");
     }
-    if (const double run_in = coupled_run_in(scene.gearbox(), convergence_tolerance(study), 0);
+    if (const double run_in =
+            coupled_run_in(scene.gearbox(), scene.solve().convergence.tolerance, 0);
         run_in > kLongestRunIn * scene.signal_meshes()) {
         throw SceneError(kStagesKey,
                          fmt::format("the motion of the gearboxes against each other takes {:.3g} "

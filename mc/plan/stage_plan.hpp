@@ -2,6 +2,7 @@
 // and the conditions under which they can be computed.
 #pragma once
 
+#include <memory>
 #include <vector>
 
 #include "mc/plan/gearbox_plan.hpp"
@@ -12,8 +13,11 @@ namespace gearpod::mc {
 // Studies of the neighbouring stages, with the speed of their common shafts and the sensor of the
 // study. Only their vibration is used: they have no records and one feature. Throws SceneError.
 std::vector<Study> stage_studies(const Study& study);
-// Plans of the stages next to that gearbox of the study. Throws SceneError.
-std::vector<StagePlan> make_stages(const Study& study, const GearboxPlan& gearbox);
+// Whole plans of the stages of a study, in its order, and the stages next to that gearbox of the
+// study. Throw SceneError.
+std::vector<Scene> stage_scenes(const Study& study);
+std::vector<StagePlan> make_stages(const Study& study, const GearboxPlan& gearbox,
+                                   const std::shared_ptr<const std::vector<Scene>>& scenes);
 
 // Gearbox at the other end of a stage's shaft: an earlier stage, or the study's.
 const GearboxPlan& other_end(const GearboxPlan& gearbox, const StagePlan& stage);

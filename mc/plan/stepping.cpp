@@ -284,23 +284,4 @@ Stepping choose_stepping(const Study& study, const Sampler& sampler, const Gearb
     return stepping;
 }
 
-double convergence_tolerance(const Study& study) {
-    constexpr double kFinestInSingle = 1e-5;
-    const double requested = study.numerics.convergence_tolerance;
-    return study.numerics.precision == Precision::single_precision
-               ? std::max(requested, kFinestInSingle)
-               : requested;
-}
-
-// Twice the number of mesh periods in which the nominal gearbox's slowest mode decays to the
-// tolerance, within bounds.
-int choose_max_meshes(const Study& study, double decay_meshes) {
-    constexpr double kFewest = 200.0, kMost = 1e6;
-    const double decay = -2.0 * decay_meshes * std::log(convergence_tolerance(study));
-    const int given = study.numerics.max_meshes;
-    return given > 0 ? given
-                     : static_cast<int>(std::isfinite(decay) ? std::clamp(decay, kFewest, kMost)
-                                                             : kFewest);
-}
-
 }  // namespace gearpod::mc

@@ -38,11 +38,4 @@ struct Stepping {
 Stepping choose_stepping(const Study& study, const Sampler& sampler, const GearboxPlan& gearbox,
                          const lockstep::ModeInertia& mode_inertia);
 
-// Relative change at which an orbit counts as converged: the study's value, or the smallest that
-// its precision can resolve.
-double convergence_tolerance(const Study& study);
-
-// Largest number of mesh periods within which a gearbox must converge.
-int choose_max_meshes(const Study& study, double decay_meshes);
-
 }  // namespace gearpod::mc

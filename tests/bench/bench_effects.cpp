@@ -73,7 +73,7 @@ class Tile {
         }
         excitation_ =
             mc::draw_excitation(scene_->gearbox(), scene_->draw().seed,
-                                {scene_->longest_run_in(), scene_->signal_meshes()}, gearboxes);
+                                {scene_->solve().longest_run_in(), scene_->record().signal_meshes}, gearboxes);
         if (excitation_) {
             mesh_integrator_ =
                 lockstep::make_excited_integrator<kLanes>(scene_->plan(), *excitation_, inputs_);

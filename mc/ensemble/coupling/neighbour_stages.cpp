@@ -26,34 +26,33 @@ GearboxId id_in_stage(const GearboxId& id) {
 
 }  // namespace
 
-CoupledSpan coupled_span(const Scene& scene, int run_in_meshes, const GearboxId& id) {
-    const GearboxPlan& gearbox = scene.gearbox();
+CoupledSpan coupled_span(const DrawPlan& draw, const GearboxPlan& gearbox, const RecordPlan& record,
+                         const CoupledStages& coupled, const GearboxId& id) {
     CoupledSpan span;
-    span.run_in = static_cast<int>(
-        coupled_run_in(gearbox, convergence_tolerance(scene.study()), run_in_meshes));
+    span.run_in = coupled.run_in_meshes;
     GearboxId shared = id;
-    shared.index -= id.index % scene.record().same_positions;
+    shared.index -= id.index % record.same_positions;
     shared.exchanged = {};
     for (std::size_t i = 0; i < gearbox.stages.size(); ++i) {
-        if (!gearbox.stages[i].shaft) {
+        const StagePlan& neighbour = gearbox.stages[i];
+        if (!neighbour.shaft) {
             continue;
         }
-        const Scene& plan = *gearbox.stages[i].plan;
-        Philox engine =
-            record_stream(scene.draw().seed, shared,
-                          with_suffix(StreamPurpose::stage_start, gearbox.stages[i].name));
+        Philox engine = record_stream(draw.seed, shared,
+                                      with_suffix(StreamPurpose::stage_start, neighbour.name));
         StageSpan& stage = span.stages.emplace_back();
         stage.stage = i;
-        stage.period = mesh_period_of(plan.gearbox()) / mesh_period_of(gearbox);
+        stage.period = mesh_period_of(*neighbour.gearbox) / mesh_period_of(gearbox);
         stage.lead = boost::random::uniform_01<double>()(engine);
         // The path repeats with the carrier.
-        const int turns = std::max(1, plan.span_meshes() / plan.path_meshes());
-        stage.first_mesh =
-            plan.path_meshes() * boost::random::uniform_int_distribution<int>(0, turns - 1)(engine);
+        const signals::SpanLayout layout = neighbour.gearbox->drivetrain->span();
+        const int turns = std::max(1, layout.meshes() / layout.carrier_meshes);
+        stage.first_mesh = layout.carrier_meshes *
+                           boost::random::uniform_int_distribution<int>(0, turns - 1)(engine);
         stage.run_in = static_cast<int>(span.run_in / stage.period) - kMarginMeshes;
         stage.start = (stage.run_in - stage.lead) * stage.period - span.run_in;
         stage.meshes = static_cast<int>(
-            std::ceil((scene.signal_meshes() - stage.start) / stage.period) + kMarginMeshes);
+            std::ceil((record.signal_meshes - stage.start) / stage.period) + kMarginMeshes);
     }
     return span;
 }
@@ -80,8 +79,8 @@ std::vector<lockstep::CouplingShaft> coupling_shafts(const GearboxPlan& gearbox,
 
 Realization stage_gearbox(const GearboxPlan& gearbox, const StagePlan& stage,
                           const Realization& record, bool faulty) {
-    const GearboxPlan& there = stage.plan->gearbox();
-    Realization next = stage.plan->sampler().draw(id_in_stage(record.id));
+    const GearboxPlan& there = *stage.gearbox;
+    Realization next = stage.sampler->draw(id_in_stage(record.id));
     const InstanceInputs& nominal = gearbox.nominal;
     double torque = nominal.torque_N_m != 0.0 ? record.inputs.torque_N_m / nominal.torque_N_m : 1.0;
     if (stage.shaft) {

@@ -6,7 +6,8 @@
 #include <vector>
 
 #include "lockstep/strategies/coupled_stages.hpp"
-#include "mc/plan/scene.hpp"
+#include "mc/plan/sampling.hpp"
+#include "mc/plan/solve_plan.hpp"
 
 namespace gearpod::mc {
 
@@ -25,9 +26,11 @@ struct CoupledSpan {
     int run_in = 0;
     std::vector<StageSpan> stages;
 };
-// Every record has stages at random positions of their teeth and of their carriers. Lanes of a tile
-// share them: eight gearboxes with consecutive numbers have the same position in the same record.
-CoupledSpan coupled_span(const Scene& scene, int run_in_meshes, const GearboxId& id);
+// Every record has stages at random positions of
+// their teeth and of their carriers. Lanes of a tile share them: eight gearboxes with consecutive
+// numbers have the same position in the same record.
+CoupledSpan coupled_span(const DrawPlan& draw, const GearboxPlan& gearbox, const RecordPlan& record,
+                         const CoupledStages& coupled, const GearboxId& id);
 
 // Shafts in a tile of that many lanes; stage i + 1 of the integration is number i of
 // CoupledSpan::stages.

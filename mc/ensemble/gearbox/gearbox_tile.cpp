@@ -27,16 +27,18 @@
 namespace gearpod::mc {
 namespace {
 
-lockstep::FaultCurves fault_curves(const Scene& scene, std::span<const Realization> realizations) {
-    lockstep::FaultCurves faults{&scene.pairs(), scene.pattern(), {}};
-    faults.curve.resize(static_cast<std::size_t>(scene.fault().curves()));
-    for (int c = 0; c < scene.fault().curves(); ++c) {
+lockstep::FaultCurves fault_curves(const SceneStiffness& stiffness,
+                                   std::span<const Realization> realizations) {
+    const SceneFault& fault = stiffness.fault();
+    lockstep::FaultCurves faults{&stiffness.pairs(), fault.pattern(), {}};
+    faults.curve.resize(static_cast<std::size_t>(fault.curves()));
+    for (int c = 0; c < fault.curves(); ++c) {
         for (const Realization& realization : realizations) {
             faults.curve[static_cast<std::size_t>(c)].push_back(
-                scene.fault().mesh(c, realization.inputs.fault_size));
+                fault.mesh(c, realization.inputs.fault_size));
         }
     }
-    if (!scene.fault().worn_pairs().empty()) {
+    if (!fault.worn_pairs().empty()) {
         for (const Realization& realization : realizations) {
             faults.wear.push_back(realization.inputs.fault_size);
         }
@@ -51,23 +53,23 @@ struct SolutionInputs {
     lockstep::FaultCurves faults;
     TileLoads loads;
 
-    SolutionInputs(const Scene& scene, std::vector<Realization> lanes)
+    SolutionInputs(const DrawPlan& draw, const GearboxPlan& gearbox, std::vector<Realization> lanes)
         : realizations(std::move(lanes)),
-          faults(fault_curves(scene, realizations)),
-          loads{scene.gearbox().tooth_errors
-                    ? std::optional(draw_tooth_errors(*scene.gearbox().tooth_errors, scene.draw(),
-                                                      realizations))
+          faults(fault_curves(*gearbox.stiffness, realizations)),
+          loads{gearbox.tooth_errors
+                    ? std::optional(draw_tooth_errors(*gearbox.tooth_errors, draw, realizations))
                     : std::nullopt,
                 std::nullopt} {
         for (const Realization& realization : realizations) {
-            gearboxes.push_back(scene.inputs(realization.inputs));
+            gearboxes.push_back(gearbox.inputs(realization.inputs));
         }
     }
     SolutionInputs(const SolutionInputs&) = delete;
     SolutionInputs& operator=(const SolutionInputs&) = delete;
 
-    lockstep::CoupledStage stage(const Scene& scene, lockstep::RecordedSpan span) const {
-        return {{scene.plan(), gearboxes, faults},
+    lockstep::CoupledStage stage(const lockstep::IntegrationPlan& plan,
+                                 lockstep::RecordedSpan span) const {
+        return {{plan, gearboxes, faults},
                 loads.tooth_errors ? &*loads.tooth_errors : nullptr,
                 std::move(span)};
     }
@@ -75,16 +77,16 @@ struct SolutionInputs {
 
 // A coupled stage next to the gearboxes of a tile, and its recorder.
 struct StageTask {
-    const Scene& scene;
+    const lockstep::IntegrationPlan& integration;
     const SensorPaths path;
     const SolutionInputs inputs;
     TileSensorRecorder recorder;
 
-    StageTask(const Scene& own, std::vector<Realization> realizations, int meshes)
-        : scene(own),
-          path(sensor_paths(own)),
-          inputs(own, std::move(realizations)),
-          recorder(own, path, inputs.realizations, meshes, meshes) {}
+    StageTask(const Scene& plan, std::vector<Realization> realizations, int meshes)
+        : integration(plan.solve().integration()),
+          path(sensor_paths(plan)),
+          inputs(plan.draw(), plan.gearbox(), std::move(realizations)),
+          recorder(plan, path, inputs.realizations, meshes, meshes) {}
 };
 
 std::vector<lockstep::TileResult> run_coupled(int lanes,
@@ -105,15 +107,17 @@ TileSolution solve(const Scene& scene, std::span<const Realization> realizations
                    const std::function<lockstep::Solution(const TileLoads&)>& solution_of) {
     auto start = WallClock::now();
     TileSolution solved;
-    SolutionInputs inputs(scene, {realizations.begin(), realizations.end()});
+    SolutionInputs inputs(scene.draw(), scene.gearbox(),
+                          {realizations.begin(), realizations.end()});
     solved.stiffness_s = lap(start);
-    inputs.loads.excitation =
-        draw_excitation(scene.gearbox(), scene.draw().seed,
-                        {scene.longest_run_in(), scene.signal_meshes()}, realizations);
+    inputs.loads.excitation = draw_excitation(
+        scene.gearbox(), scene.draw().seed,
+        {scene.solve().longest_run_in(), scene.record().signal_meshes}, realizations);
     const lockstep::Solution solution = solution_of(inputs.loads);
     const double processor_start = thread_processor_s();
     solved.integration = with_lane_count(static_cast<int>(realizations.size()), [&](auto lanes) {
-        return lockstep::run_tile<lanes()>(scene.plan(), inputs.gearboxes, inputs.faults, solution);
+        return lockstep::run_tile<lanes()>(scene.solve().integration(), inputs.gearboxes,
+                                           inputs.faults, solution);
     });
     solved.integration_s = lap(start);
     solved.meshes = solved.integration.integrated_meshes;
@@ -121,7 +125,8 @@ TileSolution solve(const Scene& scene, std::span<const Realization> realizations
     return solved;
 }
 
-TileSolution solve_coupled(const Scene& scene, std::span<const Realization> realizations,
+TileSolution solve_coupled(const Scene& scene, const CoupledStages& coupled,
+                           std::span<const Realization> realizations,
                            const lockstep::RecordOptions& options, const OnRecord& on_record,
                            std::optional<std::size_t> faulty_stage) {
     auto start = WallClock::now();
@@ -132,22 +137,26 @@ TileSolution solve_coupled(const Scene& scene, std::span<const Realization> real
             throw std::logic_error("records of a coupled tile have stages at other positions");
         }
     }
-    const CoupledSpan span = coupled_span(scene, run_in_meshes(scene), first);
-    const SolutionInputs own(scene, {realizations.begin(), realizations.end()});
+    const SolvePlan& solve = scene.solve();
+    const GearboxPlan& gearbox = scene.gearbox();
+    const CoupledSpan span = coupled_span(scene.draw(), gearbox, scene.record(), coupled, first);
+    const SolutionInputs inputs(scene.draw(), scene.gearbox(),
+                                {realizations.begin(), realizations.end()});
     std::vector<std::unique_ptr<StageTask>> tasks;
-    std::vector<lockstep::CoupledStage> stages{
-        own.stage(scene, {scene.recorded_meshes(), span.run_in, options, on_record})};
+    std::vector<lockstep::CoupledStage> stages{inputs.stage(
+        solve.integration(), {scene.record().recorded_meshes, span.run_in, options, on_record})};
     for (const StageSpan& stage : span.stages) {
+        const StagePlan& neighbour = gearbox.stages[stage.stage];
         std::vector<Realization> gearboxes;
         for (const Realization& record : realizations) {
-            gearboxes.push_back(stage_gearbox(scene.gearbox(), scene.gearbox().stages[stage.stage],
-                                              record, faulty_stage == stage.stage));
+            gearboxes.push_back(
+                stage_gearbox(gearbox, neighbour, record, faulty_stage == stage.stage));
         }
-        tasks.push_back(std::make_unique<StageTask>(*scene.gearbox().stages[stage.stage].plan,
+        tasks.push_back(std::make_unique<StageTask>(scene.stages()[stage.stage],
                                                     std::move(gearboxes), stage.meshes));
         StageTask& task = *tasks.back();
         lockstep::CoupledStage& added = stages.emplace_back(task.inputs.stage(
-            task.scene, {stage.meshes, stage.run_in, {}, std::ref(task.recorder)}));
+            task.integration, {stage.meshes, stage.run_in, {}, std::ref(task.recorder)}));
         added.period = stage.period;
         added.lead = stage.lead;
         added.first_mesh = stage.first_mesh;
@@ -155,9 +164,8 @@ TileSolution solve_coupled(const Scene& scene, std::span<const Realization> real
     solved.stiffness_s = lap(start);
     const double processor_start = thread_processor_s();
     const std::size_t lanes = realizations.size();
-    std::vector<lockstep::TileResult> results =
-        run_coupled(static_cast<int>(lanes), stages, coupling_shafts(scene.gearbox(), span, lanes),
-                    convergence_of(scene));
+    std::vector<lockstep::TileResult> results = run_coupled(
+        static_cast<int>(lanes), stages, coupling_shafts(gearbox, span, lanes), solve.convergence);
     solved.integration_s = lap(start);
     solved.integration_cpu_s = thread_processor_s() - processor_start;
     solved.integration = std::move(results[0]);
@@ -176,20 +184,21 @@ TileSolution solve_coupled(const Scene& scene, std::span<const Realization> real
     return solved;
 }
 
-Status status_of(const Scene& scene, const InstanceInputs& instance, lockstep::LaneStatus status) {
+Status status_of(const GearboxPlan& gearbox, const SolvePlan& solve, const InstanceInputs& instance,
+                 lockstep::LaneStatus status) {
     const bool ok = status == lockstep::LaneStatus::ok;
     const bool diverged = status == lockstep::LaneStatus::diverged;
-    if (scene.study().effects.quasi_static()) {
+    if (std::holds_alternative<StaticEquilibrium>(solve.strategy)) {
         return ok ? Status::ok : diverged ? Status::no_equilibrium : Status::not_converged;
     }
     if (ok) {
         // A solution without excitation does not grow even if it is unstable.
-        return lockstep::above_critical_speed(scene.plan().layout, scene.inputs(instance),
-                                              scene.mean_pairs())
+        return lockstep::above_critical_speed(gearbox.bodies.layout, gearbox.inputs(instance),
+                                              gearbox.stiffness->mean_pairs())
                    ? Status::supercritical
                    : Status::ok;
     }
-    switch (lockstep::find_instability(scene.plan(), scene.inputs(instance))) {
+    switch (lockstep::find_instability(solve.integration(), gearbox.inputs(instance))) {
         case lockstep::Instability::rotating_frame:
             return Status::supercritical;
         case lockstep::Instability::parametric:
@@ -213,21 +222,21 @@ GearboxTile tile_of(std::vector<Realization> realizations, int lanes) {
     return tile;
 }
 
-GearboxTile drawn_tile(const Scene& scene, std::span<const GearboxId> ids, int lanes) {
+GearboxTile drawn_tile(const Sampler& sampler, std::span<const GearboxId> ids, int lanes) {
     auto start = WallClock::now();
     std::vector<Realization> realizations;
     for (const GearboxId& id : ids) {
-        realizations.push_back(scene.sampler().draw(id));
+        realizations.push_back(sampler.draw(id));
     }
     GearboxTile tile = tile_of(std::move(realizations), lanes);
     tile.sampling_s = lap(start);
     return tile;
 }
 
-void add_status(const Scene& scene, GearboxTile& tile) {
+void add_status(const GearboxPlan& gearbox, const SolvePlan& solve, GearboxTile& tile) {
     for (std::size_t lane = 0; lane < tile.gearboxes; ++lane) {
-        tile.status.push_back(
-            status_of(scene, tile.realizations[lane].inputs, tile.integration.status[lane]));
+        tile.status.push_back(status_of(gearbox, solve, tile.realizations[lane].inputs,
+                                        tile.integration.status[lane]));
     }
 }
 
@@ -243,14 +252,16 @@ void keep_solution(TileSolution solved, GearboxTile& tile) {
 // Solves the tile by the strategy of its study.
 void solve_by_choice(const Scene& scene, const lockstep::RecordOptions& records,
                      const OnRecord& on_record, const TileOptions& options, GearboxTile& tile) {
-    keep_solution(
-        is_coupled(scene.study())
-            ? solve_coupled(scene, tile.realizations, records, on_record, options.faulty_stage)
-            : solve(scene, tile.realizations,
-                    [&](const TileLoads& loads) {
-                        return choose_solution(scene, loads, records, on_record, tile.parts);
-                    }),
-        tile);
+    const auto* coupled = std::get_if<CoupledStages>(&scene.solve().strategy);
+    keep_solution(coupled != nullptr
+                      ? solve_coupled(scene, *coupled, tile.realizations, records, on_record,
+                                      options.faulty_stage)
+                      : solve(scene, tile.realizations,
+                              [&](const TileLoads& loads) {
+                                  return choose_solution(scene.solve(), scene.record(), loads,
+                                                         records, on_record, tile.parts);
+                              }),
+                  tile);
 }
 
 // Solves the tile and records its sensor signals meanwhile.
@@ -267,10 +278,10 @@ void solve_and_record(const Scene& scene, const SensorPaths& path, const TileOpt
 
 // Computes the signals of the sensors from an integrated tile.
 void add_signals(const Scene& scene, const SensorPaths& path, GearboxTile& tile) {
-    add_status(scene, tile);
+    add_status(scene.gearbox(), scene.solve(), tile);
     auto start = WallClock::now();
     tile.views = views_of(scene, tile);
-    if (!scene.study().effects.quasi_static()) {
+    if (scene.features().sensor) {
         tile.tones = draw_tones(scene.study().sensor.tones, scene.gearbox(), scene.draw().seed,
                                 tile.realizations);
     }
@@ -290,7 +301,7 @@ void add_signals(const Scene& scene, const SensorPaths& path, GearboxTile& tile)
         }
     }
     // A quasi-static gearbox has no inertia and therefore no acceleration.
-    if (!scene.study().effects.quasi_static()) {
+    if (scene.features().sensor) {
         const signals::FoldPlan plan(tile.integration.content, scene.span());
         const std::vector<double> exponents = path_exponents(tile.realizations, 0);
         for (std::size_t s = 0; s < path.size(); ++s) {
@@ -308,14 +319,12 @@ void add_signals(const Scene& scene, const SensorPaths& path, GearboxTile& tile)
 
 void run_tile(const Scene& scene, const SensorPaths& path, const TileOptions& options,
               GearboxTile& tile) {
-    // The motion of coupled gearboxes depends on their neighbours, too.
-    const IntegrationCache* const cache =
-        options.records || is_coupled(scene.study()) ? nullptr : options.cache;
+    const IntegrationCache* const cache = options.records ? nullptr : options.cache;
     auto start = WallClock::now();
     if (const auto before = cache != nullptr ? cache->find(tile.realizations) : nullptr) {
         tile.integration = *before;
         tile.integration_s = lap(start);
-    } else if (records_during_integration(scene) && !options.records) {
+    } else if (scene.solve().records_during_integration && !options.records) {
         solve_and_record(scene, path, options, tile);
     } else {
         solve_by_choice(scene, options.records.value_or(lockstep::RecordOptions{}), nullptr,
@@ -329,8 +338,10 @@ void run_tile(const Scene& scene, const SensorPaths& path, const TileOptions& op
 
 GearboxTile run_records(const Scene& scene, const SensorPaths& path, std::span<const GearboxId> ids,
                         int fewest, const TileOptions& options) {
-    GearboxTile tile = drawn_tile(scene, ids, lockstep::lanes_for(scene.plan().precision, fewest));
-    if (integrates_records_only(scene)) {
+    GearboxTile tile = drawn_tile(
+        scene.sampler(), ids, lockstep::lanes_for(scene.solve().integration().precision, fewest));
+    const auto* every_mesh = std::get_if<EveryMeshPeriod>(&scene.solve().strategy);
+    if (every_mesh != nullptr && every_mesh->records_only) {
         tile.parts = parts_of_records(scene, tile.realizations);
     }
     run_tile(scene, path, options, tile);
@@ -368,8 +379,8 @@ GearboxTile run_baselines(const Scene& scene, const SensorPaths& path,
                           const IntegrationCache* cache) {
     const int meshes = needed_sensor_meshes(scene);
     const std::vector<GearboxId> earlier = baselines_of(scene.record(), ids);
-    const auto lanes =
-        static_cast<std::size_t>(lockstep::lanes_for(scene.plan().precision, fewest));
+    const auto lanes = static_cast<std::size_t>(
+        lockstep::lanes_for(scene.solve().integration().precision, fewest));
     // Order in which they are computed: records at the same positions follow each other.
     std::vector<std::size_t> order(earlier.size());
     std::iota(order.begin(), order.end(), std::size_t{0});
@@ -448,7 +459,7 @@ GearboxTile run_gearboxes(const Scene& scene, const SensorPaths& path,
     if (scene.record().baselines == 0) {
         return run_records(scene, path, ids, fewest, options);
     }
-    const int lanes = lockstep::lanes_for(scene.plan().precision, fewest);
+    const int lanes = lockstep::lanes_for(scene.solve().integration().precision, fewest);
     const std::size_t records = 1 + scene.record().computed_baselines;
     if (scene.record().same_positions == 1 &&
         records * ids.size() <= static_cast<std::size_t>(lanes)) {
@@ -477,8 +488,8 @@ std::vector<double> contact_loss(const GearboxTile& tile, std::size_t lane, std:
 GearboxTile run_realizations(const Scene& scene, const SensorPaths& path,
                              std::vector<Realization> realizations, int fewest,
                              const TileOptions& options) {
-    GearboxTile tile =
-        tile_of(std::move(realizations), lockstep::lanes_for(scene.plan().precision, fewest));
+    GearboxTile tile = tile_of(std::move(realizations),
+                               lockstep::lanes_for(scene.solve().integration().precision, fewest));
     run_tile(scene, path, options, tile);
     return tile;
 }
@@ -486,17 +497,19 @@ GearboxTile run_realizations(const Scene& scene, const SensorPaths& path,
 GearboxTile run_fault_perturbations(const Scene& scene, std::vector<Realization> realizations,
                                     int lanes, const lockstep::SpanStates& healthy) {
     GearboxTile tile = tile_of(std::move(realizations), lanes);
-    keep_solution(
-        solve(scene, tile.realizations,
-              [&](const TileLoads& loads) { return fault_perturbation(scene, loads, healthy); }),
-        tile);
-    add_status(scene, tile);
+    keep_solution(solve(scene, tile.realizations,
+                        [&](const TileLoads& loads) {
+                            return fault_perturbation(scene.solve(), loads, healthy);
+                        }),
+                  tile);
+    add_status(scene.gearbox(), scene.solve(), tile);
     return tile;
 }
 
 GearboxTile complete_tile(const Scene& scene, const SensorPaths& path,
                           std::span<const GearboxId> ids, lockstep::TileResult integration) {
-    GearboxTile tile = drawn_tile(scene, ids, static_cast<int>(integration.status.size()));
+    GearboxTile tile =
+        drawn_tile(scene.sampler(), ids, static_cast<int>(integration.status.size()));
     tile.integration = std::move(integration);
     add_signals(scene, path, tile);
     if (scene.record().baselines > 0) {

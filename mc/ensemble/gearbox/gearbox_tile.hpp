@@ -49,13 +49,15 @@ TileSolution solve(const Scene& scene, std::span<const Realization> realizations
 using OnRecord = std::function<void(int, const lockstep::MeshRecord&)>;
 
 // Solves a tile together with the coupled stages next to its gearboxes. The gearboxes of stage
-// `faulty_stage` have their fault. Requires check_stages(scene).
-TileSolution solve_coupled(const Scene& scene, std::span<const Realization> realizations,
+// `faulty_stage` have their fault. Requires check_stages().
+TileSolution solve_coupled(const Scene& scene, const CoupledStages& coupled,
+                           std::span<const Realization> realizations,
                            const lockstep::RecordOptions& options, const OnRecord& on_record,
                            std::optional<std::size_t> faulty_stage);
 
 // Status of a gearbox whose lane ended with that status.
-Status status_of(const Scene& scene, const InstanceInputs& instance, lockstep::LaneStatus status);
+Status status_of(const GearboxPlan& gearbox, const SolvePlan& solve, const InstanceInputs& instance,
+                 lockstep::LaneStatus status);
 
 // Computes recorded motion and folded signals of a tile of W gearboxes from their sampled inputs.
 
@@ -88,7 +90,7 @@ struct LaneSignals {
 struct GearboxTile : TileSolution {
     std::vector<Realization> realizations;  // one entry per lane
     std::size_t gearboxes = 0;              // requested; further lanes repeat the last one
-    // Mesh periods of the signals that were integrated; empty: all (integrates_records_only).
+    // Mesh periods of the signals that were integrated; empty: all (EveryMeshPeriod).
     std::vector<lockstep::SpanPart> parts;
     std::vector<Status> status;  // one entry per requested gearbox
     signals::TileSignals views;
@@ -137,7 +139,7 @@ GearboxTile run_realizations(const Scene& scene, const SensorPaths& path,
 
 // Integrates only the mesh periods that the faults of these gearboxes change. Starts from the
 // healthy states of the same gearboxes in a tile of `lanes` lanes. Requires
-// integrates_perturbation_only(scene). Sets only realizations, integration and status of the
+// SolvePlan::perturbation_only. Sets only realizations, integration and status of the
 // result.
 GearboxTile run_fault_perturbations(const Scene& scene, std::vector<Realization> realizations,
                                     int lanes, const lockstep::SpanStates& healthy);

@@ -51,7 +51,7 @@ HealthySolution::HealthySolution(const Scene& scene, const SensorPaths& path,
     for (Realization& one : realizations_) {
         one.inputs.gain = 1.0;
     }
-    const bool keep = integrates_perturbation_only(scene);
+    const bool keep = scene.solve().perturbation_only;
     TileOptions options;
     if (keep) {
         options.records.emplace().states = true;

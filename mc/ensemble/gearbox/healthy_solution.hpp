@@ -1,6 +1,6 @@
 // Integrates gearboxes once without a fault, then again for any fault size. A fault changes only
 // its passages and the mesh periods of decay after them. Only these are integrated again if
-// integrates_perturbation_only (solution_choice.hpp).
+// SolvePlan::perturbation_only.
 #pragma once
 
 #include <vector>

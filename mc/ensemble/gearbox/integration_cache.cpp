@@ -4,9 +4,6 @@
 #include <set>
 #include <type_traits>
 
-#include "mc/study/fluctuations.hpp"
-#include "mc/study/gears.hpp"
-
 namespace gearpod::mc {
 namespace {
 
@@ -40,37 +37,14 @@ std::size_t size_in_bytes(const lockstep::TileResult& result) {
 
 }  // namespace
 
-std::optional<std::size_t> distinct_integrations(const Scene& scene) {
-    const Study& study = scene.study();
-    if (has_tooth_errors(study) || has_random_planets(study) || has_random_fluctuations(study)) {
-        return std::nullopt;
-    }
-    std::size_t count = 1;
-    for (const RandomInput& input : scene.study().random) {
-        if (input.kind == InputKind::sensor) {
-            continue;
-        }
-        std::vector<double> values = input.distribution.levels();
-        if (values.empty()) {
-            return std::nullopt;
-        }
-        if (input.kind == InputKind::fault_size) {
-            values.push_back(0.0);  // the healthy gearboxes of the threshold sample
-        }
-        std::sort(values.begin(), values.end());
-        count *=
-            static_cast<std::size_t>(std::unique(values.begin(), values.end()) - values.begin());
-    }
-    return count;
-}
-
 IntegrationCounts count_integrations(const Scene& scene, const BatchPlan& plan,
                                      double motion_bytes) {
     // With more distinct gearboxes than this, repetitions are too rare to count.
     constexpr std::size_t kMostDistinct = 2000;
-    const auto lanes = static_cast<std::size_t>(scene.study().numerics.lanes);
+    const auto lanes = static_cast<std::size_t>(scene.solve().settings.lanes);
     const std::array<std::size_t, 2> rows{plan.threshold_gearboxes(), plan.test_rows()};
-    const std::size_t distinct = distinct_integrations(scene).value_or(kMostDistinct + 1);
+    const std::size_t distinct =
+        scene.solve().settings.distinct_integrations.value_or(kMostDistinct + 1);
     IntegrationCounts counts;
     std::set<std::string> keys;
     for (std::size_t g = 0; g < rows.size(); ++g) {

@@ -7,7 +7,6 @@
 #include <map>
 #include <memory>
 #include <mutex>
-#include <optional>
 #include <span>
 #include <string>
 
@@ -17,10 +16,6 @@
 #include "mc/results/result_rows.hpp"
 
 namespace gearpod::mc {
-
-// Number of distinct sets of inputs to the time integration. Empty if all gearboxes differ: such an
-// input has a continuous distribution, or every tooth or planet has its own errors.
-std::optional<std::size_t> distinct_integrations(const Scene& scene);
 
 // Number of tiles that a run of the plan integrates, by group. Tiles hold as many gearboxes as
 // there are lanes; tiles found in the cache are not counted. `motion_bytes`: size of the records of
@@ -36,8 +31,7 @@ IntegrationCounts count_integrations(const Scene& scene, const BatchPlan& plan,
 // not fit are integrated again. A cached result is bitwise equal to a new integration. Thread-safe.
 class IntegrationCache {
   public:
-    explicit IntegrationCache(const Scene& scene)
-        : active_(distinct_integrations(scene).has_value()) {}
+    explicit IntegrationCache(const SolvePlan& solve) : active_(solve.reuses_results) {}
 
     // Null if these gearboxes, in this order of lanes, are not in the cache.
     std::shared_ptr<const lockstep::TileResult> find(std::span<const Realization> lanes) const;

@@ -69,7 +69,7 @@ void add_stage_vibration(const Scene& scene, std::size_t stage, const Realizatio
     const double start =
         boost::random::uniform_01<double>()(engine) * static_cast<double>(vibration.size());
     const double step = scene.record().sample_s(realization.inputs) /
-                        scene.gearbox().stages[stage].plan->record().sample_s(gearbox.inputs);
+                        scene.stages()[stage].record().sample_s(gearbox.inputs);
     add_vibration(vibration, factor, start, step, samples);
 }
 
@@ -79,7 +79,7 @@ void add_coupled_stages(const Scene& scene, const CoupledSpan& span, const LaneS
     for (std::size_t i = 0; i < record.coupled.size(); ++i) {
         const StageSpan& stage = span.stages[i];
         const StagePlan& source = scene.gearbox().stages[stage.stage];
-        const double per_mesh = source.plan->samples_per_mesh();
+        const double per_mesh = scene.stages()[stage.stage].samples_per_mesh();
         std::vector<double> vibration = record.coupled[i];
         if (!std::ranges::all_of(vibration, [](double value) { return std::isfinite(value); })) {
             std::ranges::fill(samples, kNan);
@@ -130,7 +130,7 @@ struct StageRecord {
 
 // Samples become NaN if the stage's gearbox fails.
 void add_stage(const Scene& scene, std::size_t stage, std::span<const StageRecord> records) {
-    const Scene& own = *scene.gearbox().stages[stage].plan;
+    const Scene& own = scene.stages()[stage];
     const SensorPaths path = sensor_paths(own);
     const auto lanes = static_cast<std::size_t>(own.study().numerics.lanes);
     for (std::size_t first = 0; first < records.size(); first += lanes) {
@@ -183,8 +183,9 @@ void add_background(const Scene& scene, std::span<const Realization> realization
     }
     // Records of a coupled tile share it.
     CoupledSpan span;
-    if (is_coupled(scene.study())) {
-        span = coupled_span(scene, run_in_meshes(scene), realizations.front().id);
+    if (const auto* coupled = std::get_if<CoupledStages>(&scene.solve().strategy)) {
+        span = coupled_span(scene.draw(), scene.gearbox(), scene.record(), *coupled,
+                            realizations.front().id);
     }
     std::vector<std::vector<double>> samples;
     for (std::size_t i = 0; i < records.size(); ++i) {

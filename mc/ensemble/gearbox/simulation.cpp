@@ -132,9 +132,10 @@ std::vector<double> sample_times(const Scene& scene, const Realization& realizat
     const auto lanes =
         static_cast<std::size_t>(lockstep::lanes_for(Precision::double_precision, 1));
     const std::vector<dynamics::GearboxInputs> inputs(lanes, own);
-    const auto excitation = draw_excitation(scene.gearbox(), scene.draw().seed,
-                                            {scene.longest_run_in(), scene.signal_meshes()},
-                                            std::vector<Realization>(lanes, realization));
+    const auto excitation =
+        draw_excitation(scene.gearbox(), scene.draw().seed,
+                        {scene.solve().longest_run_in(), scene.record().signal_meshes},
+                        std::vector<Realization>(lanes, realization));
     lockstep::ExcitationRows rows(scene.plan(), *excitation, inputs, /*with_time=*/true);
     for (long mesh = meshes.first; mesh < meshes.first + meshes.count; ++mesh) {
         rows.fill(static_cast<int>(mesh));

@@ -8,9 +8,6 @@
 #include <numbers>
 
 #include "gears/tooth_deviations.hpp"
-#include "lockstep/integrators/sensor_filter.hpp"
-#include "mc/plan/stepping.hpp"
-#include "mc/study/fluctuations.hpp"
 
 namespace gearpod::mc {
 
@@ -54,27 +51,7 @@ void draw_noise(std::vector<NoiseInputs> noise, std::span<const double> mesh_per
     }
 }
 
-// Mesh periods in which the slowest mode of the sensor's low-pass filter decays to 1/e.
-double filter_decay_meshes(const Scene& scene) {
-    const double rate = 0.5 * lockstep::kFilterDamping[1] * scene.plan().low_pass_rad_s;
-    return scene.nominal_mesh_frequency_Hz() / rate;
-}
-
 }  // namespace
-
-int run_in_meshes(const Scene& scene) {
-    constexpr double kFewest = 10.0;
-    const Study& study = scene.study();
-    if (reason_not_periodic(study).empty() || study.effects.quasi_static()) {
-        return 0;
-    }
-    // Twice the decay time of the nominal gearbox and its sensor, because other gearboxes decay
-    // more slowly.
-    const double decays = -2.0 * std::log(convergence_tolerance(study));
-    const double meshes = decays * std::max(scene.decay_meshes(), filter_decay_meshes(scene));
-    return static_cast<int>(std::min(std::ceil(std::max(kFewest, meshes)),
-                                     static_cast<double>(scene.longest_run_in())));
-}
 
 std::optional<lockstep::Excitation> draw_excitation(const GearboxPlan& gearbox, std::uint64_t seed,
                                                     const ExcitedMeshes& meshes,

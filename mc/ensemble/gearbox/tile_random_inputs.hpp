@@ -20,11 +20,6 @@ namespace gearpod::mc {
 signals::Tones draw_tones(std::span<const Tone> tones, const GearboxPlan& gearbox,
                           std::uint64_t seed, std::span<const Realization> realizations);
 
-// Run-in: mesh periods that are integrated before the first recorded one. In this time, the
-// transient from the onset of tooth errors or variable excitation decays to the convergence
-// tolerance.
-int run_in_meshes(const Scene& scene);
-
 // Gravity, and the fluctuations of torque and speed. The noise has knots from before the longest
 // run-in until after the last mesh period of the signal, independent of the actual run-in. Its
 // first knot has a random position. Empty if the excitation is constant.

@@ -471,7 +471,8 @@ class AccuracyMeasurement {
 
     void measure_explicit_limit() {
         ExplicitLimit& limit = report_.explicit_limit;
-        limit.step_s = explicit_step_s(planner_.plan(facts_.numerics));
+        const Scene plan = planner_.plan(facts_.numerics);
+        limit.step_s = explicit_step_s(plan.gearbox(), plan.solve());
         limit.meshes = report_.settings[0].meshes;
         limit.refused = std::ranges::none_of(report_.settings, [](const auto& r) {
             return r.setting.numerics.integrator == lockstep::kUsualExplicit && r.refusal.empty();

@@ -392,7 +392,9 @@ double verification_s(const Scene& scene, const RunCost& calibration) {
     const double setup_s = seconds_since(start);
     const TileCost& own = calibration.cost[static_cast<std::size_t>(Group::test)].integrated;
     const auto lanes = static_cast<std::size_t>(scene.study().numerics.lanes);
-    const double integration_s = mesh_period_s(finer_plan) * integrated_meshes(finer_plan);
+    const double integration_s = mesh_period_s(finer_plan.draw(), finer_plan.gearbox(),
+                                               finer_plan.solve(), finer_plan.record()) *
+                                 finer_plan.solve().integrated_meshes;
     const std::int64_t pairs = scene.study().numerics.paired_gearboxes;
     const auto batches = static_cast<double>((2 * pairs + kBatchRows - 1) / kBatchRows);
     const double tiles = pairs > 0 ? std::ceil(batches / calibration.threads) * kBatchRows /

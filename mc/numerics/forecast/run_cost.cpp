@@ -246,22 +246,23 @@ double start_of_thread(const std::vector<MeasuredTile>& all, const std::array<Gr
 // Converts the cost of a tile that recorded the mesh periods of `measured` to that of all mesh
 // periods of `whole`. Test and baseline records scale alike.
 void complete(TileCost& cost, const Scene& measured, const Scene& whole) {
-    if (recorded_meshes(measured) == recorded_meshes(whole)) {
+    if (measured.solve().test_record_meshes == whole.solve().test_record_meshes) {
         return;
     }
     const bool integrated = cost.whole.meshes > 0;  // otherwise copied from the cache
     cost.whole.integration *=
-        integrated ? integrated_meshes(whole) / integrated_meshes(measured)
-                   : static_cast<double>(recorded_meshes(whole)) / recorded_meshes(measured);
+        integrated ? whole.solve().integrated_meshes / measured.solve().integrated_meshes
+                   : static_cast<double>(whole.solve().test_record_meshes) /
+                         measured.solve().test_record_meshes;
 }
 
 // Number of mesh periods that a tile may record within the budget.
 int choose_recorded(const Scene& scene, double mesh_s, double budget_s) {
-    const int all = recorded_meshes(scene);
+    const int all = scene.solve().test_record_meshes;
     if (scene.study().numerics.horizon == Horizon::periodic || mesh_s == 0.0) {
         return all;
     }
-    const double before = integrated_meshes(scene) - all;
+    const double before = scene.solve().integrated_meshes - all;
     const double affordable = budget_s / mesh_s - before;
     return affordable >= all ? all
                              : std::min(all, std::max(kFewestMeshes, static_cast<int>(affordable)));
@@ -271,7 +272,7 @@ void measure(const Scene& scene, const BatchPlan& plan, double budget_s, RunCost
     auto start = WallClock::now();
     const BatchTask task(scene);
     result.task_s = seconds_since(start);
-    const bool reusable = distinct_integrations(scene).has_value();
+    const bool reusable = scene.solve().settings.distinct_integrations.has_value();
     start = WallClock::now();
     CostMeasurement measurement(
         task, SpreadTiles(plan, static_cast<std::size_t>(scene.study().numerics.lanes)), reusable,
@@ -320,16 +321,17 @@ RunCost measure_run_cost(const Scene& scene, const BatchPlan& plan, int threads,
     RunCost result;
     result.threads =
         static_cast<int>(std::min(static_cast<std::size_t>(std::max(1, threads)), plan.batches()));
-    result.to_record = recorded_meshes(scene);
+    result.to_record = scene.solve().test_record_meshes;
     const bool moves = !scene.study().effects.quasi_static();
-    const double mesh_s = moves ? mesh_period_s(scene) : 0.0;
+    const double mesh_s =
+        moves ? mesh_period_s(scene.draw(), scene.gearbox(), scene.solve(), scene.record()) : 0.0;
     // Half of the budget, so that a thread can compute two tiles.
     result.recorded = choose_recorded(scene, mesh_s, 0.5 * budget_s);
     const double all_records = motion_bytes(scene),
-                 full_integration_s = mesh_s * integrated_meshes(scene);
+                 full_integration_s = mesh_s * scene.solve().integrated_meshes;
     const Scene measured = scene.recording_at_most(result.recorded);
     result.memory.before = peak_memory_bytes();
-    if (mesh_s * integrated_meshes(measured) > std::max(kLongestTile_s, budget_s)) {
+    if (mesh_s * measured.solve().integrated_meshes > std::max(kLongestTile_s, budget_s)) {
         result.integration_only = true;
         for (GroupCost& group : result.cost) {
             group.integrated.whole.integration = group.reused.whole.integration =

@@ -197,7 +197,9 @@ void print_step_error(const Scene& scene) {
         return;
     }
     constexpr double kMost_s = 1.0;
-    const auto error = find_step_error(scene, kMost_s / mesh_period_s(scene));
+    const auto error = find_step_error(
+        scene,
+        kMost_s / mesh_period_s(scene.draw(), scene.gearbox(), scene.solve(), scene.record()));
     print_entry("time step error",
                 error ? step_error_text(*error)
                       : "not measured, because it would take too long; contact loss lowers the "
@@ -239,14 +241,16 @@ void print_step_forecast(const Scene& scene, const PeakMemory& memory) {
         const auto lanes = static_cast<double>(scene.ensemble().lanes);
         const double tiles = std::ceil(static_cast<double>(plan.threshold_gearboxes()) / lanes) +
                              std::ceil(static_cast<double>(plan.test_rows()) / lanes);
-        const double meshes = integrated_meshes(scene);
+        const double meshes = scene.solve().integrated_meshes;
         print_entry(
             "time integration",
-            fmt::format(
-                "{}: {:.0f} tiles of {} gearboxes, about {:.0f} mesh periods of {} "
-                "steps each",
-                seconds_text(tiles * meshes * mesh_period_s(scene) / static_cast<double>(threads)),
-                tiles, scene.ensemble().lanes, meshes, scene.plan().grid.steps.size()));
+            fmt::format("{}: {:.0f} tiles of {} gearboxes, about {:.0f} mesh periods of {} "
+                        "steps each",
+                        seconds_text(tiles * meshes *
+                                     mesh_period_s(scene.draw(), scene.gearbox(), scene.solve(),
+                                                   scene.record()) /
+                                     static_cast<double>(threads)),
+                        tiles, scene.ensemble().lanes, meshes, scene.plan().grid.steps.size()));
     }
     const double least_bytes =
         std::max(memory.setup_bytes + least_memory_bytes(scene, plan, static_cast<int>(threads)),

@@ -94,8 +94,8 @@ struct IntegratedMeshes {
 };
 
 IntegratedMeshes meshes_of(const Scene& scene) {
-    const double all = integrated_meshes(scene);
-    return {all, integrates_perturbation_only(scene) ? passage_meshes_of_span(scene) : all};
+    const double all = scene.solve().integrated_meshes;
+    return {all, scene.solve().perturbation_only ? scene.solve().passage_meshes : all};
 }
 
 // Integration time of one tile of a batch, s.
@@ -133,11 +133,11 @@ double tile_bytes(const LifeTiles& tiles) {
     const double samples = static_cast<double>(scene.span_meshes()) * scene.samples_per_mesh();
     const auto lanes = static_cast<double>(tiles.lanes()),
                loads = static_cast<double>(tiles.load_count());
-    const double signals = (integrates_perturbation_only(scene) ? 5.0 : 4.0) * loads + 2.0;
+    const double signals = (scene.solve().perturbation_only ? 5.0 : 4.0) * loads + 2.0;
     const double basis = 3.0 * loads + 1.0;
     const double bins = static_cast<double>(scene.span().planet_teeth) * scene.samples_per_mesh();
     return 8.0 * (signals * lanes * samples + 0.5 * basis * (basis + 1.0) * bins) +
-           record_bytes(scene);
+           scene.solve().record_bytes;
 }
 
 double file_bytes(const LifeTiles& tiles) {
@@ -175,7 +175,10 @@ LivesForecast forecast_lives(const LifeTiles& tiles, int threads, double setup_s
     all.threads = std::max(1, std::min(threads, static_cast<int>(plan.batches())));
     all.setup_s = setup_s;
     const IntegratedMeshes meshes = meshes_of(scene);
-    const double mesh_s = scene.study().effects.quasi_static() ? 0.0 : mesh_period_s(scene);
+    const double mesh_s =
+        scene.study().effects.quasi_static()
+            ? 0.0
+            : mesh_period_s(scene.draw(), scene.gearbox(), scene.solve(), scene.record());
     const RecordTimes trial = tiles.time_records();
     const double cracked_records = mean_records(tiles);
     std::vector<double> busy_s(static_cast<std::size_t>(all.threads), 0.0);

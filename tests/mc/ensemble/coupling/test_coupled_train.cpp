@@ -100,7 +100,7 @@ TEST_CASE("Natural frequencies of a train are those of its equations", "[coupled
     test::replace_in(path, "[sensor]", "[effects]\nmotion = \"torsional\"\n\n[sensor]");
     const mc::Scene scene =
         scene_with(path, shaft(kStiffness_N_m_rad), {"effects.motion=\"torsional\""});
-    const TorsionalTrain first(scene), second(*scene.gearbox().stages[0].plan);
+    const TorsionalTrain first(scene), second(scene.stages()[0]);
     constexpr int n = TorsionalTrain::kDegrees;
     Eigen::MatrixXd mass = Eigen::MatrixXd::Zero(2 * n, 2 * n), stiffness = mass;
     mass.topLeftCorner(n, n) = first.mass;
@@ -135,8 +135,8 @@ TEST_CASE("An elastic shaft bears the same torque at both ends", "[coupled-train
     // Ring fixed: the carrier bears 1 + 35/13 of the sun's torque.
     const double here = mc::shaft_torque_N_m(scene.gearbox(), mc::Member::carrier, gearbox.inputs);
     CHECK(here == Approx(-0.83 * 200.0 * 48 / 13).epsilon(1e-12));
-    CHECK(mc::shaft_torque_N_m(scene.gearbox().stages[0].plan->gearbox(), mc::Member::sun,
-                               stage.inputs) == Approx(-here).epsilon(1e-12));
+    CHECK(mc::shaft_torque_N_m(*scene.gearbox().stages[0].gearbox, mc::Member::sun, stage.inputs) ==
+          Approx(-here).epsilon(1e-12));
     CHECK(stage.inputs.torque_N_m == Approx(-here).epsilon(1e-12));
 }
 

@@ -48,7 +48,7 @@ std::vector<Batch> test_tiles(std::size_t count) {
 
 TEST_CASE("Cached responses are not integrated again, and give the same bits") {
     const Scene scene(study_with(kSensorOnly));
-    CHECK(distinct_integrations(scene) == 7);  // the sizes, including 0
+    CHECK(scene.solve().settings.distinct_integrations == 7);  // the sizes, including 0
     const BatchTask shared(scene);
     BatchWorker worker(shared);
     Seconds seconds;
@@ -68,14 +68,14 @@ TEST_CASE("Cached responses are not integrated again, and give the same bits") {
 
 TEST_CASE("Nothing is cached where every gearbox has a different response") {
     const Scene scene(study_with({"sensor.path_exponent", "gearbox.planet_bearing_stiffness_N_m"}));
-    CHECK_FALSE(distinct_integrations(scene).has_value());
+    CHECK_FALSE(scene.solve().settings.distinct_integrations.has_value());
     const BatchTask task(scene);
     Seconds seconds;
     BatchWorker(task).compute({Group::test, 0, 0, 8}, seconds);
     CHECK(task.cache.kept() == 0);
     const Scene errors(
         study_with(kSensorOnly, {"gearbox.pitch_error_um=1", "numerics.horizon=full"}));
-    CHECK_FALSE(distinct_integrations(errors).has_value());
+    CHECK_FALSE(errors.solve().settings.distinct_integrations.has_value());
 }
 
 }  // namespace test_integration_cache

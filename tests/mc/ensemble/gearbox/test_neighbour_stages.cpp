@@ -68,12 +68,12 @@ TEST_CASE("The sensor picks up the stage's own signal, at the stage's time, time
     const mc::Realization neighbour =
         mc::stage_gearbox(scene.gearbox(), scene.gearbox().stages[0], gearbox);
     CHECK(neighbour.inputs.fault_size == 0.0);
-    const std::vector<double> own = sensor_signal(*scene.gearbox().stages[0].plan, neighbour);
+    const std::vector<double> own = sensor_signal(scene.stages()[0], neighbour);
     // Mesh frequencies: 35 Hz here, 60 / 48 * 13 / 60 * 35 Hz there.
     const double step = scene.record().sample_s(gearbox.inputs) /
-                        scene.gearbox().stages[0].plan->record().sample_s(neighbour.inputs);
+                        scene.stages()[0].record().sample_s(neighbour.inputs);
     CHECK(step == Approx((1.0 / (35.0 * scene.samples_per_mesh())) *
-                         (35.0 * 13 / 48 * scene.gearbox().stages[0].plan->samples_per_mesh()))
+                         (35.0 * 13 / 48 * scene.stages()[0].samples_per_mesh()))
                       .epsilon(1e-9));
     mc::Philox engine = mc::record_stream(scene.draw().seed, id,
                                           mc::with_suffix(mc::StreamPurpose::stage_start, "slow"));
@@ -114,7 +114,7 @@ TEST_CASE("The common shaft sets the speed of a stage, and the sensor is that of
     const Folder folder;
     const std::string path = stage_file(folder, "fast.toml", 66.0);
     const mc::Scene scene(small_study(path, ""));
-    const mc::Study& own = scene.gearbox().stages[0].plan->study();
+    const mc::Study& own = scene.stages()[0].study();
     CHECK(mc::nominal_inputs(own).speed_rad_s ==
           Approx(13.0 / 48.0 * scene.gearbox().nominal.speed_rad_s).epsilon(1e-6));
     const auto text =

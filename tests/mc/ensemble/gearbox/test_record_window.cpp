@@ -164,9 +164,9 @@ TEST_CASE("Records that are integrated alone are those of the whole signal") {
     // Gearbox 16 is the first of its group, whose window is its own.
     const GearboxId id{Group::test, 16};
     const Computed alone(real_teeth({}), id);
-    REQUIRE(integrates_records_only(alone.scene()));
+    REQUIRE(std::get<EveryMeshPeriod>(alone.scene().solve().strategy).records_only);
     const Computed whole(real_teeth({"ensemble.threshold_records=2"}), id);
-    REQUIRE(!integrates_records_only(whole.scene()));
+    REQUIRE(!std::get<EveryMeshPeriod>(whole.scene().solve().strategy).records_only);
     REQUIRE(alone.window().first_mesh == whole.window().first_mesh);
     for (const std::size_t feature : {0, 1, 2, 3}) {
         INFO(feature);

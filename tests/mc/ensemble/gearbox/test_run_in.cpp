@@ -37,12 +37,12 @@ lockstep::MeshRecord first_mesh(const Scene& scene, int run_in) {
 TEST_CASE("The initial transient with real teeth has decayed when recording begins") {
     const Scene scene(test::shipped_study("planet-life.toml",
                                           {"numerics.precision=\"double\"", "numerics.lanes=1"}));
-    const int run_in = run_in_meshes(scene);
+    const int run_in = scene.solve().run_in_meshes;
     CHECK(run_in <= 10);
     const lockstep::MeshRecord own = first_mesh(scene, run_in), late = first_mesh(scene, 100);
     CHECK(test::relative_difference(own.acceleration, late.acceleration) <
-          convergence_tolerance(scene.study()));
-    CHECK(test::relative_difference(own.te, late.te) < convergence_tolerance(scene.study()));
+          scene.solve().convergence.tolerance);
+    CHECK(test::relative_difference(own.te, late.te) < scene.solve().convergence.tolerance);
     // The transient is large without a run-in.
     CHECK(test::relative_difference(first_mesh(scene, 0).acceleration, late.acceleration) > 0.01);
 }
@@ -50,7 +50,7 @@ TEST_CASE("The initial transient with real teeth has decayed when recording begi
 TEST_CASE("The run-in follows from the slower of gearbox and sensor, and from the tolerance") {
     const auto run_in = [](std::vector<std::string> keys) {
         keys.emplace_back("gearbox.tooth_quality=6");
-        return run_in_meshes(Scene(test::shipped_study("planet-crack-ideal.toml", keys)));
+        return Scene(test::shipped_study("planet-crack-ideal.toml", keys)).solve().run_in_meshes;
     };
     // Decay of the low-pass' slower section is 0.3827 2 pi 0.5 Hz = 1.2 1/s, and a mesh takes
     // 1/11.97 s: 91.7 meshes to 1e-4. Twice that is limited to half of the allowed meshes until

@@ -48,7 +48,7 @@ class Tile {
     std::vector<double> sensor(int lane) const {
         return lane_signals(scene_, path_, tile_, lane, scene_.signal_meshes()).sensor;
     }
-    double forecast_meshes() const { return integrated_meshes(scene_); }
+    double forecast_meshes() const { return scene_.solve().integrated_meshes; }
 
   private:
     Scene scene_;
@@ -162,7 +162,8 @@ class ContactLimit {
             draw_tooth_errors(*scene_.gearbox().tooth_errors, scene_.draw(), gearboxes);
         const lockstep::FaultCurves faults{&scene_.pairs(), {}, {}};
         const lockstep::Convergence convergence{1e-10, scene_.max_meshes()};
-        const lockstep::RecordedSpan span{.meshes = 12, .run_in_meshes = run_in_meshes(scene_)};
+        const lockstep::RecordedSpan span{.meshes = 12,
+                                          .run_in_meshes = scene_.solve().run_in_meshes};
         const auto run = [&](const lockstep::Solution& solution) {
             return lockstep::run_tile<8>(scene_.plan(), inputs, faults, solution);
         };

@@ -211,7 +211,7 @@ TEST_CASE(
     CHECK(whole.integration > 20.0 * whole.signals);
     // Sensor signals recorded during integration need no stored records, in a run or here.
     CHECK(cut.memory.records == 0.0);
-    CHECK(motion_bytes(scene) < 0.01 * record_bytes(scene));
+    CHECK(motion_bytes(scene) < 0.01 * scene.solve().record_bytes);
     CHECK(bits_of(first_tile(scene)) == before);
 }
 
