@@ -37,20 +37,20 @@ struct CalibrateOptions {
 
 // Keeps the recordings labelled healthy, or all recordings if none has a label.
 void keep_healthy(RecordingList& list) {
-    const bool labelled = std::ranges::any_of(
-        list.recordings, [](const Recording& one) { return one.condition != Condition::unknown; });
-    std::erase_if(list.recordings, [&](const Recording& one) {
-        return labelled && one.condition != Condition::healthy;
+    const bool labelled = std::ranges::any_of(list.recordings, [](const Recording& recording) {
+        return recording.condition != Condition::unknown;
+    });
+    std::erase_if(list.recordings, [&](const Recording& recording) {
+        return labelled && recording.condition != Condition::healthy;
     });
 }
 
 // Computes the features of the recordings. Adds a problem for each recording that cannot be read.
 std::vector<HealthyRecord> measured_records(const CalibrateOptions& options,
-                                            const RecordingList& list, const Scene& scene,
-                                            Problems& problems) {
-    const auto measured = measure_recordings(list, options.columns, scene, {}, {},
-                                             thread_count(scene.ensemble()), [] {})
-                              .recordings;
+                                            const RecordingList& list, const MeasurementPlan& plan,
+                                            int threads, Problems& problems) {
+    const auto measured =
+        measure_recordings(list, options.columns, plan, {}, {}, threads, [] {}).recordings;
     print_notes(list, measured);
     std::vector<HealthyRecord> records;
     for (std::size_t i = 0; i < measured.size(); ++i) {
@@ -59,7 +59,7 @@ std::vector<HealthyRecord> measured_records(const CalibrateOptions& options,
             continue;
         }
         records.push_back({list.recordings[i].gearbox,
-                           std::min(measured[i].sensor_meshes, scene.span_meshes()),
+                           std::min(measured[i].sensor_meshes, plan.record.span.meshes()),
                            measured[i].values});
     }
     return records;
@@ -73,17 +73,27 @@ class Command {
         if (!options_good()) {
             return kBadInput;
         }
-        const auto scene = load_scene(options_.study).scene;
+        StudyReading reading = read_study(options_.study.path, options_.study.overrides);
+        CalibrationPlan calibration;
+        if (reading.study) {
+            calibration = make_calibration_plan(*reading.study, options_.study.path);
+        }
+        const StudyScene made = make_scene(options_.study.path, std::move(reading));
+        print_problems(made ? made.notices : made.problems);
+        const auto& scene = made.scene;
         if (!scene || !outputs_good()) {
             return kBadInput;
         }
-        problems_ = calibration_problems(scene->study(), options_.study.path);
+        problems_ = calibration.unsupported;
         if (!problems_.empty()) {
             return stop();
         }
+        const int threads = thread_count(scene->ensemble());
+        const MeasurementPlan plan{scene->record(), scene->features(), scene->gearbox().nominal};
         const std::vector<HealthyRecord> records =
-            options_.features.empty() ? measured_records(options_, list_, *scene, problems_)
-                                      : read_feature_table(options_.features, *scene, problems_);
+            options_.features.empty()
+                ? measured_records(options_, list_, plan, threads, problems_)
+                : read_feature_table(options_.features, plan.record.span, problems_);
         if (records.empty() && problems_.empty()) {
             problems_.push_back({"calibrate", 0, "", "no recording of a healthy gearbox",
                                  "check the labels and sizes of the recordings"});
@@ -94,7 +104,7 @@ class Command {
         set_ = healthy_set(records, options_.feature, problems_);
         const double rms = set_.mean_of("sensor_rms");
         if (inputs_.empty() && rms > 0.0) {
-            inputs_ = default_inputs(scene->study(), rms);
+            inputs_ = calibration.default_inputs(rms);
         } else if (inputs_.empty() && problems_.empty()) {
             problems_.push_back({"calibrate", 0, "",
                                  "the default prior of the background noise needs the feature "
@@ -102,7 +112,7 @@ class Command {
                                  "give --prior sensor.noise_m_s2=LOW:HIGH:log and the other "
                                  "priors"});
         }
-        return problems_.empty() ? calibrated(thread_count(scene->ensemble())) : stop();
+        return problems_.empty() ? calibrated(threads) : stop();
     }
 
   private:
@@ -139,7 +149,7 @@ class Command {
         std::vector<FileRole> read{{"the study", options_.study.path},
                                    {"the manifest", options_.manifest},
                                    {"the table of --features", options_.features}};
-        std::erase_if(read, [](const FileRole& one) { return one.path.empty(); });
+        std::erase_if(read, [](const FileRole& file) { return file.path.empty(); });
         for (const Recording& recording : list_.recordings) {
             read.push_back({"a recording", recording.file});
         }

@@ -26,61 +26,60 @@ namespace {
 
 constexpr std::size_t kMissingColumn = 38;  // of the reasons why features are missing
 
-void print_text(const Measurement& measured, const MeasuredSignal& signal,
-                const std::vector<std::string>& notes, const Scene& scene) {
-    const std::vector<MeasuredFeature>& all = measured.features;
+void print_text(const SignalFeatures& found) {
+    const MeasuredSignal& signal = found.signal;
+    const std::vector<MeasuredFeature>& all = found.measured.features;
     fmt::print("{}\n", wrapped_text("mesh phase: " + signal.tracking, 2));
     fmt::print("mesh periods: {} of acceleration, {} of transmission error (full span: {})\n",
-               signal.sensor_meshes, signal.te_meshes, scene.span_meshes());
-    if (const int turns = planet_turns(signal, scene);
-        turns > 0 && turns < scene.span().ring_teeth) {
-        fmt::print("planet turns: {} (full span: {})\n", turns, scene.span().ring_teeth);
+               signal.sensor_meshes, signal.te_meshes, found.span.meshes());
+    if (const int turns = found.planet_turns(); turns > 0 && turns < found.span.ring_teeth) {
+        fmt::print("planet turns: {} (full span: {})\n", turns, found.span.ring_teeth);
     }
-    if (measured.change) {
+    if (const auto& change = found.measured.change) {
         fmt::print(
             "baseline: {} planet turns, shifted by {:.2f} mesh periods; correlation {:.3f}\n",
-            planet_turns(measured.change->signal, scene), measured.change->meshes,
-            measured.change->correlation);
+            change->signal.planet_turns(found.span), change->meshes, change->correlation);
     }
     if (!signal.losses_detectable) {
         fmt::print(
             "lost samples cannot be detected: that needs six similar turns of the carrier or\n"
             "wheel\n");
     }
-    for (const std::string& note : notes) {
+    for (const std::string& note : found.notes) {
         fmt::print("{}\n", wrapped_text("note: " + note, 2));
     }
-    for (const MeasuredFeature& one : all) {
-        if (one.missing.empty()) {
-            fmt::print("{:<22}{:>14.8g}  {}\n", one.feature->name, one.value,
-                       one.feature->unit == "1" ? "" : one.feature->unit);
+    for (const MeasuredFeature& measured : all) {
+        if (measured.missing.empty()) {
+            fmt::print("{:<22}{:>14.8g}  {}\n", measured.feature->name, measured.value,
+                       measured.feature->unit == "1" ? "" : measured.feature->unit);
         }
     }
-    for (const MeasuredFeature& one : all) {
-        if (!one.missing.empty()) {
-            fmt::print("{:<22}{:>14}  {}\n", one.feature->name, "-",
-                       wrapped_text(one.missing, kMissingColumn));
+    for (const MeasuredFeature& measured : all) {
+        if (!measured.missing.empty()) {
+            fmt::print("{:<22}{:>14}  {}\n", measured.feature->name, "-",
+                       wrapped_text(measured.missing, kMissingColumn));
         }
     }
 }
 
 // Comparison of the features with the healthy gearboxes of --against.
-std::string decisions_text(const PopulationDecisions& against, const MeasuredSignal& signal,
-                           const Scene& scene) {
+std::string decisions_text(const PopulationDecisions& against, const SignalFeatures& found) {
     std::string text = fmt::format("\n{:<22}{:>13}{:>13}{:>8}{:>24}\n", "feature", "value",
                                    "threshold", "", "healthy less extreme");
-    for (const AlarmDecision& one : against.decisions) {
-        text += fmt::format("{:<22}{:>13.6g}{:>13.6g}{:>8}{:>14} of {}\n", one.population->name,
-                            one.value, one.population->threshold, one.alarm ? "ALARM" : "",
-                            one.less_extreme, one.population->healthy.size());
+    for (const AlarmDecision& decision : against.decisions) {
+        text += fmt::format("{:<22}{:>13.6g}{:>13.6g}{:>8}{:>14} of {}\n",
+                            decision.population->name, decision.value,
+                            decision.population->threshold, decision.alarm ? "ALARM" : "",
+                            decision.less_extreme, decision.population->healthy.size());
     }
     text += "\n" + wrapped_text(against.sentence, 0) + "\n";
-    const int turns = planet_turns(signal, scene);
-    if (!against.population.is_measured && turns < scene.span().ring_teeth && signal.has_sensor) {
+    const int turns = found.planet_turns();
+    if (!against.population.is_measured && turns < found.span.ring_teeth &&
+        found.signal.has_sensor) {
         text += wrapped_text(
                     fmt::format("The simulated gearboxes have {} planet turns, the recording has "
                                 "{}: it averages less, so its features scatter more.",
-                                scene.span().ring_teeth, turns),
+                                found.span.ring_teeth, turns),
                     0) +
                 "\n";
     }
@@ -127,12 +126,12 @@ int features_command(const FeaturesOptions& options) {
         request.feature = options.feature;
         const SignalFeatures found = signal_features(request, *scene);
         if (!options.json.empty()) {
-            const std::string text = json_text(signal_features_json(found, request, *scene), 2);
+            const std::string text = json_text(signal_features_json(found, request), 2);
             return write_text_to(options.json, text + "\n") ? kDone : kBadInput;
         }
-        print_text(found.measured, found.signal, found.notes, *scene);
+        print_text(found);
         if (found.against) {
-            fmt::print("{}", decisions_text(*found.against, found.signal, *scene));
+            fmt::print("{}", decisions_text(*found.against, found));
         }
         return kDone;
     } catch (const std::exception& error) {
@@ -290,12 +289,12 @@ void print_decisions(const FeaturesOptions& options, const Population& populatio
 
 // Prints the recordings without features and the files written. Returns the exit code.
 int summary(const FeaturesOptions& options, const std::vector<MeasuredRecording>& measured) {
-    const auto bad =
-        std::count_if(measured.begin(), measured.end(),
-                      [](const MeasuredRecording& one) { return !one.problem.empty(); });
-    for (const MeasuredRecording& one : measured) {
-        if (!one.problem.empty()) {
-            fmt::print(stderr, "{}\n", printable(one.problem));
+    const auto bad = std::count_if(
+        measured.begin(), measured.end(),
+        [](const MeasuredRecording& recording) { return !recording.problem.empty(); });
+    for (const MeasuredRecording& recording : measured) {
+        if (!recording.problem.empty()) {
+            fmt::print(stderr, "{}\n", printable(recording.problem));
         }
     }
     if (!options.quiet && options.csv != "-") {
@@ -334,7 +333,7 @@ int recordings_command(const FeaturesOptions& options) {
     }
     RecordingComparison comparison{nullptr, options.baselines};
     if (comparison.options.average == 0) {
-        comparison.options.average = scene->study().monitoring.average_records;
+        comparison.options.average = scene->features().average_recordings;
     }
     problems =
         baseline_problems(comparison.options, list, options.manifest, !options.baseline.empty());
@@ -343,18 +342,18 @@ int recordings_command(const FeaturesOptions& options) {
         return kBadInput;
     }
     try {
+        const MeasurementPlan plan{scene->record(), scene->features(), scene->gearbox().nominal};
         std::optional<Population> population;
         if (!options.against.empty()) {
-            population =
-                read_population(options.against, options.noise_level, scene->features().teeth);
+            population = read_population(options.against, options.noise_level, plan.features.teeth);
         }
         std::vector<std::string> notes;
         const HealthyReference healthy =
             options.healthy.empty()
                 ? HealthyReference()
                 : measured_reference({options.healthy.begin(), options.healthy.end()},
-                                     options.columns, *scene, 1, notes);
-        const auto baseline = measured_baseline(options.baseline, options.columns, *scene);
+                                     options.columns, plan, 1, notes);
+        const auto baseline = measured_baseline(options.baseline, options.columns, plan);
         if (baseline) {
             add_notes(baseline->signal, baseline->file, notes);
         }
@@ -363,13 +362,13 @@ int recordings_command(const FeaturesOptions& options) {
         }
         comparison.given = baseline ? &*baseline : nullptr;
         const bool compared = comparison.any(list);
-        const auto features = measurable(scene->study(), compared);
+        const auto features = measurable(plan.features, compared);
         const int threads = thread_count(scene->ensemble());
         Progress progress(static_cast<long>(list.recordings.size()),
                           options.quiet || options.csv == "-", 0, Progress::Form::text,
                           "recordings");
         const auto [measured, baseline_notes] =
-            measure_recordings(list, options.columns, *scene, healthy, comparison, threads,
+            measure_recordings(list, options.columns, plan, healthy, comparison, threads,
                                [&] { progress.advance(1); });
         progress.finish();
         for (const std::string& note : baseline_notes) {
@@ -380,8 +379,8 @@ int recordings_command(const FeaturesOptions& options) {
             options.csv.empty() ||
             write_text_to(options.csv, recordings_csv(list, measured, features, compared));
         if (!options.out.empty()) {
-            write_results(options.out,
-                          recordings_results(list, measured, features, *scene, threads, compared));
+            write_results(options.out, recordings_results(list, measured, features, compared,
+                                                          scene->ensemble(), threads));
         }
         if (population) {
             print_decisions(options, *population, features, list, measured);

@@ -25,9 +25,9 @@ struct SimulateOptions {
     bool force = false;  // replaces outputs of another kind
 };
 
-void write_hdf5(const std::string& path, const Simulation& simulation, const Study& study) {
+void write_hdf5(const std::string& path, const Simulation& simulation, const EnsemblePlan& plan) {
     const Hdf5Handle file = create_memory_file();
-    for (const auto& [name, value] : provenance(EnsemblePlan(study), 1, 1)) {
+    for (const auto& [name, value] : provenance(plan, 1, 1)) {
         write_text(file.get(), ".", name, value);
     }
     const Hdf5Handle signals = create_group(file.get(), "signals");
@@ -39,9 +39,9 @@ void write_hdf5(const std::string& path, const Simulation& simulation, const Stu
     write_numbers(file.get(), "noise_levels", {levels}, simulation.noise_levels);
     const Hdf5Handle features = create_group(file.get(), "features");
     for (std::size_t f = 0; f < simulation.feature_names.size(); ++f) {
-        const auto at = simulation.features.begin() + static_cast<std::ptrdiff_t>(f * levels);
+        const auto first = simulation.features.begin() + static_cast<std::ptrdiff_t>(f * levels);
         write_numbers(features.get(), simulation.feature_names[f], {levels},
-                      {at, at + static_cast<std::ptrdiff_t>(levels)});
+                      {first, first + static_cast<std::ptrdiff_t>(levels)});
     }
     if (!simulation.contact_loss.empty()) {
         const Hdf5Handle group = create_group(file.get(), kContactLoss);
@@ -112,7 +112,7 @@ int simulate_command(const SimulateOptions& options) {
             const std::string text = signals_csv(simulation.columns);
             write_file(options.out, std::as_bytes(std::span(text)));
         } else if (!options.out.empty()) {
-            write_hdf5(options.out, simulation, scene->study());
+            write_hdf5(options.out, simulation, scene->ensemble());
         }
         print_summary(simulation, options.out);
     } catch (const std::exception& error) {

@@ -31,8 +31,6 @@ class OpenStudy {
     std::string message(const SceneError& error) const;
 
   private:
-    std::string text_of(Problems problems) const;
-
     std::string name_;
     bool with_lines_;
     StudyReading reading_;

@@ -15,13 +15,13 @@
 namespace gearpod::mc {
 namespace {
 
-void check_own_values(const std::string& path, const Results& results, const OwnValues& own) {
+void check_values(const std::string& path, const Results& results, const OwnValues& given) {
     if (results.provenance_value("kind") == kLivesKind) {
         throw BadInput(path + ": contains lives; values are evaluated for the gearboxes of `run`");
     }
-    if (own.values.size() != results.status.size()) {
+    if (given.values.size() != results.status.size()) {
         throw BadInput(fmt::format("{}: has {} rows, but {} has {} values; give one per row", path,
-                                   results.status.size(), own.name, own.values.size()));
+                                   results.status.size(), given.name, given.values.size()));
     }
     if (results.parameter_index(kNoiseWeight)) {
         throw BadInput(path +
@@ -32,11 +32,11 @@ void check_own_values(const std::string& path, const Results& results, const Own
 
 }  // namespace
 
-nlohmann::json grade_values(const std::string& path, const OwnValues& own) {
+nlohmann::json grade_values(const std::string& path, const OwnValues& given) {
     Results results = read_results(path);
-    check_own_values(path, results, own);
-    results.features = {{own.name, own.unit, own.alarm, own.values}};
-    results.noise_levels = results.request.noise_levels = {own.noise_level};
+    check_values(path, results, given);
+    results.features = {{given.name, given.unit, given.alarm, given.values}};
+    results.noise_levels = results.request.noise_levels = {given.noise_level};
     results.numerical.reset();
     const ColumnRows rows(results);
     results.detection = detect_all(results, rows);

@@ -24,6 +24,6 @@ struct OwnValues {
 //  gearboxes}
 // Throws BadInput if the number of values is not that of the rows, if the threshold records are
 // importance-sampled, or for a file of lives; std::runtime_error if the file cannot be read.
-nlohmann::json grade_values(const std::string& path, const OwnValues& own);
+nlohmann::json grade_values(const std::string& path, const OwnValues& given);
 
 }  // namespace gearpod::mc

@@ -11,18 +11,18 @@ namespace {
 // Throws SignalError with the reason if no feature could be computed. Of a signal that is too short
 // the message states the smallest number of mesh periods needed.
 void check_any_feature(const std::vector<MeasuredFeature>& all, const std::string& name,
-                       const Scene& scene, const MeasuredSignal& signal) {
-    const auto good = [](const MeasuredFeature& one) { return one.missing.empty(); };
+                       const FeaturePlan& plan, const MeasuredSignal& signal) {
+    const auto good = [](const MeasuredFeature& measured) { return measured.missing.empty(); };
     if (std::any_of(all.begin(), all.end(), good)) {
         return;
     }
     int shortest = 0;
-    for (const MeasuredFeature& one : all) {
-        const bool there = (one.feature->from_sensor ? signal.has_sensor : signal.has_te) &&
-                           !(one.feature->from_sensor && !scene.features().sensor);
-        const bool central = one.feature->needs.overlaps(features::kCentralGears);
-        const int needed = central ? 0 : scene.features().least_meshes(*one.feature);
-        const int has = one.feature->from_sensor ? signal.sensor_meshes : signal.te_meshes;
+    for (const MeasuredFeature& measured : all) {
+        const bool there = (measured.feature->from_sensor ? signal.has_sensor : signal.has_te) &&
+                           !(measured.feature->from_sensor && !plan.sensor);
+        const bool central = measured.feature->needs.overlaps(features::kCentralGears);
+        const int needed = central ? 0 : plan.least_meshes(*measured.feature);
+        const int has = measured.feature->from_sensor ? signal.sensor_meshes : signal.te_meshes;
         if (there && has < needed) {
             shortest = shortest == 0 ? needed : std::min(shortest, needed);
         }
@@ -38,13 +38,12 @@ void check_any_feature(const std::vector<MeasuredFeature>& all, const std::strin
 }
 
 PopulationDecisions compared(const SignalRequest& request, const Measurement& measured,
-                             const Scene& scene) {
+                             const MemberArray<int>& teeth) {
     PopulationDecisions compared;
-    compared.population =
-        read_population(request.against, request.noise_level, scene.features().teeth);
+    compared.population = read_population(request.against, request.noise_level, teeth);
     std::vector<const features::Feature*> features;
-    for (const MeasuredFeature& one : measured.features) {
-        features.push_back(one.feature);
+    for (const MeasuredFeature& feature : measured.features) {
+        features.push_back(feature.feature);
     }
     compared.decisions = compare_with_population(compared.population, features,
                                                  values_of(measured.features), request.feature);
@@ -53,7 +52,7 @@ PopulationDecisions compared(const SignalRequest& request, const Measurement& me
     return compared;
 }
 
-nlohmann::ordered_json measured_json(const SignalFeatures& measured, const Scene& scene) {
+nlohmann::ordered_json measured_json(const SignalFeatures& measured) {
     const MeasuredSignal& signal = measured.signal;
     nlohmann::ordered_json json;
     json["mesh_phase"] = signal.tracking;
@@ -61,16 +60,16 @@ nlohmann::ordered_json measured_json(const SignalFeatures& measured, const Scene
     json["notes"] = measured.notes;
     json["sensor_meshes"] = signal.sensor_meshes;
     json["te_meshes"] = signal.te_meshes;
-    json["span_meshes"] = scene.span_meshes();
-    json["planet_turns"] = planet_turns(signal, scene);
+    json["span_meshes"] = measured.span.meshes();
+    json["planet_turns"] = measured.planet_turns();
     json["features"] = nlohmann::ordered_json::object();
     json["unavailable"] = nlohmann::ordered_json::object();
-    for (const MeasuredFeature& one : measured.measured.features) {
-        const std::string name(one.feature->name);
-        if (!one.missing.empty()) {
-            json["unavailable"][name] = one.missing;
+    for (const MeasuredFeature& feature : measured.measured.features) {
+        const std::string name(feature.feature->name);
+        if (!feature.missing.empty()) {
+            json["unavailable"][name] = feature.missing;
         } else {
-            json["features"][name] = one.value;
+            json["features"][name] = feature.value;
         }
     }
     return json;
@@ -80,15 +79,15 @@ nlohmann::ordered_json decisions_json(const PopulationDecisions& against,
                                       const std::vector<WorstTooth>& worst,
                                       const std::string& file) {
     nlohmann::ordered_json features = nlohmann::ordered_json::array();
-    for (const AlarmDecision& one : against.decisions) {
-        const auto healthy = static_cast<double>(one.population->healthy.size());
-        features.push_back({{"feature", one.population->name},
-                            {"value", one.value},
-                            {"threshold", one.population->threshold},
-                            {"alarm", one.alarm},
-                            {"margin", one.margin},
-                            {"quantile", static_cast<double>(one.less_extreme) / healthy},
-                            {"healthy", one.population->healthy.size()}});
+    for (const AlarmDecision& decision : against.decisions) {
+        const auto healthy = static_cast<double>(decision.population->healthy.size());
+        features.push_back({{"feature", decision.population->name},
+                            {"value", decision.value},
+                            {"threshold", decision.population->threshold},
+                            {"alarm", decision.alarm},
+                            {"margin", decision.margin},
+                            {"quantile", static_cast<double>(decision.less_extreme) / healthy},
+                            {"healthy", decision.population->healthy.size()}});
     }
     nlohmann::ordered_json teeth = nlohmann::ordered_json::array();
     for (const WorstTooth& tooth : worst) {
@@ -105,41 +104,55 @@ nlohmann::ordered_json decisions_json(const PopulationDecisions& against,
             {"teeth", teeth}};
 }
 
+// Simulated healthy reference at a noise level; empty if the study does not have this level.
+HealthyReference reference_at(double noise_level, const Scene& scene) {
+    const std::vector<double>& levels = scene.record().noise_levels;
+    const auto found = std::ranges::find(levels, noise_level);
+    if (found == levels.end() || !scene.features().sensor) {
+        return {};
+    }
+    const auto level = static_cast<std::size_t>(found - levels.begin());
+    const HealthyReference all = simulated_reference(scene, sensor_paths(scene));
+    return {{all.residual_variance[level]}, {all.envelope_variance[level]}, {all.amplitude[level]}};
+}
+
 }  // namespace
 
 SignalFeatures signal_features(const SignalRequest& request, const Scene& scene) {
+    const MeasurementPlan plan{scene.record(), scene.features(), scene.gearbox().nominal};
     SignalFeatures found;
-    found.signal = read_measured_signal(request.signal, request.columns, scene);
+    found.span = plan.record.span;
+    found.signal = read_measured_signal(request.signal, request.columns, plan);
     found.notes = found.signal.notes;
     const bool long_enough =
-        !found.signal.sensor.empty() && found.signal.sensor_meshes >= scene.span_meshes();
+        !found.signal.sensor.empty() && found.signal.sensor_meshes >= found.span.meshes();
     HealthyReference healthy;
     if (!request.healthy.empty()) {
-        healthy = measured_reference(request.healthy, request.columns, scene,
-                                     planet_turns(found.signal, scene), found.notes);
+        healthy = measured_reference(request.healthy, request.columns, plan, found.planet_turns(),
+                                     found.notes);
     } else if (long_enough) {
-        healthy = simulated_reference_at(request.noise_level, scene);
+        healthy = reference_at(request.noise_level, scene);
     }
-    const auto baseline = measured_baseline(request.baseline, request.columns, scene);
+    const auto baseline = measured_baseline(request.baseline, request.columns, plan);
     if (baseline) {
         add_notes(baseline->signal, baseline->file, found.notes);
     }
-    found.measured = measure(scene, found.signal, healthy, baseline ? &*baseline : nullptr);
-    check_any_feature(found.measured.features, request.signal.name, scene, found.signal);
+    found.measured = measure(plan, found.signal, healthy, baseline ? &*baseline : nullptr);
+    check_any_feature(found.measured.features, request.signal.name, plan.features, found.signal);
     if (!request.against.empty()) {
-        found.against = compared(request, found.measured, scene);
+        found.against = compared(request, found.measured, plan.features.teeth);
     }
     return found;
 }
 
 nlohmann::ordered_json signal_features_json(const SignalFeatures& features,
-                                            const SignalRequest& request, const Scene& scene) {
-    nlohmann::ordered_json json = measured_json(features, scene);
+                                            const SignalRequest& request) {
+    nlohmann::ordered_json json = measured_json(features);
     if (const auto& change = features.measured.change) {
         json["baseline"] = {{"file", request.baseline.name},
                             {"turned_on_meshes", change->meshes},
                             {"correlation", change->correlation},
-                            {"planet_turns", planet_turns(change->signal, scene)}};
+                            {"planet_turns", change->signal.planet_turns(features.span)}};
     }
     if (features.against) {
         json["against"] =

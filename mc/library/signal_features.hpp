@@ -34,6 +34,9 @@ struct SignalFeatures {
     std::optional<PopulationDecisions> against;
     // Statements of the recordings that are not used, and assumptions (MeasuredSignal).
     std::vector<std::string> notes;
+    signals::SpanLayout span;  // of the study
+
+    int planet_turns() const { return signal.planet_turns(span); }
 };
 
 // Throws SignalError with one line per problem, or if no feature can be computed; other exceptions
@@ -42,6 +45,6 @@ SignalFeatures signal_features(const SignalRequest& request, const Scene& scene)
 
 // The same as JSON; `features --json` writes it.
 nlohmann::ordered_json signal_features_json(const SignalFeatures& features,
-                                            const SignalRequest& request, const Scene& scene);
+                                            const SignalRequest& request);
 
 }  // namespace gearpod::mc

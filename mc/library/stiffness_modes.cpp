@@ -120,15 +120,15 @@ std::vector<CriticalSpeed> critical_speeds(const std::vector<SpeedFrequencies>& 
                     continue;
                 }
                 const double share = before / (before - after);
-                const CriticalSpeed one{
+                const CriticalSpeed critical{
                     std::lerp(a.speed_rad_s, b.speed_rad_s, share),
                     std::lerp(a.frequencies_Hz[mode], b.frequencies_Hz[mode], share), harmonic, 1};
                 if (!all.empty() && all.back().harmonic == harmonic &&
-                    std::abs(all.back().frequency_Hz - one.frequency_Hz) <=
-                        kSame * one.frequency_Hz) {
+                    std::abs(all.back().frequency_Hz - critical.frequency_Hz) <=
+                        kSame * critical.frequency_Hz) {
                     ++all.back().modes;
                 } else {
-                    all.push_back(one);
+                    all.push_back(critical);
                 }
             }
         }

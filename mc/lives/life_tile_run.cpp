@@ -33,7 +33,7 @@ class LifeTiles::Lane {
           record_(tiles.scene_, needs_.record, span_.turns * span_.recordings),
           change_(tiles.scene_, needs_.change, span_.turns * span_.recordings),
           reference_(tiles.scene_, needs_.baseline, span_.turns * span_.recordings),
-          python_(tiles.scene_, features_) {
+          python_(tiles.scene_.record(), tiles.scene_.features(), features_) {
         life_.history = tiles.crack_.history(gearbox, cracked);
         life_.values.assign(features_.size(),
                             std::vector<double>(life_.history.records.size(), 0.0));

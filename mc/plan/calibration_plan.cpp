@@ -103,7 +103,21 @@ std::vector<CalibratedInput> read_priors(const std::vector<std::string>& texts,
     return inputs;
 }
 
-Problems calibration_problems(const Study& study, const std::string& path) {
+std::string text_without_distributions(Study study, std::span<const CalibratedInput> inputs) {
+    study.detection.uncertain_inputs.clear();
+    for (const CalibratedInput& input : inputs) {
+        study.detection.uncertain_inputs.push_back(input.key);
+    }
+    std::erase_if(study.random, [&](const RandomInput& random) {
+        return std::ranges::count(inputs, random.key, &CalibratedInput::key) > 0;
+    });
+    return resolved_text(study);
+}
+
+namespace {
+
+// Parts of a study that calibration does not simulate.
+Problems unsupported_parts(const Study& study, const std::string& path) {
     if (study.effects.quasi_static()) {
         return {{path, 0, "effects.motion",
                  "a quasi-static study has no acceleration signal to calibrate",
@@ -132,42 +146,44 @@ Problems calibration_problems(const Study& study, const std::string& path) {
     return problems;
 }
 
-std::string text_without_distributions(Study study, std::span<const CalibratedInput> inputs) {
-    study.detection.uncertain_inputs.clear();
-    for (const CalibratedInput& input : inputs) {
-        study.detection.uncertain_inputs.push_back(input.key);
-    }
-    std::erase_if(study.random, [&](const RandomInput& random) {
-        return std::ranges::count(inputs, random.key, &CalibratedInput::key) > 0;
-    });
-    return resolved_text(study);
-}
+}  // namespace
 
-std::vector<CalibratedInput> default_inputs(const Study& study, double rms) {
-    const MeshErrors& errors = study.errors;
-    const bool pitch =
-        errors.pitch_error_m > 0.0 || study.find_random("gearbox.pitch_error_um") != nullptr;
-    std::vector<CalibratedInput> usual;
-    if (pitch) {
-        usual.push_back({"gearbox.pitch_error_um", 0.2, 100.0, true, 1e-6});
-    } else {
-        usual.push_back({"gearbox.tooth_quality", 2.0, 11.0, false, 1.0});
+CalibrationPlan make_calibration_plan(const Study& study, const std::string& path) {
+    CalibrationPlan plan;
+    plan.unsupported = unsupported_parts(study, path);
+    plan.noise_key = noise_key(study);
+    if (noise_by_density(study)) {
+        plan.noise_unit =
+            1.0 / std::sqrt(signals::low_pass_noise_bandwidth_Hz(study.sensor.low_pass_Hz));
     }
-    // Amplitude in the unit of the key that corresponds to an rms of 1 m/s^2.
-    const double unit =
-        noise_by_density(study)
-            ? 1.0 / std::sqrt(signals::low_pass_noise_bandwidth_Hz(study.sensor.low_pass_Hz))
-            : 1.0;
-    usual.push_back({noise_key(study), 0.01 * rms * unit, 1.05 * rms * unit, true, 1.0});
-    usual.push_back({"sensor.gain", 0.05, 20.0, true, 1.0});
-    usual.push_back({"sensor.path_exponent", -0.2, 0.4, false, 1.0});
-    usual.push_back({"sensor.tone_level", 0.01, 20.0, true, 1.0});  // only for studies with tones
-    std::erase_if(usual, [&](const CalibratedInput& input) {
+    const bool pitch =
+        study.errors.pitch_error_m > 0.0 || study.find_random("gearbox.pitch_error_um") != nullptr;
+    if (pitch) {
+        plan.inputs.push_back({"gearbox.pitch_error_um", 0.2, 100.0, true, 1e-6});
+    } else {
+        plan.inputs.push_back({"gearbox.tooth_quality", 2.0, 11.0, false, 1.0});
+    }
+    plan.inputs.push_back({plan.noise_key, 0.01, 1.05, true, 1.0});
+    plan.inputs.push_back({"sensor.gain", 0.05, 20.0, true, 1.0});
+    plan.inputs.push_back({"sensor.path_exponent", -0.2, 0.4, false, 1.0});
+    plan.inputs.push_back({"sensor.tone_level", 0.01, 20.0, true, 1.0});
+    std::erase_if(plan.inputs, [&](const CalibratedInput& input) {
         const bool forbidden = find_key(input.key)->presence(study).need == Need::forbidden;
         const bool no_path = input.key == "sensor.path_exponent" && study.effects.path == nullptr;
         return forbidden || no_path;
     });
-    return usual;
+    return plan;
+}
+
+std::vector<CalibratedInput> CalibrationPlan::default_inputs(double rms) const {
+    std::vector<CalibratedInput> scaled = inputs;
+    for (CalibratedInput& input : scaled) {
+        if (input.key == noise_key) {
+            input.low = input.low * rms * noise_unit;
+            input.high = input.high * rms * noise_unit;
+        }
+    }
+    return scaled;
 }
 
 std::vector<GivenInput> given_at(std::span<const CalibratedInput> inputs,

@@ -30,15 +30,22 @@ struct CalibratedInput {
 // refer to `--prior`.
 std::vector<CalibratedInput> read_priors(const std::vector<std::string>& texts, Problems& problems);
 
-// Problems of a study that calibration does not simulate; `path` names its file.
-Problems calibration_problems(const Study& study, const std::string& path);
+struct CalibrationPlan {
+    Problems unsupported;  // what the study has, but calibration does not simulate
+    // Default inputs, as far as the study allows them: tooth errors, noise, level of the tones,
+    // gain and path exponent. The prior of the noise is relative to the rms of the recordings.
+    std::vector<CalibratedInput> inputs;
+    std::string noise_key;
+    double noise_unit = 1.0;  // amplitude in the unit of noise_key that has an rms of 1 m/s^2
+
+    // Default inputs of recordings with this rms, m/s^2.
+    std::vector<CalibratedInput> default_inputs(double rms) const;
+};
+// `path` names the study's file in problems.
+CalibrationPlan make_calibration_plan(const Study& study, const std::string& path);
 
 // Text of the study with all defaults in which these inputs are uncertain and not random.
 std::string text_without_distributions(Study study, std::span<const CalibratedInput> inputs);
-
-// Default inputs of a study whose sensor measures `rms` m/s^2: tooth errors, noise, level of the
-// tones, gain and path exponent, as far as the study allows them.
-std::vector<CalibratedInput> default_inputs(const Study& study, double rms);
 
 // Inputs at the given quantiles of their priors; `unit` has one value per input.
 std::vector<GivenInput> given_at(std::span<const CalibratedInput> inputs,

@@ -92,6 +92,7 @@ FeaturePlan make_feature_plan(const Study& study, const signals::SpanLayout& spa
     }
     plan.signal_meshes = plan.meshes_needed(plan.needs.all());
     plan.low_pass_Hz = study.sensor.low_pass_Hz;
+    plan.average_recordings = study.monitoring.average_records;
     plan.sensor = !study.effects.quasi_static();
     return plan;
 }

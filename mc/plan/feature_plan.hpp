@@ -48,8 +48,9 @@ struct FeaturePlan {
     std::optional<signals::GearTurns> sun, ring;
     // Number of mesh periods of sensor signal that the used features need.
     int signal_meshes = 0;
-    double low_pass_Hz = 0.0;  // highest frequency of the sensor's signal
-    bool sensor = true;        // false if the gearboxes are quasi-static: only encoders measure
+    double low_pass_Hz = 0.0;    // highest frequency of the sensor's signal
+    int average_recordings = 1;  // consecutive measured recordings averaged before features
+    bool sensor = true;          // false if the gearboxes are quasi-static: only encoders measure
 
     // Number of mesh periods of sensor signal that features with these needs use.
     int meshes_needed(features::SignalSet with_needs) const;

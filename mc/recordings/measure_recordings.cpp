@@ -24,12 +24,12 @@ namespace {
 
 class ListMeasurement {
   public:
-    ListMeasurement(const RecordingList& list, const SignalColumns& columns, const Scene& scene,
-                    const HealthyReference& healthy, const RecordingComparison& comparison,
-                    int threads)
+    ListMeasurement(const RecordingList& list, const SignalColumns& columns,
+                    const MeasurementPlan& plan, const HealthyReference& healthy,
+                    const RecordingComparison& comparison, int threads)
         : list_(list),
           columns_(columns),
-          scene_(scene),
+          plan_(plan),
           healthy_(healthy),
           comparison_(comparison),
           threads_(threads),
@@ -46,44 +46,44 @@ class ListMeasurement {
         }
         for (std::size_t g = 0; g < groups_.size(); ++g) {
             for (std::size_t p = 0; p < groups_[g].recordings.size(); ++p) {
-                places_.push_back({g, p});
+                positions_.push_back({g, p});
             }
         }
-        std::mutex one_at_a_time;
+        std::mutex reporting;
         // Bounds the signals in memory to a block and the recordings averaged with its first.
         constexpr std::size_t kBlock = 64;
-        for (std::size_t begin = 0; begin < places_.size(); begin += kBlock) {
-            const std::size_t count = std::min(kBlock, places_.size() - begin);
+        for (std::size_t begin = 0; begin < positions_.size(); begin += kBlock) {
+            const std::size_t count = std::min(kBlock, positions_.size() - begin);
             machine::for_each_index(count, threads_,
-                                    [&](std::size_t i) { read(places_[begin + i]); });
+                                    [&](std::size_t i) { read(positions_[begin + i]); });
             machine::for_each_index(count, threads_, [&](std::size_t i) {
-                measure_one(places_[begin + i]);
-                const std::lock_guard lock(one_at_a_time);
+                measure_one(positions_[begin + i]);
+                const std::lock_guard lock(reporting);
                 done();
             });
             for (std::size_t i = 0; i < count; ++i) {
-                signals_[index_of(places_[begin + i])].reset();
+                signals_[index_of(positions_[begin + i])].reset();
             }
             const auto kept = static_cast<std::size_t>(comparison_.options.average);
             for (std::size_t i = 0; i + kept < begin + count; ++i) {
-                aligned_[index_of(places_[i])].reset();
+                aligned_[index_of(positions_[i])].reset();
             }
         }
         return std::move(measured_);
     }
 
   private:
-    struct Place {
-        std::size_t group, position;
+    struct Position {
+        std::size_t group, number;  // of the recording in the group
     };
-    std::size_t index_of(const Place& place) const {
-        return groups_[place.group].recordings[place.position];
+    std::size_t index_of(const Position& position) const {
+        return groups_[position.group].recordings[position.number];
     }
 
     MeasuredSignal signal_of(std::size_t i) const {
         SignalColumns columns = columns_;
         columns.row = list_.recordings[i].row;
-        return read_measured_signal(list_.recordings[i].file, columns, scene_);
+        return read_measured_signal(list_.recordings[i].file, columns, plan_);
     }
 
     // Empty if nothing is compared. Adds a note on the baseline.
@@ -104,7 +104,7 @@ class ListMeasurement {
                 signals[k] = {};  // reported when the recording itself is measured
             }
         });
-        GroupBaseline baseline(group, list_, signals, scene_, comparison_.options.scaled,
+        GroupBaseline baseline(group, list_, signals, plan_.record, comparison_.options.scaled,
                                measured_.notes);
         measured_.notes.push_back(
             baseline.refusal().empty()
@@ -115,21 +115,21 @@ class ListMeasurement {
         return baseline;
     }
 
-    const GroupBaseline* usable_baseline(const Place& place) const {
-        const auto& baseline = baselines_[place.group];
+    const GroupBaseline* usable_baseline(const Position& position) const {
+        const auto& baseline = baselines_[position.group];
         return baseline && baseline->refusal().empty() ? &*baseline : nullptr;
     }
 
-    void read(const Place& place) {
-        const std::size_t i = index_of(place);
+    void read(const Position& position) {
+        const std::size_t i = index_of(position);
         MeasuredRecording& measured = measured_.recordings[i];
         measured.alignment = kNan;
         try {
             signals_[i] = signal_of(i);
-            const GroupBaseline* baseline = usable_baseline(place);
+            const GroupBaseline* baseline = usable_baseline(position);
             if (comparison_.options.average > 1 && baseline != nullptr) {
                 try {
-                    aligned_[i] = baseline->aligned(*signals_[i], scene_);
+                    aligned_[i] = baseline->aligned(*signals_[i], plan_.record);
                 } catch (const SignalError& error) {
                     throw SignalError(
                         fmt::format("{}: {}", list_.recordings[i].name(), error.what()));
@@ -142,13 +142,13 @@ class ListMeasurement {
     }
 
     // Replaces the signal by the mean of the last aligned recordings. Returns their indices.
-    std::vector<std::size_t> average(const Place& place, MeasuredSignal& signal) const {
-        const std::size_t last = place.position + 1;
+    std::vector<std::size_t> average(const Position& position, MeasuredSignal& signal) const {
+        const std::size_t last = position.number + 1;
         const auto most = static_cast<std::size_t>(comparison_.options.average);
         std::vector<std::size_t> used;
-        std::vector<double> sum(aligned_[index_of(place)]->sensor.size(), 0.0);
+        std::vector<double> sum(aligned_[index_of(position)]->sensor.size(), 0.0);
         for (std::size_t p = last - std::min(last, most); p < last; ++p) {
-            const std::size_t i = groups_[place.group].recordings[p];
+            const std::size_t i = groups_[position.group].recordings[p];
             if (aligned_[i]) {
                 used.push_back(i);
                 for (std::size_t s = 0; s < sum.size(); ++s) {
@@ -160,17 +160,17 @@ class ListMeasurement {
             value /= static_cast<double>(used.size());
         }
         signal.sensor_meshes =
-            static_cast<int>(sum.size() / static_cast<std::size_t>(scene_.samples_per_mesh()));
+            static_cast<int>(sum.size() / static_cast<std::size_t>(plan_.record.samples));
         signal.sensor = std::move(sum);
         return used;
     }
 
-    void measure_one(const Place& place) {
-        const std::size_t i = index_of(place);
+    void measure_one(const Position& position) {
+        const std::size_t i = index_of(position);
         MeasuredRecording& measured = measured_.recordings[i];
         try {
             if (measured.problem.empty()) {
-                fill(place, measured);
+                fill(position, measured);
             }
         } catch (const std::exception& error) {
             measured.problem = exception_text(error);
@@ -178,27 +178,27 @@ class ListMeasurement {
         std::replace(measured.problem.begin(), measured.problem.end(), '\n', ';');
     }
 
-    void fill(const Place& place, MeasuredRecording& measured) {
-        const std::size_t i = index_of(place);
+    void fill(const Position& position, MeasuredRecording& measured) {
+        const std::size_t i = index_of(position);
         MeasuredSignal& signal = *signals_[i];
         measured.notes = signal.notes;
         std::vector<std::size_t> used{i};
         if (aligned_[i]) {
-            used = average(place, signal);
+            used = average(position, signal);
         }
         measured.averaged = static_cast<int>(used.size());
         measured.sensor_meshes = signal.sensor_meshes;
-        measured.planet_turns = planet_turns(signal, scene_);
-        const GroupBaseline* group = usable_baseline(place);
+        measured.planet_turns = signal.planet_turns(plan_.record.span);
+        const GroupBaseline* group = usable_baseline(position);
         const auto baseline = group != nullptr ? std::optional(group->without(used)) : std::nullopt;
-        Measurement all = measure(scene_, signal, healthy_, baseline ? &*baseline : nullptr);
+        Measurement all = measure(plan_, signal, healthy_, baseline ? &*baseline : nullptr);
         measured.teeth = std::move(all.teeth);
         measured.map = std::move(all.map);
         if (all.change && std::isnan(measured.alignment)) {
             measured.alignment = all.change->correlation;
         }
         // A group without a usable baseline has no values of features that compare.
-        const auto columns = measurable(scene_.study(), compared_);
+        const auto columns = measurable(plan_.features, compared_);
         measured.values.assign(columns.size(), kNan);
         std::string why;
         bool any = false;
@@ -224,14 +224,14 @@ class ListMeasurement {
 
     const RecordingList& list_;
     const SignalColumns& columns_;
-    const Scene& scene_;
+    const MeasurementPlan& plan_;
     const HealthyReference& healthy_;
     const RecordingComparison& comparison_;
     const int threads_;
     const bool compared_;
     const std::vector<RecordingGroup> groups_;
     std::vector<std::optional<GroupBaseline>> baselines_;
-    std::vector<Place> places_;
+    std::vector<Position> positions_;
     std::vector<std::optional<MeasuredSignal>> signals_;
     std::vector<std::optional<AlignedSensor>> aligned_;
     MeasuredList measured_;
@@ -240,10 +240,10 @@ class ListMeasurement {
 }  // namespace
 
 MeasuredList measure_recordings(const RecordingList& list, const SignalColumns& columns,
-                                const Scene& scene, const HealthyReference& healthy,
+                                const MeasurementPlan& plan, const HealthyReference& healthy,
                                 const RecordingComparison& comparison, int threads,
                                 const std::function<void()>& done) {
-    return ListMeasurement(list, columns, scene, healthy, comparison, threads).run(done);
+    return ListMeasurement(list, columns, plan, healthy, comparison, threads).run(done);
 }
 
 namespace {
@@ -272,8 +272,8 @@ double shown_size(const RecordingList& list, double size) {
 }
 
 bool any_value(const std::vector<MeasuredRecording>& measured, std::size_t feature) {
-    return std::any_of(measured.begin(), measured.end(), [&](const MeasuredRecording& one) {
-        return one.problem.empty() && std::isfinite(one.values[feature]);
+    return std::any_of(measured.begin(), measured.end(), [&](const MeasuredRecording& recording) {
+        return recording.problem.empty() && std::isfinite(recording.values[feature]);
     });
 }
 
@@ -304,7 +304,7 @@ struct Grading {
 Grading grading_of(const RecordingList& list) {
     const bool sized =
         std::any_of(list.recordings.begin(), list.recordings.end(),
-                    [](const Recording& one) { return one.size.value_or(0.0) > 0.0; });
+                    [](const Recording& recording) { return recording.size.value_or(0.0) > 0.0; });
     if (!sized) {
         return {"label", "1", false};
     }
@@ -421,8 +421,8 @@ std::string recordings_csv(const RecordingList& list,
 
 Results recordings_results(const RecordingList& list,
                            const std::vector<MeasuredRecording>& measured,
-                           std::span<const features::Feature* const> features, const Scene& scene,
-                           int threads, bool compared) {
+                           std::span<const features::Feature* const> features, bool compared,
+                           const EnsemblePlan& plan, int threads) {
     const Grading grading = grading_of(list);
     Results results;
     results.noise_levels = {1.0};
@@ -475,13 +475,12 @@ Results recordings_results(const RecordingList& list,
         }
         maps += "\n";
     }
-    const Study& study = scene.study();
-    results.request = {study.detection.false_alarm_rate,
-                       study.detection.confidence,
+    results.request = {plan.request.false_alarm_rate,
+                       plan.request.confidence,
                        results.noise_levels,
                        groups_of(sizes),
                        {grading.name, grading.unit}};
-    for (const auto& [name, value] : provenance(EnsemblePlan(study), 1, threads)) {
+    for (const auto& [name, value] : provenance(plan, 1, threads)) {
         // The study only defines how the recordings were evaluated; it did not create them.
         results.provenance.emplace_back(name == "study" ? "measured_by_study" : name, value);
     }

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "mc/plan/ensemble_plan.hpp"
 #include "mc/recordings/manifest.hpp"
 #include "mc/recordings/measured_features.hpp"
 #include "mc/recordings/recording_baselines.hpp"
@@ -45,7 +46,7 @@ struct RecordingComparison {
 // gets a problem and does not stop the others. `done` is called after each recording, by one thread
 // at a time.
 MeasuredList measure_recordings(const RecordingList& list, const SignalColumns& columns,
-                                const Scene& scene, const HealthyReference& healthy,
+                                const MeasurementPlan& plan, const HealthyReference& healthy,
                                 const RecordingComparison& comparison, int threads,
                                 const std::function<void()>& done);
 
@@ -67,10 +68,10 @@ std::string recordings_csv(const RecordingList& list,
 // recordings set the thresholds. Faulty recordings are evaluated by their size, or as size 1 if no
 // recording has a size. Recordings of unknown condition are only stored. Features without any value
 // are omitted. The provenance has the recording names, and with `compared` their alignments and
-// tooth maps.
+// tooth maps. `plan`: of the study that measured the recordings.
 Results recordings_results(const RecordingList& list,
                            const std::vector<MeasuredRecording>& measured,
-                           std::span<const features::Feature* const> features, const Scene& scene,
-                           int threads, bool compared);
+                           std::span<const features::Feature* const> features, bool compared,
+                           const EnsemblePlan& plan, int threads);
 
 }  // namespace gearpod::mc

@@ -26,26 +26,26 @@ using PlanetRms = features::ToothRms<Member::planet>;
 constexpr int kFewestOfParts = 4;  // samples per mesh period that order_spectrum.hpp needs
 
 // Reason why a feature cannot be computed from this signal; "" if it can.
-std::string why_unavailable(const Feature& feature, const Scene& scene,
+std::string why_unavailable(const Feature& feature, const MeasurementPlan& plan,
                             const MeasuredSignal& signal, bool has_reference) {
-    if (feature.needs.overlaps(features::kCentralGears) && !scene.features().sun) {
+    if (feature.needs.overlaps(features::kCentralGears) && !plan.features.sun) {
         return "the gearbox has no sun and no ring";
     }
-    if (feature.from_sensor && !scene.features().sensor) {
+    if (feature.from_sensor && !plan.features.sensor) {
         return "the study has no sensor (effects.motion)";
     }
     if (!(feature.from_sensor ? signal.has_sensor : signal.has_te)) {
         return feature.from_sensor ? "no sensor signal" : "no transmission error";
     }
     const int has = feature.from_sensor ? signal.sensor_meshes : signal.te_meshes;
-    const int needed = scene.features().least_meshes(feature);
+    const int needed = plan.features.least_meshes(feature);
     if (has < needed) {
         return fmt::format("{} mesh periods, but {} are needed", has, needed);
     }
-    if (feature.needs.has<features::TeParts>() && scene.te_samples_per_mesh() < kFewestOfParts) {
+    if (feature.needs.has<features::TeParts>() && plan.record.te_samples < kFewestOfParts) {
         return fmt::format(
             "the study's encoders take {} samples per mesh period, but {} are needed",
-            scene.te_samples_per_mesh(), kFewestOfParts);
+            plan.record.te_samples, kFewestOfParts);
     }
     if (feature.needs.has<features::HealthyRecords>() && !has_reference) {
         return "no healthy reference at this noise level: give --healthy or --noise-level";
@@ -56,15 +56,15 @@ std::string why_unavailable(const Feature& feature, const Scene& scene,
 // Prepares the signals of a recording for feature computation.
 class MeasuredInput {
   public:
-    MeasuredInput(const Scene& scene, features::SignalSet needs)
-        : scene_(scene), analysis_(scene, needs) {}
+    MeasuredInput(const MeasurementPlan& plan, features::SignalSet needs)
+        : plan_(plan), span_(plan.record.span), analysis_(plan.record, plan.features, needs) {}
 
     features::FeatureInput of(const MeasuredSignal& signal) {
         features::FeatureInput input;
-        if (signal.te_meshes >= scene_.span().planet_teeth) {
+        if (signal.te_meshes >= span_.planet_teeth) {
             add_te(signal, input);
         }
-        if (const int turns = planet_turns(signal, scene_); turns > 0) {
+        if (const int turns = signal.planet_turns(span_); turns > 0) {
             add_sensor(signal, turns, input);
         }
         return input;
@@ -76,48 +76,46 @@ class MeasuredInput {
   private:
     // Averages over all available planet turns, at most those of the span.
     void add_te(const MeasuredSignal& signal, features::FeatureInput& input) {
-        const std::size_t turn = static_cast<std::size_t>(scene_.span().planet_teeth) *
-                                 static_cast<std::size_t>(scene_.te_samples_per_mesh());
-        const std::size_t span = turn * static_cast<std::size_t>(scene_.span().ring_teeth);
+        const std::size_t turn = static_cast<std::size_t>(span_.planet_teeth) *
+                                 static_cast<std::size_t>(plan_.record.te_samples);
+        const std::size_t span = turn * static_cast<std::size_t>(span_.ring_teeth);
         te_ = signals::synchronous_average(
             std::span(signal.te).first(std::min(signal.te.size(), span)), turn);
-        double sum = 0.0, largest = 0.0, deviation = 0.0;
-        for (const double value : te_) {
-            sum += value;
-            largest = std::max(largest, std::abs(value));
-        }
-        for (double& value : te_) {
-            value -= sum / static_cast<double>(turn);
-            deviation = std::max(deviation, std::abs(value));
-        }
+        const auto largest = [&] {
+            double result = 0.0;
+            for (const double value : te_) {
+                result = std::max(result, std::abs(value));
+            }
+            return result;
+        };
+        const double before = largest();
+        remove_mean(te_);
         // The remainder is rounding error; its ratios are meaningless.
-        if (deviation <= kRounding * largest) {
+        if (largest() <= kRounding * before) {
             std::fill(te_.begin(), te_.end(), 0.0);
         }
         signals::OrderSpectrum spectrum(static_cast<int>(turn));
         spectrum.load(te_);
         amplitude_.resize(static_cast<std::size_t>(spectrum.orders()));
         spectrum.amplitudes(0.0, amplitude_);
-        input.get<features::TeTurn>() = {te_, amplitude_, scene_.span().planet_teeth,
-                                         scene_.features().te_harmonics};
+        input.get<features::TeTurn>() = {te_, amplitude_, span_.planet_teeth,
+                                         plan_.features.te_harmonics};
         analysis_.te(te_, input);
     }
 
     void add_sensor(const MeasuredSignal& signal, int turns, features::FeatureInput& input) {
-        const int phases = scene_.samples_per_mesh();
-        const std::size_t turn =
-            static_cast<std::size_t>(scene_.span().planet_teeth) * static_cast<std::size_t>(phases);
+        const std::size_t turn = plan_.record.turn_samples();
         auto folded = signals::fold_of_squares(
             std::span(signal.sensor).first(turn * static_cast<std::size_t>(turns)), turn);
         // Scales to the sum over a whole span, because the windows divide by the number of squares
         // in it.
-        if (turns < scene_.span().ring_teeth) {
+        if (turns < span_.ring_teeth) {
             for (double& sum : folded) {
-                sum *= static_cast<double>(scene_.span().ring_teeth) / turns;
+                sum *= static_cast<double>(span_.ring_teeth) / turns;
             }
         }
-        signals::Windowing windowing(scene_.span(), phases, scene_.features().tukey_taper);
-        tooth_rms_.resize(static_cast<std::size_t>(scene_.span().planet_teeth));
+        signals::Windowing windowing(span_, plan_.record.samples, plan_.features.tukey_taper);
+        tooth_rms_.resize(static_cast<std::size_t>(span_.planet_teeth));
         windowing.load(folded);
         tooth_offset_ = windowing.search(0.0, tooth_rms_);
         input.get<PlanetRms>() = {tooth_rms_};
@@ -127,7 +125,8 @@ class MeasuredInput {
 
     static constexpr double kRounding = 1e-13;
 
-    const Scene& scene_;
+    const MeasurementPlan& plan_;
+    const signals::SpanLayout span_;
     SpanAnalysis analysis_;
     std::vector<double> te_, amplitude_, tooth_rms_;
     int tooth_offset_ = 0;
@@ -135,16 +134,16 @@ class MeasuredInput {
 
 // Reason why a feature has no finite value although its signal exists.
 std::string why_no_value(const Feature& feature, const features::FeatureInput& input,
-                         const Scene& scene) {
+                         const RecordPlan& plan) {
     const auto zero = [](std::span<const double> values) {
         return std::all_of(values.begin(), values.end(), [](double v) { return v == 0.0; });
     };
     if (!feature.from_sensor && zero(input.get<features::TeTurn>().turn)) {
         return "the transmission error is constant";
     }
-    if (feature.name.ends_with("te_fm0") && scene.te_samples_per_mesh() <= 2) {
+    if (feature.name.ends_with("te_fm0") && plan.te_samples <= 2) {
         return fmt::format("no mesh harmonic: the study's encoders take {} samples per mesh period",
-                           scene.te_samples_per_mesh());
+                           plan.te_samples);
     }
     if (feature.from_sensor && input.get<features::SensorPower>().mean_square == 0.0) {
         return "the sensor's signal is zero";
@@ -178,18 +177,18 @@ ToothMap tooth_map(std::span<const double> rms, double offset_meshes, double shi
 std::string why_rounding(const Feature& feature, const features::FeatureInput& input,
                          const MeasuredSignal& signal, const MeasuredBaseline* baseline,
                          const std::optional<MeasuredChange>& change) {
-    const auto of = [&](const features::FeatureInput& one, double rounding, const char* what) {
-        const std::string why = rounding_reason(feature, one, rounding);
+    const auto of = [&](const features::FeatureInput& input_of, double rounding, const char* what) {
+        const std::string why = rounding_reason(feature, input_of, rounding);
         return why.empty() ? why : what + why;
     };
     switch (feature.baseline_use) {
         case features::BaselineUse::change:
             return of(*input.change, change->signal.sensor_rounding, "of the change, ");
         case features::BaselineUse::baseline: {
-            const std::string own = of(input, signal.sensor_rounding, "");
-            return own.empty()
+            const std::string present = of(input, signal.sensor_rounding, "");
+            return present.empty()
                        ? of(*input.baseline, baseline->signal.sensor_rounding, "of the baseline, ")
-                       : own;
+                       : present;
         }
         case features::BaselineUse::nothing:
         case features::BaselineUse::record_and_change:
@@ -199,27 +198,27 @@ std::string why_rounding(const Feature& feature, const features::FeatureInput& i
 }
 
 // Computes the features in Python. The inputs of a recording are not known: they are nominal.
-void measure_in_python(const Scene& scene, std::span<const Feature* const> available,
+void measure_in_python(const MeasurementPlan& plan, std::span<const Feature* const> available,
                        const features::FeatureInput& input, std::vector<MeasuredFeature>& all) {
-    PythonFeatures python(scene, available);
+    PythonFeatures python(plan.record, plan.features, available);
     if (python.empty()) {
         return;
     }
-    python.add(1.0, scene.gearbox().nominal, input);
+    python.add(1.0, plan.nominal, input);
     const std::vector<double> values = python.compute("a recording");
     auto next = values.begin();
-    for (MeasuredFeature& one : all) {
-        if (one.missing.empty() && one.feature->external) {
-            one.value = *next++;
-            if (!std::isfinite(one.value)) {
-                one.missing = "its function in Python returns no finite number";
+    for (MeasuredFeature& measured : all) {
+        if (measured.missing.empty() && measured.feature->external) {
+            measured.value = *next++;
+            if (!std::isfinite(measured.value)) {
+                measured.missing = "its function in Python returns no finite number";
             }
         }
     }
     for (const PythonProblem& problem : python.problems()) {
-        std::ranges::find(all, problem.feature, [](const MeasuredFeature& one) {
-            return one.feature->name;
-        })->missing = fmt::format("{}: {}", problem.place, problem.what);
+        std::ranges::find(all, problem.feature, [](const MeasuredFeature& measured) {
+            return measured.feature->name;
+        })->missing = fmt::format("{}: {}", problem.line, problem.what);
     }
 }
 
@@ -231,59 +230,53 @@ double ToothMap::worst() const {
                                                      rms.begin());
 }
 
-int planet_turns(const MeasuredSignal& signal, const Scene& scene) {
-    return signal.has_sensor
-               ? std::min(signal.sensor_meshes / scene.span().planet_teeth, scene.span().ring_teeth)
-               : 0;
-}
-
 std::optional<MeasuredBaseline> measured_baseline(const SignalSource& source,
                                                   const SignalColumns& columns,
-                                                  const Scene& scene) {
+                                                  const MeasurementPlan& plan) {
     if (source.empty()) {
         return std::nullopt;
     }
-    return MeasuredBaseline{source.name, read_measured_signal(source, columns, scene), false};
+    return MeasuredBaseline{source.name, read_measured_signal(source, columns, plan), false};
 }
 
-std::vector<const Feature*> measurable(const Study& study, bool with_baseline) {
+std::vector<const Feature*> measurable(const FeaturePlan& plan, bool with_baseline) {
     std::vector<const Feature*> all;
     for (const Feature& feature :
          with_baseline ? features::all_features() : features::record_features()) {
         all.push_back(&feature);
     }
-    for (const PythonFeature& one : study.features.python) {
-        if (with_baseline || one.feature->baseline_use == features::BaselineUse::nothing) {
-            all.push_back(one.feature);
+    for (const PythonFeature& function : plan.python) {
+        if (with_baseline || function.feature->baseline_use == features::BaselineUse::nothing) {
+            all.push_back(function.feature);
         }
     }
     return all;
 }
 
-Measurement measure(const Scene& scene, const MeasuredSignal& signal,
+Measurement measure(const MeasurementPlan& plan, const MeasuredSignal& signal,
                     const HealthyReference& healthy, const MeasuredBaseline* baseline) {
     Measurement measurement;
     const bool has_reference = !healthy.amplitude.empty();
     std::string no_change;
     if (baseline != nullptr) {
         try {
-            measurement.change = measured_change(scene, signal, *baseline);
+            measurement.change = measured_change(plan.record, signal, *baseline);
         } catch (const SignalError& error) {
             no_change = error.what();
         }
     }
     std::vector<MeasuredFeature>& all = measurement.features;
     std::vector<const Feature*> available;
-    for (const Feature* feature : measurable(scene.study(), baseline != nullptr)) {
+    for (const Feature* feature : measurable(plan.features, baseline != nullptr)) {
         const bool of_change = feature->baseline_use == features::BaselineUse::change ||
                                feature->baseline_use == features::BaselineUse::record_and_change;
-        std::string why = why_unavailable(*feature, scene, signal, has_reference);
+        std::string why = why_unavailable(*feature, plan, signal, has_reference);
         if (why.empty() && of_change) {
             why = measurement.change
-                      ? why_unavailable(*feature, scene, measurement.change->signal, true)
+                      ? why_unavailable(*feature, plan, measurement.change->signal, true)
                       : no_change;
         } else if (why.empty() && feature->baseline_use == features::BaselineUse::baseline) {
-            why = why_unavailable(*feature, scene, baseline->signal, has_reference);
+            why = why_unavailable(*feature, plan, baseline->signal, has_reference);
             why = why.empty() ? why : baseline->file + ": " + why;
         }
         all.push_back({feature, 0.0, why});
@@ -292,9 +285,9 @@ Measurement measure(const Scene& scene, const MeasuredSignal& signal,
         }
     }
     const ComparedNeeds needs = compared_needs(available);
-    MeasuredInput own(scene, needs.record), earlier(scene, needs.baseline),
-        changed(scene, needs.change);
-    features::FeatureInput input = own.of(signal), before, change;
+    MeasuredInput present(plan, needs.record), earlier(plan, needs.baseline),
+        changed(plan, needs.change);
+    features::FeatureInput input = present.of(signal), before, change;
     if (baseline != nullptr) {
         before = earlier.of(baseline->signal);
         input.baseline = &before;
@@ -307,22 +300,22 @@ Measurement measure(const Scene& scene, const MeasuredSignal& signal,
         input.get<features::HealthyRecords>() = before.get<features::HealthyRecords>() =
             healthy.at(0);
     }
-    measure_in_python(scene, available, input, all);
-    for (MeasuredFeature& one : all) {
-        if (one.missing.empty() && !one.feature->external) {
-            one.value = one.feature->value(input);
-            if (!std::isfinite(one.value)) {
-                one.missing = why_no_value(*one.feature, input, scene);
+    measure_in_python(plan, available, input, all);
+    for (MeasuredFeature& measured : all) {
+        if (measured.missing.empty() && !measured.feature->external) {
+            measured.value = measured.feature->value(input);
+            if (!std::isfinite(measured.value)) {
+                measured.missing = why_no_value(*measured.feature, input, plan.record);
             } else {
-                one.missing =
-                    why_rounding(*one.feature, input, signal, baseline, measurement.change);
+                measured.missing =
+                    why_rounding(*measured.feature, input, signal, baseline, measurement.change);
             }
         }
     }
     const features::FeatureInput& shown = measurement.change ? change : input;
-    const double per_mesh = scene.samples_per_mesh();
+    const double per_mesh = plan.record.samples;
     measurement.map = tooth_map(shown.get<PlanetRms>().rms,
-                                (measurement.change ? changed : own).tooth_offset() / per_mesh,
+                                (measurement.change ? changed : present).tooth_offset() / per_mesh,
                                 measurement.change ? measurement.change->meshes : 0.0);
     const std::pair<const char*, std::span<const double>> gears[] = {
         {"planet", shown.get<PlanetRms>().rms},
@@ -336,15 +329,15 @@ Measurement measure(const Scene& scene, const MeasuredSignal& signal,
     return measurement;
 }
 
-std::vector<double> measured_values(const Scene& scene, const MeasuredSignal& signal,
+std::vector<double> measured_values(const MeasurementPlan& plan, const MeasuredSignal& signal,
                                     std::span<const Feature* const> requested) {
     features::SignalSet needs;
     std::vector<char> available;
     for (const Feature* feature : requested) {
-        available.push_back(why_unavailable(*feature, scene, signal, false).empty() ? 1 : 0);
+        available.push_back(why_unavailable(*feature, plan, signal, false).empty() ? 1 : 0);
         needs |= available.back() != 0 ? feature->needs : features::SignalSet();
     }
-    MeasuredInput measured(scene, needs);
+    MeasuredInput measured(plan, needs);
     const features::FeatureInput input = measured.of(signal);
     std::vector<double> values;
     for (std::size_t f = 0; f < requested.size(); ++f) {
@@ -354,20 +347,20 @@ std::vector<double> measured_values(const Scene& scene, const MeasuredSignal& si
 }
 
 HealthyReference measured_reference(const std::vector<SignalSource>& recordings,
-                                    const SignalColumns& columns, const Scene& scene, int turns,
-                                    std::vector<std::string>& notes) {
+                                    const SignalColumns& columns, const MeasurementPlan& plan,
+                                    int turns, std::vector<std::string>& notes) {
     HealthyRecordsMean mean(1);
     for (const SignalSource& recording : recordings) {
-        const MeasuredSignal signal = read_measured_signal(recording, columns, scene);
+        const MeasuredSignal signal = read_measured_signal(recording, columns, plan);
         add_notes(signal, recording.name, notes);
-        if (planet_turns(signal, scene) < std::max(1, turns)) {
+        if (signal.planet_turns(plan.record.span) < std::max(1, turns)) {
             throw SignalError(fmt::format(
                 "{}: {} mesh periods of sensor signal, but a healthy record must have at least {}, "
                 "as many planet turns as the signal",
                 recording.name, signal.sensor_meshes,
-                std::max(1, turns) * scene.span().planet_teeth));
+                std::max(1, turns) * plan.record.span.planet_teeth));
         }
-        MeasuredInput input(scene, features::SignalSet::of<features::SensorTurn>());
+        MeasuredInput input(plan, features::SignalSet::of<features::SensorTurn>());
         mean.add(0, input.of(signal));
     }
     return mean.mean();
@@ -378,17 +371,6 @@ void add_notes(const MeasuredSignal& signal, const std::string& name,
     for (const std::string& note : signal.notes) {
         notes.push_back(fmt::format("{}: {}", name, note));
     }
-}
-
-HealthyReference simulated_reference_at(double noise_level, const Scene& scene) {
-    const auto& levels = scene.study().sensor.noise_levels;
-    const auto level = std::find(levels.begin(), levels.end(), noise_level);
-    if (level == levels.end() || scene.study().effects.quasi_static()) {
-        return {};
-    }
-    const auto at = static_cast<std::size_t>(level - levels.begin());
-    const HealthyReference all = simulated_reference(scene, sensor_paths(scene));
-    return {{all.residual_variance[at]}, {all.envelope_variance[at]}, {all.amplitude[at]}};
 }
 
 }  // namespace gearpod::mc

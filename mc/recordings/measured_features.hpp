@@ -8,7 +8,6 @@
 
 #include "features/feature.hpp"
 #include "mc/ensemble/gearbox/realization_features.hpp"
-#include "mc/plan/scene.hpp"
 #include "mc/recordings/measured_signal.hpp"
 
 namespace gearpod::mc {
@@ -27,17 +26,14 @@ struct WorstTooth {
     double ratio = 0.0;  // RMS of this tooth divided by the median
 };
 
-// Number of whole planet turns of sensor signal that features of the planets' teeth can use, at
-// most the span's. With fewer turns, each tooth meets fewer ring teeth and is averaged less.
-int planet_turns(const MeasuredSignal& signal, const Scene& scene);
-
 // Empty if `source` is empty. Throws SignalError.
 std::optional<MeasuredBaseline> measured_baseline(const SignalSource& source,
-                                                  const SignalColumns& columns, const Scene& scene);
+                                                  const SignalColumns& columns,
+                                                  const MeasurementPlan& plan);
 
 // Features that can be measured: those of the program, then those in Python that the study names.
 // Only those of one record unless there is a baseline.
-std::vector<const features::Feature*> measurable(const Study& study, bool with_baseline);
+std::vector<const features::Feature*> measurable(const FeaturePlan& plan, bool with_baseline);
 
 // RMS of every tooth of the planet, from the tooth that passes `first` mesh periods after the
 // start. A record with a change has those of the change, and its start is the baseline's.
@@ -57,25 +53,22 @@ struct Measurement {
     ToothMap map;
     std::optional<MeasuredChange> change;
 };
-Measurement measure(const Scene& scene, const MeasuredSignal& signal,
+Measurement measure(const MeasurementPlan& plan, const MeasuredSignal& signal,
                     const HealthyReference& healthy, const MeasuredBaseline* baseline = nullptr);
 
 // Values of `requested` features that need no healthy reference, in this order. NaN where the
 // signal is insufficient.
-std::vector<double> measured_values(const Scene& scene, const MeasuredSignal& signal,
+std::vector<double> measured_values(const MeasurementPlan& plan, const MeasuredSignal& signal,
                                     std::span<const features::Feature* const> requested);
 
 // Mean over recordings of healthy gearboxes. Adds the notes on them to `notes`. Throws SignalError,
 // also for a recording of fewer than `turns` planet turns.
 HealthyReference measured_reference(const std::vector<SignalSource>& recordings,
-                                    const SignalColumns& columns, const Scene& scene, int turns,
-                                    std::vector<std::string>& notes);
+                                    const SignalColumns& columns, const MeasurementPlan& plan,
+                                    int turns, std::vector<std::string>& notes);
 
 // Adds the notes on a recording with its name.
 void add_notes(const MeasuredSignal& signal, const std::string& name,
                std::vector<std::string>& notes);
-
-// Simulated healthy reference at a noise level; empty if the study does not have this level.
-HealthyReference simulated_reference_at(double noise_level, const Scene& scene);
 
 }  // namespace gearpod::mc

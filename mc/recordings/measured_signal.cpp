@@ -16,19 +16,18 @@
 #include "mc/recordings/quantisation.hpp"
 #include "mc/recordings/recording_columns.hpp"
 #include "signals/rotation/shaft_motion.hpp"
-#include "signals/spectra/alignment.hpp"
 #include "signals/spectra/recording_checks.hpp"
 #include "signals/spectra/resampling.hpp"
 
 namespace gearpod::mc {
 
-std::vector<std::string> rate_problems(std::span<const double> phase, const Scene& scene,
+std::vector<std::string> rate_problems(std::span<const double> phase, const MeasurementPlan& plan,
                                        RecordedSignals has) {
     constexpr double kFewestSamples = 2.0;  // per mesh period
     constexpr double kRateTolerance = 1.02;
     const double per_mesh = static_cast<double>(phase.size() - 1) / (phase.back() - phase.front());
-    const double mesh_Hz = scene.nominal_mesh_frequency_Hz();
-    const double low_pass = scene.study().sensor.low_pass_Hz;
+    const double mesh_Hz = plan.record.mesh_frequency_Hz;
+    const double low_pass = plan.features.low_pass_Hz;
     std::vector<std::string> problems;
     if (has.te && per_mesh < kFewestSamples) {
         problems.push_back(
@@ -36,11 +35,11 @@ std::vector<std::string> rate_problems(std::span<const double> phase, const Scen
                         "the transmission error; check the speed and the sampling rate",
                         per_mesh));
     }
-    if (has.sensor && per_mesh > kRateTolerance * scene.samples_per_mesh()) {
+    if (has.sensor && per_mesh > kRateTolerance * plan.record.samples) {
         problems.push_back(
             fmt::format("{:.6g} samples per mesh period, but the study's grid has {}; set "
                         "sensor.sampling_Hz to that of the recording, about {:.6g} Hz",
-                        per_mesh, scene.samples_per_mesh(), per_mesh * mesh_Hz));
+                        per_mesh, plan.record.samples, per_mesh * mesh_Hz));
     }
     if (has.sensor && per_mesh * mesh_Hz < 2.0 * low_pass) {
         problems.push_back(
@@ -60,8 +59,9 @@ constexpr double kRadPerSecondPerRpm = 2.0 * std::numbers::pi / 60.0;  // rad/s 
 
 class SignalReader : RecordingColumns {
   public:
-    SignalReader(const SignalSource& source, const SignalColumns& columns, const Scene& scene)
-        : RecordingColumns(source, columns), scene_(scene) {}
+    SignalReader(const SignalSource& source, const SignalColumns& columns,
+                 const MeasurementPlan& plan)
+        : RecordingColumns(source, columns), plan_(plan), record_(plan.record) {}
 
     MeasuredSignal read() {
         // The libraries that read files are not thread-safe.
@@ -94,13 +94,13 @@ class SignalReader : RecordingColumns {
         file_.reset();
         lock.unlock();
         for (const std::string& problem :
-             rate_problems(phase, scene_, {!sensor.empty(), !te.empty()})) {
+             rate_problems(phase, plan_, {!sensor.empty(), !te.empty()})) {
             reject(problem);
         }
         stop_at_problems();
         if (columns_.samples_per_mesh > 0.0) {
             extend_periodically({&sensor, &te}, phase,
-                                columns_.samples_per_mesh * scene_.span().planet_teeth);
+                                columns_.samples_per_mesh * record_.span.planet_teeth);
         }
         measured.sensor_rounding = rounding_rms(sensor);
         keep(sensor, phase.size());
@@ -123,13 +123,13 @@ class SignalReader : RecordingColumns {
                   const std::vector<double>& phase, MeasuredSignal& measured) const {
         const signals::OrderTracking tracking(phase);
         if (!sensor.empty()) {
-            const int grid = scene_.samples_per_mesh();
+            const int grid = record_.samples;
             measured.sensor_meshes = tracking.meshes(grid);
             measured.sensor =
                 tracking.resample(sensor, grid, std::min(measured.sensor_meshes, most_meshes()));
         }
         if (!te.empty()) {
-            const int grid = scene_.te_samples_per_mesh();
+            const int grid = record_.te_samples;
             measured.te_meshes = tracking.meshes(grid);
             measured.te = tracking.resample(te, grid, std::min(measured.te_meshes, most_meshes()));
         }
@@ -158,9 +158,8 @@ class SignalReader : RecordingColumns {
         counted_ = true;
         const std::string speed_name = found(kSpeed, false);
         if (speed_name.empty()) {
-            how = fmt::format("constant speed, {:.6g} Hz at the mesh",
-                              scene_.nominal_mesh_frequency_Hz());
-            return scaled(std::move(phase), scene_.nominal_mesh_frequency_Hz());
+            how = fmt::format("constant speed, {:.6g} Hz at the mesh", record_.mesh_frequency_Hz);
+            return scaled(std::move(phase), record_.mesh_frequency_Hz);
         }
         const std::vector<double> speed_rpm = column(speed_name, Quantity::speed);
         reject_column(kSpeed, sign_change_text(speed_rpm));
@@ -206,7 +205,7 @@ class SignalReader : RecordingColumns {
     // Mesh periods per turn of the member whose speed the study gives.
     double meshes_per_turn() const {
         // The argument 2 pi rad/s is one turn per second.
-        return std::abs(scene_.drivetrain().mesh_frequency_rad_s(2.0 * std::numbers::pi)) /
+        return std::abs(record_.drivetrain->mesh_frequency_rad_s(2.0 * std::numbers::pi)) /
                (2.0 * std::numbers::pi);
     }
 
@@ -224,7 +223,7 @@ class SignalReader : RecordingColumns {
             return 1.0;
         }
         const auto found =
-            signals::mesh_speed(measured.sensor, scene_.samples_per_mesh(), scene_.path_meshes());
+            signals::mesh_speed(measured.sensor, record_.samples, record_.path_meshes());
         constexpr double kClearly = 0.5;  // relative to the best fit
         // harmonics; with fewer, a ratio that is off by one tooth fits as well
         constexpr int kEnough = 4;
@@ -252,7 +251,7 @@ class SignalReader : RecordingColumns {
             return;
         }
         reject_column(columns_.sensor.empty() ? kSensor : columns_.sensor,
-                      losses_text(measured.sensor, scene_.samples_per_mesh(), scene_.path_meshes(),
+                      losses_text(measured.sensor, record_.samples, record_.path_meshes(),
                                   measured.losses_detectable));
     }
 
@@ -264,7 +263,7 @@ class SignalReader : RecordingColumns {
         }
         std::vector<double> frequency_Hz;
         for (const double rpm : speed_rpm) {
-            frequency_Hz.push_back(std::abs(scene_.drivetrain().mesh_frequency_rad_s(
+            frequency_Hz.push_back(std::abs(record_.drivetrain->mesh_frequency_rad_s(
                                        std::abs(rpm) * kRadPerSecondPerRpm)) /
                                    (2.0 * std::numbers::pi));
         }
@@ -285,14 +284,15 @@ class SignalReader : RecordingColumns {
 
     // Largest number of mesh periods that any feature uses.
     int most_meshes() const {
-        return scene_.features().meshes_needed(scene_.features().sun ? features::kCentralGears
-                                                                     : features::SignalSet());
+        return plan_.features.meshes_needed(plan_.features.sun ? features::kCentralGears
+                                                               : features::SignalSet());
     }
 
     // Smallest jump of a measured motion that is reported, in mesh periods.
     static constexpr double kSmallestJump = 0.05;
 
-    const Scene& scene_;
+    const MeasurementPlan& plan_;
+    const RecordPlan& record_;
     std::size_t first_sample_ = 0;
     bool counted_ = false;  // true if the phase comes only from sample numbers, times and speed
 };
@@ -300,8 +300,19 @@ class SignalReader : RecordingColumns {
 }  // namespace
 
 MeasuredSignal read_measured_signal(const SignalSource& source, const SignalColumns& columns,
-                                    const Scene& scene) {
-    return SignalReader(source, columns, scene).read();
+                                    const MeasurementPlan& plan) {
+    return SignalReader(source, columns, plan).read();
+}
+
+AlignedSensor aligned_with(std::span<const double> other, std::span<const double> signal, int turns,
+                           const signals::SpanLayout& span) {
+    AlignedSensor aligned{{signal.begin(), signal.end()}, 0.0, {}};
+    if (turns == 1 || turns == span.ring_teeth) {
+        aligned.shift = signals::align(other, signal).shift;
+        aligned.sensor = signals::shifted(signal, aligned.shift);
+    }
+    aligned.correlation = signals::correlation(other, aligned.sensor);
+    return aligned;
 }
 
 namespace {
@@ -318,42 +329,36 @@ double best_scale(std::span<const double> now, std::span<const double> before) {
 
 }  // namespace
 
-MeasuredChange measured_change(const Scene& scene, const MeasuredSignal& record,
+MeasuredChange measured_change(const RecordPlan& plan, const MeasuredSignal& record,
                                const MeasuredBaseline& from) {
     const MeasuredSignal& baseline = from.signal;
     const std::string& baseline_file = from.file;
-    const int teeth = scene.span().planet_teeth, of_span = scene.span().ring_teeth;
-    const int turns =
-        std::min({record.sensor_meshes / teeth, baseline.sensor_meshes / teeth, of_span});
-    if (!record.has_sensor || !baseline.has_sensor || turns < 1) {
+    const int teeth = plan.span.planet_teeth;
+    const int turns = std::min(record.planet_turns(plan.span), baseline.planet_turns(plan.span));
+    if (turns < 1) {
         throw SignalError(
             fmt::format("{}: the baseline and the recording must both have at least {} mesh "
                         "periods of sensor signal",
                         baseline_file, teeth));
     }
-    const auto per_mesh = static_cast<std::size_t>(scene.samples_per_mesh());
-    const auto meshes = static_cast<std::size_t>(turns) * static_cast<std::size_t>(teeth);
-    const auto now = std::span(record.sensor).first(meshes * per_mesh);
-    std::vector<double> before(baseline.sensor.begin(),
-                               baseline.sensor.begin() + static_cast<std::ptrdiff_t>(now.size()));
+    const auto samples = static_cast<std::size_t>(turns) * plan.turn_samples();
+    const auto now = std::span(record.sensor).first(samples);
+    auto [before, correlation, shift] =
+        aligned_with(now, std::span(baseline.sensor).first(samples), turns, plan.span);
     MeasuredChange change;
-    if (turns == of_span || turns == 1) {
-        const signals::Shift shift = signals::align(now, before).shift;
-        before = signals::shifted(before, shift);
-        const double turned = shift.total() / static_cast<double>(per_mesh);
-        change.meshes = turned < 0.0 ? turned + static_cast<double>(meshes) : turned;
-    }
-    change.correlation = signals::correlation(now, before);
+    const double turned = shift.total() / static_cast<double>(plan.samples);
+    change.meshes = turned < 0.0 ? turned + static_cast<double>(turns * teeth) : turned;
+    change.correlation = correlation;
     if (!(change.correlation >= kLeastCorrelation)) {
         throw SignalError(fmt::format(
             "{}: the recording does not resemble this baseline (correlation {:.2f}): another "
             "gearbox or speed{}",
             baseline_file, change.correlation,
-            turns == of_span || turns == 1
+            turns == plan.span.ring_teeth || turns == 1
                 ? ""
                 : fmt::format(", or another start position, which is allowed only for recordings "
                               "of {} mesh periods or of one averaged planet turn",
-                              scene.span_meshes())));
+                              plan.span.meshes())));
     }
     if (from.scaled) {
         change.scale = best_scale(now, before);
@@ -366,7 +371,7 @@ MeasuredChange measured_change(const Scene& scene, const MeasuredSignal& record,
         std::hypot(record.sensor_rounding, change.scale * baseline.sensor_rounding);
     change.signal.sensor = std::move(before);
     change.signal.has_sensor = true;
-    change.signal.sensor_meshes = static_cast<int>(meshes);
+    change.signal.sensor_meshes = turns * teeth;
     return change;
 }
 

@@ -1,14 +1,24 @@
-// Sampling rate of a recording compared with the grid of a study.
+// Measured signals on the mesh-phase grid of a study, and their change since a baseline.
 #pragma once
 
+#include <algorithm>
 #include <span>
 #include <string>
 #include <vector>
 
-#include "mc/plan/scene.hpp"
+#include "mc/plan/feature_plan.hpp"
+#include "mc/plan/record_plan.hpp"
 #include "mc/recordings/recording_columns.hpp"
+#include "signals/spectra/alignment.hpp"
 
 namespace gearpod::mc {
+
+// Parts of a study's plan with which recordings are read and measured.
+struct MeasurementPlan {
+    const RecordPlan& record;
+    const FeaturePlan& features;
+    InstanceInputs nominal;  // inputs of every recorded gearbox, which are not known
+};
 
 struct RecordedSignals {
     bool sensor = false, te = false;
@@ -17,10 +27,8 @@ struct RecordedSignals {
 // Problems of the number of samples per mesh period: too few to resolve the mesh frequency or the
 // sensor's frequency range, or so many that the study's grid would alias high frequencies. `phase`
 // has the mesh phase of every sample.
-std::vector<std::string> rate_problems(std::span<const double> phase, const Scene& scene,
+std::vector<std::string> rate_problems(std::span<const double> phase, const MeasurementPlan& plan,
                                        RecordedSignals has);
-
-// Measured signal on the mesh-phase grid of a study.
 
 struct MeasuredSignal {
     // Mesh periods that features use, as far as the recording has them.
@@ -34,6 +42,12 @@ struct MeasuredSignal {
     bool losses_detectable = true;
     // Statements of the file that are not used, and assumptions.
     std::vector<std::string> notes;
+
+    // Number of whole planet turns of sensor signal that features of the planets' teeth can use, at
+    // most the span's. With fewer turns, each tooth meets fewer ring teeth and is averaged less.
+    int planet_turns(const signals::SpanLayout& span) const {
+        return has_sensor ? std::min(sensor_meshes / span.planet_teeth, span.ring_teeth) : 0;
+    }
 };
 
 // Reads a recording (signal_file.hpp) and resamples it unless it is on the grid already. The mesh
@@ -49,19 +63,29 @@ struct MeasuredSignal {
 //
 // and its time from sampling_Hz, from the column time (s), or from the sampling rate in the file.
 // Units are converted (signal_units.hpp). Problems are unknown units, missing and clipped samples
-// (recording_columns.hpp, signals/spectra/recording_checks.hpp), and a speed that does not fit the mesh
-// lines. Throws SignalError with one line per problem. Thread-safe: one thread reads at a time.
+// (recording_columns.hpp, signals/spectra/recording_checks.hpp), and a speed that does not fit the
+// mesh lines. Throws SignalError with one line per problem. Thread-safe: one thread reads at a
+// time.
 MeasuredSignal read_measured_signal(const SignalSource& source, const SignalColumns& columns,
-                                    const Scene& scene);
+                                    const MeasurementPlan& plan);
+
+// A sensor signal aligned with another of the same gearbox.
+struct AlignedSensor {
+    std::vector<double> sensor;  // m/s^2
+    double correlation = 0.0;    // with the other signal, after alignment
+    signals::Shift shift;
+};
+// Moves a signal over this number of planet turns to the start of the other. Only the whole span
+// and one averaged planet turn are periodic; other signals stay as they are.
+AlignedSensor aligned_with(std::span<const double> other, std::span<const double> signal, int turns,
+                           const signals::SpanLayout& span);
 
 // Change of a measured gearbox since an earlier recording of it.
-
 struct MeasuredChange {
     // Difference of the two sensor signals, over the planet turns that both have. No transmission
     // error.
     MeasuredSignal signal;
-    // Mesh periods by which the baseline was shifted to align it with the recording. Only
-    // recordings of the whole span or of one averaged planet turn are periodic and can be shifted.
+    // Mesh periods by which the baseline was shifted to align it with the recording.
     double meshes = 0.0;
     double correlation = 0.0;  // of both signals after alignment
     double scale = 1.0;        // factor on the baseline before the subtraction
@@ -82,7 +106,7 @@ struct MeasuredBaseline {
 
 // Throws SignalError if a recording has less than one planet turn of sensor signal, or if the
 // correlation is below kLeastCorrelation.
-MeasuredChange measured_change(const Scene& scene, const MeasuredSignal& record,
+MeasuredChange measured_change(const RecordPlan& plan, const MeasuredSignal& record,
                                const MeasuredBaseline& baseline);
 
 }  // namespace gearpod::mc

@@ -119,9 +119,9 @@ std::vector<AlarmDecision> compare_with_population(
     const std::vector<double>& measured, const std::string& feature) {
     std::vector<AlarmDecision> decisions;
     for (const PopulationFeature& known : population.features) {
-        const auto at = static_cast<std::size_t>(
+        const auto index = static_cast<std::size_t>(
             std::ranges::find(features, known.name, &features::Feature::name) - features.begin());
-        const double value = at < measured.size() ? measured[at] : kNan;
+        const double value = index < measured.size() ? measured[index] : kNan;
         if (!std::isfinite(value)) {
             continue;
         }
@@ -137,8 +137,8 @@ std::vector<AlarmDecision> compare_with_population(
         decisions.push_back(decision);
     }
     const auto named =
-        std::find_if(decisions.begin(), decisions.end(), [&](const AlarmDecision& one) {
-            return feature.empty() || one.population->name == feature;
+        std::find_if(decisions.begin(), decisions.end(), [&](const AlarmDecision& decision) {
+            return feature.empty() || decision.population->name == feature;
         });
     if (named == decisions.end()) {
         refuse(population.file,
@@ -153,8 +153,8 @@ std::vector<AlarmDecision> compare_with_population(
 
 std::vector<double> values_of(const std::vector<MeasuredFeature>& measured) {
     std::vector<double> values;
-    for (const MeasuredFeature& one : measured) {
-        values.push_back(one.missing.empty() ? one.value : kNan);
+    for (const MeasuredFeature& feature : measured) {
+        values.push_back(feature.missing.empty() ? feature.value : kNan);
     }
     return values;
 }

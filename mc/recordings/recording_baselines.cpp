@@ -10,26 +10,12 @@
 #include "features/statistics/signal_statistics.hpp"
 #include "mc/files/input/terminal_text.hpp"
 #include "mc/files/signal_file.hpp"
-#include "signals/spectra/alignment.hpp"
 
 namespace gearpod::mc {
 namespace {
 
 bool marked(const RecordingList& list) {
     return std::ranges::any_of(list.recordings, &Recording::in_baseline);
-}
-
-// Moves the recording to the baseline's start. Recordings that cannot be shifted stay as they are
-// (measured_signal.hpp).
-AlignedSensor aligned_with(std::span<const double> mean, std::span<const double> record,
-                           bool periodic) {
-    AlignedSensor aligned{{record.begin(), record.end()}, 0.0};
-    if (periodic) {
-        const signals::Alignment found = signals::align(mean, record);
-        aligned.sensor = signals::shifted(record, found.shift);
-    }
-    aligned.correlation = signals::correlation(mean, aligned.sensor);
-    return aligned;
 }
 
 std::vector<double> mean_sensor(const std::vector<AlignedSensor>& all,
@@ -55,7 +41,7 @@ constexpr std::size_t kCandidates = 5;
 
 // The candidate with the largest median correlation with all recordings, which are aligned to it.
 std::vector<AlignedSensor> aligned_with_best(const std::vector<std::span<const double>>& all,
-                                             bool periodic) {
+                                             int turns, const signals::SpanLayout& span) {
     std::vector<AlignedSensor> best;
     double best_median = -2.0;
     const std::size_t candidates = std::min(kCandidates, all.size());
@@ -64,7 +50,7 @@ std::vector<AlignedSensor> aligned_with_best(const std::vector<std::span<const d
         std::vector<AlignedSensor> found;
         std::vector<double> correlations;
         for (std::size_t i = 0; i < all.size(); ++i) {
-            found.push_back(aligned_with(all[reference], all[i], periodic));
+            found.push_back(aligned_with(all[reference], all[i], turns, span));
             if (i != reference) {
                 correlations.push_back(found.back().correlation);
             }
@@ -80,13 +66,13 @@ std::vector<AlignedSensor> aligned_with_best(const std::vector<std::span<const d
 // True for recordings that resemble the mean.
 std::vector<char> resembling(const std::vector<AlignedSensor>& all) {
     std::vector<double> correlations;
-    for (const AlignedSensor& one : all) {
-        correlations.push_back(one.correlation);
+    for (const AlignedSensor& aligned : all) {
+        correlations.push_back(aligned.correlation);
     }
     const double least = std::max(kLeastCorrelation, 0.5 * features::median(correlations));
     std::vector<char> used;
-    for (const double one : correlations) {
-        used.push_back(one >= least ? 1 : 0);
+    for (const double correlation : correlations) {
+        used.push_back(correlation >= least ? 1 : 0);
     }
     return used;
 }
@@ -185,15 +171,13 @@ std::vector<RecordingGroup> recording_groups(const BaselineOptions& options,
 GroupBaseline::GroupBaseline(MeasuredBaseline given) : mean_(std::move(given)) {}
 
 GroupBaseline::GroupBaseline(const RecordingGroup& group, const RecordingList& list,
-                             const std::vector<MeasuredSignal>& signals, const Scene& scene,
+                             const std::vector<MeasuredSignal>& signals, const RecordPlan& plan,
                              bool scaled, std::vector<std::string>& notes)
     : mean_{group.name, {}, scaled} {
-    const auto per_mesh = static_cast<std::size_t>(scene.samples_per_mesh());
-    const int teeth = scene.span().planet_teeth, of_span = scene.span().ring_teeth;
-    int turns = of_span;
+    int turns = plan.span.ring_teeth;
     std::vector<std::size_t> readable;
     for (std::size_t k = 0; k < signals.size(); ++k) {
-        if (const int has = signals[k].sensor_meshes / teeth; signals[k].has_sensor && has > 0) {
+        if (const int has = signals[k].planet_turns(plan.span); has > 0) {
             readable.push_back(k);
             turns = std::min(turns, has);
         }
@@ -208,14 +192,12 @@ GroupBaseline::GroupBaseline(const RecordingGroup& group, const RecordingList& l
         refuse(readable.size());
         return;
     }
-    const std::size_t samples =
-        static_cast<std::size_t>(turns) * static_cast<std::size_t>(teeth) * per_mesh;
-    const bool periodic = turns == 1 || turns == of_span;
+    const std::size_t samples = static_cast<std::size_t>(turns) * plan.turn_samples();
     std::vector<std::span<const double>> records;
     for (const std::size_t k : readable) {
         records.push_back(std::span(signals[k].sensor).first(samples));
     }
-    std::vector<AlignedSensor> aligned = aligned_with_best(records, periodic);
+    std::vector<AlignedSensor> aligned = aligned_with_best(records, turns, plan.span);
     std::vector<char> used = resembling(aligned);
     for (int round = 0; round < 2; ++round) {
         if (std::ranges::count(used, 1) < 2) {
@@ -224,7 +206,7 @@ GroupBaseline::GroupBaseline(const RecordingGroup& group, const RecordingList& l
         }
         const std::vector<double> mean = mean_sensor(aligned, used);
         for (std::size_t i = 0; i < records.size(); ++i) {
-            aligned[i] = aligned_with(mean, records[i], periodic);
+            aligned[i] = aligned_with(mean, records[i], turns, plan.span);
         }
         used = resembling(aligned);
     }
@@ -245,7 +227,7 @@ GroupBaseline::GroupBaseline(const RecordingGroup& group, const RecordingList& l
         return;
     }
     mean_.signal.has_sensor = true;
-    mean_.signal.sensor_meshes = turns * teeth;
+    mean_.signal.sensor_meshes = turns * plan.span.planet_teeth;
     mean_ = without({});
 }
 
@@ -279,18 +261,16 @@ MeasuredBaseline GroupBaseline::without(std::span<const std::size_t> recordings)
     return baseline;
 }
 
-AlignedSensor GroupBaseline::aligned(const MeasuredSignal& record, const Scene& scene) const {
-    const int teeth = scene.span().planet_teeth, of_span = scene.span().ring_teeth;
-    const int turns = std::min(mean_.signal.sensor_meshes / teeth, of_span);
+AlignedSensor GroupBaseline::aligned(const MeasuredSignal& record, const RecordPlan& plan) const {
+    const int teeth = plan.span.planet_teeth;
+    const int turns = std::min(mean_.signal.sensor_meshes / teeth, plan.span.ring_teeth);
     if (!record.has_sensor || record.sensor_meshes < turns * teeth) {
         throw SignalError(fmt::format("{} mesh periods of sensor signal, but the {} has {}",
                                       record.sensor_meshes, mean_.file, turns * teeth));
     }
-    const std::size_t samples = static_cast<std::size_t>(turns) * static_cast<std::size_t>(teeth) *
-                                static_cast<std::size_t>(scene.samples_per_mesh());
-    AlignedSensor found =
-        aligned_with(std::span(mean_.signal.sensor).first(samples),
-                     std::span(record.sensor).first(samples), turns == 1 || turns == of_span);
+    const std::size_t samples = static_cast<std::size_t>(turns) * plan.turn_samples();
+    AlignedSensor found = aligned_with(std::span(mean_.signal.sensor).first(samples),
+                                       std::span(record.sensor).first(samples), turns, plan.span);
     if (!(found.correlation >= kLeastCorrelation)) {
         throw SignalError(fmt::format("does not resemble the {} (correlation {:.2f})", mean_.file,
                                       found.correlation));

@@ -37,12 +37,6 @@ struct RecordingGroup {
 std::vector<RecordingGroup> recording_groups(const BaselineOptions& options,
                                              const RecordingList& list);
 
-// A sensor signal aligned with a baseline.
-struct AlignedSensor {
-    std::vector<double> sensor;  // m/s^2, over the planet turns of the baseline
-    double correlation = 0.0;    // with the baseline, after alignment
-};
-
 // Mean of the aligned baseline recordings of one group.
 //
 // Every recording is shifted to the largest circular correlation with the mean in the angle domain,
@@ -56,7 +50,7 @@ class GroupBaseline {
     // `signals`: one for each of group.chosen; an empty one was not readable. Adds statements on
     // recordings left out to `notes`. At least two must remain; otherwise refusal() is the reason.
     GroupBaseline(const RecordingGroup& group, const RecordingList& list,
-                  const std::vector<MeasuredSignal>& signals, const Scene& scene, bool scaled,
+                  const std::vector<MeasuredSignal>& signals, const RecordPlan& plan, bool scaled,
                   std::vector<std::string>& notes);
 
     const std::string& refusal() const { return refusal_; }
@@ -65,8 +59,9 @@ class GroupBaseline {
     // Mean of all recordings of the baseline except those listed, so that no recording is compared
     // with itself.
     MeasuredBaseline without(std::span<const std::size_t> recordings) const;
-    // Shifts a recording to the baseline. Throws SignalError as measured_change().
-    AlignedSensor aligned(const MeasuredSignal& record, const Scene& scene) const;
+    // Planet turns of the baseline in a recording, shifted to it. Throws SignalError as
+    // measured_change().
+    AlignedSensor aligned(const MeasuredSignal& record, const RecordPlan& plan) const;
 
   private:
     struct Member {

@@ -28,22 +28,23 @@ struct PythonFeatures::Request {
 namespace {
 
 // Properties of a record that are the same at every noise level.
-nlohmann::json properties(const Scene& scene, const InstanceInputs& inputs) {
+nlohmann::json properties(const RecordPlan& record, const FeaturePlan& features,
+                          const InstanceInputs& inputs) {
     nlohmann::json teeth = nlohmann::json::object();
     for (const Member member : kAllMembers) {
-        if (const int count = scene.features().teeth[member]; count > 0) {
+        if (const int count = features.teeth[member]; count > 0) {
             teeth[std::string(member_name(member))] = count;
         }
     }
-    const double mesh_Hz = 1.0 / dynamics::mesh_period_s(scene.inputs(inputs));
-    return {{"gear_teeth", scene.span().planet_teeth},
+    const double mesh_Hz = 1.0 / record.mesh_period_s(inputs);
+    return {{"gear_teeth", record.span.planet_teeth},
             {"teeth", teeth},
-            {"planets", scene.features().planets},
-            {"samples_per_mesh", scene.samples_per_mesh()},
-            {"te_samples_per_mesh", scene.te_samples_per_mesh()},
-            {"carrier_meshes", scene.path_meshes()},
+            {"planets", features.planets},
+            {"samples_per_mesh", record.samples},
+            {"te_samples_per_mesh", record.te_samples},
+            {"carrier_meshes", record.path_meshes()},
             {"mesh_Hz", mesh_Hz},
-            {"sampling_Hz", mesh_Hz * scene.samples_per_mesh()},
+            {"sampling_Hz", mesh_Hz * record.samples},
             {"torque_Nm", inputs.torque_N_m},
             {"speed_rpm", inputs.speed_rad_s * 30.0 / std::numbers::pi},
             {"noise_m_s2", inputs.noise_m_s2}};
@@ -51,11 +52,11 @@ nlohmann::json properties(const Scene& scene, const InstanceInputs& inputs) {
 
 }  // namespace
 
-PythonFeatures::PythonFeatures(const Scene& scene,
-                               std::span<const features::Feature* const> features)
-    : scene_(scene) {
-    for (const features::Feature* feature : features) {
-        for (const PythonFeature& function : scene.features().python) {
+PythonFeatures::PythonFeatures(const RecordPlan& record, const FeaturePlan& features,
+                               std::span<const features::Feature* const> computed)
+    : record_(record), features_(features) {
+    for (const features::Feature* feature : computed) {
+        for (const PythonFeature& function : features.python) {
             if (function.feature == feature) {
                 used_.push_back(function);
                 // starts Python early
@@ -78,7 +79,8 @@ void PythonFeatures::add_record(const char* kind, const InstanceInputs& inputs,
     add_signal("te", input.get<features::TeTurn>().turn);
     add_signal("tooth_rms", input.get<features::ToothRms<Member::planet>>().rms);
     if (request_->levels.size() == 1) {
-        request_->records.push_back({kind, properties(scene_, inputs), std::move(arrays)});
+        request_->records.push_back(
+            {kind, properties(record_, features_, inputs), std::move(arrays)});
     }
 }
 
@@ -102,9 +104,9 @@ std::vector<double> PythonFeatures::compute(const std::string& work) {
     const auto request = std::exchange(request_, nullptr);
     PythonWorker& worker = PythonWorker::of_thread();
     nlohmann::json functions = nlohmann::json::array();
-    for (const PythonFeature& one : used_) {
-        worker.require(one.file, one.hashes);
-        functions.push_back({one.file, std::string(one.feature->name)});
+    for (const PythonFeature& function : used_) {
+        worker.require(function.file, function.hashes);
+        functions.push_back({function.file, std::string(function.feature->name)});
     }
     nlohmann::json reply;
     std::vector<double> values = worker.ask(
@@ -122,12 +124,13 @@ void print_python_problems(const std::vector<PythonProblem>& problems, const std
     static std::mutex mutex;
     static std::set<std::string> printed;
     const std::lock_guard lock(mutex);
-    for (const PythonProblem& one : problems) {
-        if (printed.insert(one.place + one.feature).second) {
+    for (const PythonProblem& problem : problems) {
+        if (printed.insert(problem.line + problem.feature).second) {
             fmt::print(stderr,
                        "{}: {} ({}, {}, noise x {:g}): it has no value there; further cases at "
                        "this line are only counted\n",
-                       one.place, printable(one.what), one.feature, work, one.noise_level);
+                       problem.line, printable(problem.what), problem.feature, work,
+                       problem.noise_level);
         }
     }
 }
@@ -242,7 +245,8 @@ RealizationFeatures::RealizationFeatures(const Scene& scene, const HealthyRefere
     : RealizationSignals(scene, scene.features().needs.record),
       scene_(scene),
       features_(scene.features().used),
-      python_(scene, python ? features_ : std::vector<const features::Feature*>()),
+      python_(scene.record(), scene.features(),
+              python ? features_ : std::vector<const features::Feature*>()),
       healthy_(healthy),
       levels_(scene.record().noise_levels.size()) {
     const ComparedNeeds& needs = scene.features().needs;

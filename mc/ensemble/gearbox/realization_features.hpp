@@ -1,4 +1,5 @@
-// Computes the features of a study that are functions in Python.
+// Features of the gearboxes of a study at every noise level, those in Python included, and the mean
+// of healthy records with which trending features compare.
 #pragma once
 
 #include <cstddef>
@@ -19,16 +20,17 @@ namespace gearpod::mc {
 struct PythonProblem {
     std::string feature;
     double noise_level = 1.0;
-    std::string place;  // file and line
+    std::string line;  // of a file, with its name
     std::string what;
 };
 
 // Use one object per thread.
 class PythonFeatures {
   public:
-    // Computes those of `features` that are external, in this order. The scene must outlive the
+    // Computes those of `computed` that are external, in this order. The plans must outlive the
     // object.
-    PythonFeatures(const Scene& scene, std::span<const features::Feature* const> features);
+    PythonFeatures(const RecordPlan& record, const FeaturePlan& features,
+                   std::span<const features::Feature* const> computed);
 
     bool empty() const { return used_.empty(); }
 
@@ -45,7 +47,8 @@ class PythonFeatures {
     void add_record(const char* kind, const InstanceInputs& inputs,
                     const features::FeatureInput& input);
 
-    const Scene& scene_;
+    const RecordPlan& record_;
+    const FeaturePlan& features_;
     std::vector<PythonFeature> used_;
     struct Request;
     std::shared_ptr<Request> request_;  // of the record whose signals are being added
@@ -56,9 +59,7 @@ class PythonFeatures {
 // Prints each problem once per process and place, with the record that `work` names, on stderr.
 void print_python_problems(const std::vector<PythonProblem>& problems, const std::string& work);
 
-// Mean properties of a few healthy records of the study; trending features compare with them.
-
-// Means over the records at every noise level.
+// Means over a few healthy records of the study at every noise level.
 struct HealthyReference {
     static constexpr int kRecords = 8;
 
@@ -91,8 +92,6 @@ HealthyReference simulated_reference(const Scene& scene, const SensorPaths& path
 // feature of the study needs it.
 HealthyReference healthy_reference(const Scene& scene, const SensorPaths& path,
                                    std::uint64_t sensor = 0);
-
-// Computes the features of one gearbox at every noise level from its signals.
 
 // Signals from which features are computed at one noise level.
 struct LevelSignals {

@@ -109,7 +109,7 @@ RealizationSignals::RealizationSignals(const Scene& scene, features::SignalSet n
       sensor_noise_(turns),
       windowing_(span_, scene.samples_per_mesh(), scene.features().tukey_taper),
       spectrum_(scene.span().planet_teeth * scene.te_samples_per_mesh()),
-      analysis_(scene, needs),
+      analysis_(scene.record(), scene.features(), needs),
       needs_samples_(needs_samples(needs)),
       meshes_(needed_sensor_meshes(scene, needs)),
       highest_level_(std::ranges::max(scene.study().sensor.noise_levels)),

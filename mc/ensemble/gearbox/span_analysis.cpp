@@ -36,44 +36,42 @@ void remove_path_trend(int planets, signals::ToothStatistics& teeth) {
 
 }  // namespace
 
-SpanAnalysis::SpanAnalysis(const Scene& scene, features::SignalSet needs)
-    : scene_(scene), needs_(needs) {
-    const int teeth = scene.span().planet_teeth;
+SpanAnalysis::SpanAnalysis(const RecordPlan& record, const FeaturePlan& features,
+                           features::SignalSet needs)
+    : record_(record), features_(features), needs_(needs) {
+    const int teeth = record.span.planet_teeth;
     if (needs_samples(needs)) {
-        window_ = signals::tukey_window(scene.samples_per_mesh(), scene.features().tukey_taper);
+        window_ = signals::tukey_window(record.samples, features.tukey_taper);
     }
     if (needs.has<features::SensorTurn>()) {
-        sensor_turn_ =
-            std::make_unique<signals::MeshSeparation>(teeth * scene.samples_per_mesh(), teeth);
+        sensor_turn_ = std::make_unique<signals::MeshSeparation>(teeth * record.samples, teeth);
     }
     if (needs.has<features::TeParts>()) {
-        te_turn_ =
-            std::make_unique<signals::MeshSeparation>(teeth * scene.te_samples_per_mesh(), teeth);
+        te_turn_ = std::make_unique<signals::MeshSeparation>(teeth * record.te_samples, teeth);
     }
 }
 
 void SpanAnalysis::te(std::span<const double> turn, features::FeatureInput& input) {
     if (te_turn_) {
         te_turn_->load(turn);
-        input.get<features::TeParts>() = {views(turn, *te_turn_, scene_.span().planet_teeth)};
+        input.get<features::TeParts>() = {views(turn, *te_turn_, record_.span.planet_teeth)};
     }
 }
 
 void SpanAnalysis::sensor(std::span<const double> samples, int planet_turns, int planet_offset,
                           features::FeatureInput& input) {
-    const auto phases = static_cast<std::size_t>(scene_.samples_per_mesh());
-    const signals::GearTurns planet{scene_.span().planet_teeth, planet_turns};
+    const auto phases = static_cast<std::size_t>(record_.samples);
+    const signals::GearTurns planet{record_.span.planet_teeth, planet_turns};
     const auto span = samples.first(static_cast<std::size_t>(planet.meshes()) * phases);
     input.get<features::SensorSamples>() = {span};
     if (sensor_turn_) {
-        average_ = signals::synchronous_average(
-            span, static_cast<std::size_t>(scene_.span().planet_teeth) * phases);
+        average_ = signals::synchronous_average(span, record_.turn_samples());
         sensor_turn_->load(average_);
         input.get<features::SensorTurn>() = {
-            views(average_, *sensor_turn_, scene_.span().planet_teeth)};
+            views(average_, *sensor_turn_, record_.span.planet_teeth)};
     }
     if (needs_.has<features::FilteredSensor>()) {
-        const std::size_t path = static_cast<std::size_t>(scene_.path_meshes()) * phases;
+        const std::size_t path = static_cast<std::size_t>(record_.path_meshes()) * phases;
         input.get<features::FilteredSensor>().rms =
             span.size() < path ? std::nan("") : signals::rms_without_average(span, path);
     }
@@ -88,8 +86,17 @@ void SpanAnalysis::sensor(std::span<const double> samples, int planet_turns, int
     if (needs_.has<features::SeparatedPlanets>()) {
         separated_planets(span, input);
     }
-    central_teeth<Member::sun>(samples, scene_.features().sun, sun_, input);
-    central_teeth<Member::ring>(samples, scene_.features().ring, ring_, input);
+    central_teeth<Member::sun>(samples, features_.sun, sun_, input);
+    central_teeth<Member::ring>(samples, features_.ring, ring_, input);
+}
+
+int SpanAnalysis::search_window(std::span<const double> span, const signals::GearTurns& gear,
+                                std::vector<double>& rms) const {
+    signals::Windowing windowing(gear.layout(), record_.samples, features_.tukey_taper);
+    windowing.load(signals::fold_of_squares(
+        span, static_cast<std::size_t>(gear.teeth) * static_cast<std::size_t>(record_.samples)));
+    rms.resize(static_cast<std::size_t>(gear.teeth));
+    return windowing.search(0.0, rms);
 }
 
 void SpanAnalysis::whitened_teeth(std::span<const double> span, const signals::GearTurns& planet,
@@ -97,19 +104,14 @@ void SpanAnalysis::whitened_teeth(std::span<const double> span, const signals::G
     if (!prewhitening_ || static_cast<std::size_t>(prewhitening_->points()) != span.size()) {
         prewhitening_ = std::make_unique<signals::Prewhitening>(static_cast<int>(span.size()));
     }
-    const int phases = scene_.samples_per_mesh();
-    signals::Windowing windowing(planet.layout(), phases, scene_.features().tukey_taper);
-    windowing.load(signals::fold_of_squares(prewhitening_->whitened(span),
-                                            static_cast<std::size_t>(planet.teeth) * phases));
-    whitened_rms_.resize(static_cast<std::size_t>(planet.teeth));
-    windowing.search(0.0, whitened_rms_);
+    search_window(prewhitening_->whitened(span), planet, whitened_rms_);
     input.get<features::WhitenedToothRms>() = {whitened_rms_};
 }
 
 void SpanAnalysis::separated_planets(std::span<const double> span, features::FeatureInput& input) {
-    const int phases = scene_.samples_per_mesh();
-    planets_ = signals::planet_averages(span, scene_.span(), scene_.features().planets, phases);
-    signals::MeshSeparation parts(scene_.span().planet_teeth * phases, scene_.span().planet_teeth);
+    const int phases = record_.samples;
+    planets_ = signals::planet_averages(span, record_.span, features_.planets, phases);
+    signals::MeshSeparation parts(record_.span.planet_teeth * phases, record_.span.planet_teeth);
     planet_differences_.clear();
     for (const std::vector<double>& planet : planets_) {
         parts.load(planet);
@@ -132,7 +134,7 @@ void SpanAnalysis::central_teeth(std::span<const double> samples,
     }
     const signals::GearTurns& gear = *gear_turns;
     const int teeth = gear.teeth;
-    const auto phases = static_cast<std::size_t>(scene_.samples_per_mesh());
+    const auto phases = static_cast<std::size_t>(record_.samples);
     if (samples.size() < static_cast<std::size_t>(gear.meshes()) * phases) {
         const std::vector<double> none(static_cast<std::size_t>(teeth), std::nan(""));
         statistics = {none, none, none, none};
@@ -141,17 +143,14 @@ void SpanAnalysis::central_teeth(std::span<const double> samples,
         return;
     }
     const auto span = samples.first(static_cast<std::size_t>(gear.meshes()) * phases);
-    signals::Windowing windowing(gear.layout(), scene_.samples_per_mesh(),
-                                 scene_.features().tukey_taper);
-    std::vector<double> rms(static_cast<std::size_t>(teeth));
-    windowing.load(signals::fold_of_squares(span, static_cast<std::size_t>(teeth) * phases));
-    const int offset = windowing.search(0.0, rms);
+    std::vector<double> rms;
+    const int offset = search_window(span, gear, rms);
     if (needs_.has<Moments>()) {
         statistics = signals::tooth_statistics(span, gear, window_, offset);
     }
     statistics.rms = std::move(rms);
-    if (scene_.path_meshes() == teeth) {
-        remove_path_trend(scene_.features().planets, statistics);
+    if (record_.path_meshes() == teeth) {
+        remove_path_trend(features_.planets, statistics);
     }
     input.get<Rms>() = {statistics.rms};
     input.get<Moments>() = {statistics.kurtosis, statistics.crest, statistics.m8a};

@@ -7,7 +7,8 @@
 #include <vector>
 
 #include "features/feature.hpp"
-#include "mc/plan/scene.hpp"
+#include "mc/plan/feature_plan.hpp"
+#include "mc/plan/record_plan.hpp"
 #include "signals/prediction/inverse_filters.hpp"
 #include "signals/spectra/order_spectrum.hpp"
 #include "signals/windowing/vibration_separation.hpp"
@@ -19,7 +20,7 @@ namespace gearpod::mc {
 class SpanAnalysis {
   public:
     // `needs`: signals that features need.
-    SpanAnalysis(const Scene& scene, features::SignalSet needs);
+    SpanAnalysis(const RecordPlan& record, const FeaturePlan& features, features::SignalSet needs);
 
     // `samples`: m/s^2, P per mesh period. Features of the planets' teeth and turns need
     // `planet_turns` turns: Z_r, or fewer in a short recording. Signals that need more mesh periods
@@ -38,11 +39,16 @@ class SpanAnalysis {
                        const std::optional<signals::GearTurns>& gear_turns,
                        signals::ToothStatistics& statistics, features::FeatureInput& input);
 
+    // RMS of every tooth of a gear in a signal of these turns, in the best window. Returns its
+    // first sample.
+    int search_window(std::span<const double> span, const signals::GearTurns& gear,
+                      std::vector<double>& rms) const;
     void whitened_teeth(std::span<const double> span, const signals::GearTurns& planet,
                         features::FeatureInput& input);
     void separated_planets(std::span<const double> span, features::FeatureInput& input);
 
-    const Scene& scene_;
+    const RecordPlan& record_;
+    const FeaturePlan& features_;
     features::SignalSet needs_;
     std::vector<double> window_;  // one mesh period
     std::unique_ptr<signals::MeshSeparation> sensor_turn_, te_turn_;

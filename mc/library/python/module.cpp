@@ -51,14 +51,14 @@ void append(std::vector<double>& all, const std::vector<double>& values) {
     all.insert(all.end(), values.begin(), values.end());
 }
 
-void append(mc::Simulation& all, const mc::Simulation& one) {
+void append(mc::Simulation& all, const mc::Simulation& next) {
     for (std::size_t c = 0; c < all.columns.size(); ++c) {
-        append(all.columns[c].values, one.columns[c].values);
+        append(all.columns[c].values, next.columns[c].values);
     }
     for (std::size_t m = 0; m < all.contact_loss.size(); ++m) {
-        append(all.contact_loss[m].values, one.contact_loss[m].values);
+        append(all.contact_loss[m].values, next.contact_loss[m].values);
     }
-    append(all.features, one.features);
+    append(all.features, next.features);
 }
 
 }  // namespace
@@ -193,9 +193,8 @@ std::string features(mc::OpenStudy& study, const py::object& signal, const py::o
     request.against = against;
     request.feature = feature;
     return unlocked([&] {
-        const mc::Scene& scene = study.scene();
         return mc::json_text(
-            mc::signal_features_json(mc::signal_features(request, scene), request, scene));
+            mc::signal_features_json(mc::signal_features(request, study.scene()), request));
     });
 }
 
@@ -238,10 +237,10 @@ std::string grade(const std::string& path, const std::string& name, const std::s
     if (alarm != "high" && alarm != "low") {
         throw mc::BadInput("alarm: must be high or low, but is " + alarm);
     }
-    const mc::OwnValues own{name, unit,
-                            alarm == "low" ? analysis::Alarm::low : analysis::Alarm::high,
-                            noise_level, vector_of(values)};
-    return unlocked([&] { return mc::json_text(mc::grade_values(path, own)); });
+    const mc::OwnValues given{name, unit,
+                              alarm == "low" ? analysis::Alarm::low : analysis::Alarm::high,
+                              noise_level, vector_of(values)};
+    return unlocked([&] { return mc::json_text(mc::grade_values(path, given)); });
 }
 
 // Raises gearpod.Failed with the exit code that the program would have.

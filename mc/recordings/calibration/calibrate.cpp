@@ -95,8 +95,8 @@ std::vector<std::size_t> equally_likely(std::span<const double> weights, std::si
     std::vector<std::size_t> members;
     double cumulated = weights.front();
     for (std::size_t i = 0, member = 0; i < count; ++i) {
-        const double at = (static_cast<double>(i) + 0.5) / static_cast<double>(count);
-        while (cumulated < at && member + 1 < weights.size()) {
+        const double target = (static_cast<double>(i) + 0.5) / static_cast<double>(count);
+        while (cumulated < target && member + 1 < weights.size()) {
             cumulated += weights[++member];
         }
         members.push_back(member);
@@ -313,14 +313,14 @@ std::vector<std::string> calibration_intro(std::uint64_t seed, const HealthySet&
 std::string calibration_text(const CalibrationResult& result) {
     std::string text =
         fmt::format("{:<36}{:>11}{:>11}{:>11}{:>8}\n", "input", "median", "5 %", "95 %", "width");
-    for (const InputPosterior& one : result.found) {
+    for (const InputPosterior& posterior : result.found) {
         const std::string source =
-            one.is_informed
-                ? fmt::format("determined by {}", fmt::join(one.strongest_summaries, ", "))
+            posterior.is_informed
+                ? fmt::format("determined by {}", fmt::join(posterior.strongest_summaries, ", "))
                 : "NOT DETERMINED by the recordings: this is the prior";
-        text += fmt::format("{:<36}{:>11.4g}{:>11.4g}{:>11.4g}{:>6.0f} %\n    {}\n", one.input.key,
-                            one.median, one.low, one.high, 100.0 * one.width_ratio,
-                            wrapped_text(source, 4));
+        text += fmt::format("{:<36}{:>11.4g}{:>11.4g}{:>11.4g}{:>6.0f} %\n    {}\n",
+                            posterior.input.key, posterior.median, posterior.low, posterior.high,
+                            100.0 * posterior.width_ratio, wrapped_text(source, 4));
     }
     for (const CorrelatedPair& pair : result.pairs) {
         const std::string both =
@@ -356,17 +356,17 @@ nlohmann::ordered_json calibration_json(const HealthySet& set, const Calibration
     json["simulated_sets"] = result.sets;
     json["failed_sets"] = result.failed;
     json["inputs"] = nlohmann::ordered_json::array();
-    for (const InputPosterior& one : result.found) {
-        json["inputs"].push_back({{"key", one.input.key},
-                                  {"prior_low", one.input.low},
-                                  {"prior_high", one.input.high},
-                                  {"logarithmic", one.input.logarithmic},
-                                  {"median", one.median},
-                                  {"low", one.low},
-                                  {"high", one.high},
-                                  {"left", one.width_ratio},
-                                  {"is_informed", one.is_informed},
-                                  {"informed_by", one.strongest_summaries}});
+    for (const InputPosterior& posterior : result.found) {
+        json["inputs"].push_back({{"key", posterior.input.key},
+                                  {"prior_low", posterior.input.low},
+                                  {"prior_high", posterior.input.high},
+                                  {"logarithmic", posterior.input.logarithmic},
+                                  {"median", posterior.median},
+                                  {"low", posterior.low},
+                                  {"high", posterior.high},
+                                  {"left", posterior.width_ratio},
+                                  {"is_informed", posterior.is_informed},
+                                  {"informed_by", posterior.strongest_summaries}});
     }
     json["together"] = nlohmann::ordered_json::array();
     for (const CorrelatedPair& pair : result.pairs) {

@@ -16,7 +16,7 @@
 namespace gearpod::mc {
 namespace {
 
-constexpr std::size_t kFewest = 3;
+constexpr std::size_t kFewestForSpread = 3;
 
 // Logarithm of the standard deviation, so that its order of magnitude does not depend on the unit.
 // The small constant avoids the logarithm of zero.
@@ -30,9 +30,9 @@ double spread(double squares, double count) {
 SetSummary::SetSummary(std::vector<const features::Feature*> features, const RecordValues& measured)
     : features_(std::move(features)),
       logarithmic_(features_.size(), 1),
-      between_gearboxes_(measured.size() >= kFewest),
+      between_gearboxes_(measured.size() >= kFewestForSpread),
       between_records_(std::ranges::any_of(
-          measured, [](const auto& gearbox) { return gearbox.size() >= kFewest; })) {
+          measured, [](const auto& gearbox) { return gearbox.size() >= kFewestForSpread; })) {
     for (const auto& gearbox : measured) {
         for (const auto& record : gearbox) {
             for (std::size_t f = 0; f < features_.size(); ++f) {
@@ -60,20 +60,20 @@ std::vector<double> SetSummary::of(const RecordValues& values) const {
     for (std::size_t f = 0; f < features_.size(); ++f) {
         double sum = 0.0, squares = 0.0, inside = 0.0, freedom = 0.0;
         for (const auto& gearbox : values) {
-            double own = 0.0, own_squares = 0.0;
+            double of_records = 0.0, record_squares = 0.0;
             for (const auto& record : gearbox) {
                 const double value = logarithmic_[f] != 0 ? std::log(record[f]) : record[f];
                 if (!std::isfinite(value)) {
                     return {};
                 }
-                own += value;
-                own_squares += value * value;
+                of_records += value;
+                record_squares += value * value;
             }
             const auto count = static_cast<double>(gearbox.size());
-            inside += std::max(0.0, own_squares - own * own / count);
+            inside += std::max(0.0, record_squares - of_records * of_records / count);
             freedom += count - 1.0;
-            sum += own / count;
-            squares += own / count * own / count;
+            sum += of_records / count;
+            squares += of_records / count * of_records / count;
         }
         means.push_back(sum / gearboxes);
         if (between_gearboxes_) {
@@ -124,8 +124,8 @@ std::size_t index_of(const Feature& feature) {
 
 class TableReading {
   public:
-    TableReading(const std::string& path, const Scene& scene, Problems& problems)
-        : table_(read_text_table(path)), scene_(scene), problems_(problems) {}
+    TableReading(const std::string& path, const signals::SpanLayout& span, Problems& problems)
+        : table_(read_text_table(path)), span_(span), problems_(problems) {}
 
     std::vector<HealthyRecord> read() {
         const auto known = usable_names();
@@ -158,16 +158,15 @@ class TableReading {
     int meshes() {
         const std::string turns = text("planet_turns");
         if (turns.empty()) {
-            return scene_.span_meshes();
+            return span_.meshes();
         }
         const auto number = number_of(turns, false);
         if (!number || !(*number >= 1.0) || *number > 1e6) {
             reject("planet_turns", fmt::format("\"{}\" is not a number of turns", turns),
                    "give 1 or more");
-            return scene_.span_meshes();
+            return span_.meshes();
         }
-        return std::min(scene_.span_meshes(),
-                        static_cast<int>(*number) * scene_.span().planet_teeth);
+        return std::min(span_.meshes(), static_cast<int>(*number) * span_.planet_teeth);
     }
     std::vector<double> values() {
         std::vector<double> all;
@@ -194,7 +193,7 @@ class TableReading {
     }
 
     TextTable table_;
-    const Scene& scene_;
+    const signals::SpanLayout span_;
     Problems& problems_;
     std::size_t row_ = 0;
     bool any_ = false;
@@ -261,9 +260,9 @@ std::vector<Value> thinned(std::vector<Value> all, std::size_t most) {
 
 }  // namespace
 
-std::vector<HealthyRecord> read_feature_table(const std::string& path, const Scene& scene,
-                                              Problems& problems) {
-    return TableReading(path, scene, problems).read();
+std::vector<HealthyRecord> read_feature_table(const std::string& path,
+                                              const signals::SpanLayout& span, Problems& problems) {
+    return TableReading(path, span, problems).read();
 }
 
 HealthySet healthy_set(const std::vector<HealthyRecord>& records,
@@ -271,13 +270,13 @@ HealthySet healthy_set(const std::vector<HealthyRecord>& records,
     HealthySet set;
     set.features = select_features(records, requested, problems);
     std::vector<std::vector<const HealthyRecord*>> gearboxes;
-    std::map<std::string, std::size_t> places;
+    std::map<std::string, std::size_t> indices;
     for (const HealthyRecord& record : records) {
-        const auto [place, is_new] = places.try_emplace(record.gearbox, gearboxes.size());
+        const auto [known, is_new] = indices.try_emplace(record.gearbox, gearboxes.size());
         if (is_new || record.gearbox.empty()) {
             gearboxes.emplace_back();
         }
-        gearboxes[record.gearbox.empty() ? gearboxes.size() - 1 : place->second].push_back(&record);
+        gearboxes[record.gearbox.empty() ? gearboxes.size() - 1 : known->second].push_back(&record);
     }
     for (auto& gearbox : thinned(std::move(gearboxes), kMostGearboxes)) {
         set.lengths.emplace_back();

@@ -7,7 +7,7 @@
 
 #include "features/feature.hpp"
 #include "mc/files/input/problems.hpp"
-#include "mc/plan/scene.hpp"
+#include "signals/tile_signals.hpp"
 
 namespace gearpod::mc {
 
@@ -54,8 +54,8 @@ struct HealthyRecord {
 // named after features. Optional columns: gearbox, label (faulty lines are skipped), planet_turns
 // (default: the span's) and problem (lines with a problem are skipped). Problems name the line.
 // Throws SignalError if the table cannot be read.
-std::vector<HealthyRecord> read_feature_table(const std::string& path, const Scene& scene,
-                                              Problems& problems);
+std::vector<HealthyRecord> read_feature_table(const std::string& path,
+                                              const signals::SpanLayout& span, Problems& problems);
 
 // Largest number of gearboxes, and of records of each, that are simulated. From more, evenly spaced
 // ones are selected.

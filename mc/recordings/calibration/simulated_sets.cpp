@@ -32,7 +32,11 @@ struct Item {
 class Simulator {
   public:
     Simulator(const Scene& scene, const RecordLengths& lengths, const SetSummary& summary)
-        : scene_(scene), path_(sensor_paths(scene)), lengths_(lengths), summary_(summary) {}
+        : scene_(scene),
+          plan_{scene.record(), scene.features(), scene.gearbox().nominal},
+          path_(sensor_paths(scene)),
+          lengths_(lengths),
+          summary_(summary) {}
 
     int lanes() const { return scene_.study().numerics.lanes; }
 
@@ -63,8 +67,8 @@ class Simulator {
 
     std::vector<double> synthesize(const GearboxTile& tile, int lane, double exponent,
                                    const signals::Tones& tones) const {
-        return signals::synthesize(tile.views, lane, tile.integration.content, scene_.span(),
-                                   path_[0][0], exponent, 0, scene_.signal_meshes(), tones);
+        return signals::synthesize(tile.views, lane, tile.integration.content, plan_.record.span,
+                                   path_[0][0], exponent, 0, plan_.record.signal_meshes, tones);
     }
 
     // Records of a gearbox with each background.
@@ -92,7 +96,7 @@ class Simulator {
                                                with_suffix(StreamPurpose::calibration_record,
                                                            fmt::format("{}.{}", k, record)));
                 values.back().push_back(measured_values(
-                    scene_, record_with_background(bare, tones, inputs, lengths[record], engine),
+                    plan_, record_with_background(bare, tones, inputs, lengths[record], engine),
                     summary_.features()));
             }
         }
@@ -104,8 +108,8 @@ class Simulator {
                                           const std::vector<double>& tones,
                                           const InstanceInputs& inputs, int meshes,
                                           Philox& engine) const {
-        const auto samples = static_cast<std::size_t>(scene_.samples_per_mesh());
-        const int unused = std::max(0, scene_.signal_meshes() - meshes);
+        const auto samples = static_cast<std::size_t>(plan_.record.samples);
+        const int unused = std::max(0, plan_.record.signal_meshes - meshes);
         const auto first =
             samples * static_cast<std::size_t>(uniform(engine) * static_cast<double>(unused + 1));
         const std::size_t count = std::min(samples * static_cast<std::size_t>(meshes), bare.size());
@@ -129,6 +133,7 @@ class Simulator {
     }
 
     const Scene& scene_;
+    const MeasurementPlan plan_;
     const SensorPaths path_;
     const RecordLengths& lengths_;
     const SetSummary& summary_;
@@ -183,23 +188,25 @@ std::vector<SimulatedSet> simulate_sets(const Scene& scene, std::span<const Cali
     const std::size_t tiles = (items.size() + lanes - 1) / lanes;
     const auto run = [&](std::size_t tile) {
         const std::size_t first = tile * lanes;
-        auto own =
+        auto of_tile =
             simulator.run(std::span(items).subspan(first, std::min(lanes, items.size() - first)));
-        std::move(own.begin(), own.end(), set_records.begin() + static_cast<std::ptrdiff_t>(first));
+        std::move(of_tile.begin(), of_tile.end(),
+                  set_records.begin() + static_cast<std::ptrdiff_t>(first));
     };
     const double start = thread_processor_s();
     run(0);
     report_time((thread_processor_s() - start) * static_cast<double>(tiles));
     machine::for_each_index(tiles - 1, threads, [&](std::size_t tile) { run(tile + 1); });
     for (std::size_t d = 0; d < plan.integrated; ++d) {
-        const std::span<const RecordValues> own =
+        const std::span<const RecordValues> of_set =
             std::span(set_records).subspan(d * gearboxes, gearboxes);
-        if (std::ranges::any_of(own, [](const RecordValues& one) { return one.empty(); })) {
+        if (std::ranges::any_of(of_set,
+                                [](const RecordValues& gearbox) { return gearbox.empty(); })) {
             continue;
         }
         for (std::size_t k = 0; k < plan.backgrounds; ++k) {
             RecordValues values;
-            for (const RecordValues& gearbox : own) {
+            for (const RecordValues& gearbox : of_set) {
                 values.push_back(gearbox[k]);
             }
             sets[d * plan.backgrounds + k].summary = summary.of(values);
@@ -218,12 +225,12 @@ RecordValues simulate_set(const Scene& scene, std::span<const GivenInput> given,
     }
     const auto lanes = static_cast<std::size_t>(simulator.lanes());
     for (std::size_t first = 0; first < items.size(); first += lanes) {
-        for (RecordValues& own : simulator.run(
+        for (RecordValues& gearbox : simulator.run(
                  std::span(items).subspan(first, std::min(lanes, items.size() - first)))) {
-            if (own.empty()) {
+            if (gearbox.empty()) {
                 return {};
             }
-            values.push_back(std::move(own.front()));
+            values.push_back(std::move(gearbox.front()));
         }
     }
     return values;

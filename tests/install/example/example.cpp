@@ -4,7 +4,6 @@
 #include <exception>
 #include <gearpod/analysis/inspection.hpp>
 #include <gearpod/mc/library/open_study.hpp>
-#include <gearpod/mc/library/simulated_row.hpp>
 #include <gearpod/stiffness/additive_mesh.hpp>
 #include <gearpod/stiffness/faults/tooth_crack.hpp>
 #include <numbers>

@@ -106,7 +106,7 @@ TEST_CASE(
         members.push_back(signal_of(i == 0 ? machine.corrupt() : machine.record(1.0, 0.0)));
     }
     std::vector<std::string> notes;
-    const mc::GroupBaseline baseline(group, list, members, *study.scene, false, notes);
+    const mc::GroupBaseline baseline(group, list, members, study.scene->record(), false, notes);
     REQUIRE(baseline.refusal().empty());
     CHECK(baseline.members() == 19);
     REQUIRE(notes.size() == 1);
@@ -120,17 +120,19 @@ TEST_CASE(
     constexpr int kRecords = 500;
     for (int i = 0; i < kRecords; ++i) {
         const double gain = 1.0 + 0.2 * i / kRecords;
-        const auto aligned = baseline.aligned(signal_of(machine.record(gain, 0.0)), *study.scene);
+        const auto aligned =
+            baseline.aligned(signal_of(machine.record(gain, 0.0)), study.scene->record());
         // Noise alone leaves 1 / sqrt(1 + 0.16) = 0.93; a start of another tooth below 0.6.
         right += signals::correlation(truth, aligned.sensor) > 0.85 ? 1 : 0;
     }
     CHECK(right >= kRecords * 99 / 100);
-    CHECK_THROWS_WITH(baseline.aligned(signal_of(std::vector<double>(kSamples, 1.0)), *study.scene),
-                      Catch::Contains("does not resemble"));
+    CHECK_THROWS_WITH(
+        baseline.aligned(signal_of(std::vector<double>(kSamples, 1.0)), study.scene->record()),
+        Catch::Contains("does not resemble"));
     // A recording of the baseline is compared with the others only.
     const std::vector<std::size_t> third{3};
     const auto others = baseline.without(third).signal.sensor;
-    const auto own = baseline.aligned(members[3], *study.scene).sensor;
+    const auto own = baseline.aligned(members[3], study.scene->record()).sensor;
     for (std::size_t s = 0; s < others.size(); ++s) {
         CHECK(18.0 * others[s] + own[s] == Approx(19.0 * mean[s]).margin(1e-6));
     }

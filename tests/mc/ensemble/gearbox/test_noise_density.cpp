@@ -197,7 +197,7 @@ TEST_CASE("A study with noise by density is calibrated by its density") {
             "s.toml")
             .study;
     REQUIRE(study);
-    const auto inputs = mc::default_inputs(*study, 2.0);
+    const auto inputs = mc::make_calibration_plan(*study, "").default_inputs(2.0);
     const auto at = std::ranges::find(inputs, "sensor.noise_density_m_s2_per_sqrt_Hz",
                                       &mc::CalibratedInput::key);
     REQUIRE(at != inputs.end());

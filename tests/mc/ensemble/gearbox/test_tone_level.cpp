@@ -76,7 +76,8 @@ TEST_CASE("Calibration uses the given level") {
             CHECK(by_level[gearbox][0][f] == Approx(by_amplitude[gearbox][0][f]).epsilon(1e-12));
         }
     }
-    const std::vector<mc::CalibratedInput> usual = default_inputs(quiet.scene->study(), 2.0);
+    const std::vector<mc::CalibratedInput> usual =
+        make_calibration_plan(quiet.scene->study(), "").default_inputs(2.0);
     const auto level =
         std::ranges::find(usual, std::string("sensor.tone_level"), &mc::CalibratedInput::key);
     REQUIRE(level != usual.end());
