@@ -60,9 +60,8 @@ Side read_side(const std::string& path) {
         side.without_threshold.push_back(analysis::without_threshold(side.frame.detection, n));
     }
     side.gearboxes = count_rows(rows, side.frame.request.threshold_records).all;
-    const auto study = read_study_text(side.frame.provenance_value("study"), "").study;
-    side.title =
-        (study ? printable(study->title) : "") + incomplete_text(side.frame, side.gearboxes);
+    side.title = (side.facts ? printable(side.facts->ensemble.title) : "") +
+                 incomplete_text(side.frame, side.gearboxes);
     return side;
 }
 

@@ -25,7 +25,6 @@ std::string location_of(const Study& study) {
 
 FaultPlan make_fault_plan(const Study& study) {
     FaultPlan plan;
-    plan.words = "a fault";
     plan.size_key = &fault_size_key(study);
     if (study.fault.kind == nullptr) {
         return plan;
@@ -36,8 +35,10 @@ FaultPlan make_fault_plan(const Study& study) {
     plan.title = kind.title();
     plan.location = location_of(study);
     plan.sizes = fault_sizes(study);
-    plan.origin = kind.origin(study, plan.sizes);
-    plan.share = kind.share(study);
+    if (has_gears(study)) {
+        plan.origin = kind.origin(study, plan.sizes);
+        plan.share = kind.share(study);
+    }
     plan.groups = !size_edges(study).empty();
     return plan;
 }

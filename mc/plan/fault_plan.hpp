@@ -16,10 +16,10 @@ namespace gearpod::mc {
 struct SceneMesh;
 
 struct FaultPlan {
-    std::string kind;      // in study files, "spatial-crack"; "" without a fault
-    std::string words;     // in messages, "a spatial crack"; "a fault" without one
-    std::string title;     // in descriptions, "tooth crack"
-    std::string location;  // "planet 1, sun side"
+    std::string kind;               // in study files, "spatial-crack"; "" without a fault
+    std::string words = "a fault";  // in messages, "a spatial crack"
+    std::string title;              // in descriptions, "tooth crack"
+    std::string location;           // "planet 1, sun side"
     // Location on the tooth, and the datum from which the sizes are measured.
     std::string origin;
     SizeShare share{};  // part of the tooth that a size takes

@@ -19,7 +19,6 @@
 #include "features/feature.hpp"
 #include "features/statistics/signal_statistics.hpp"
 #include "machine/no_value.hpp"
-#include "mc/study/other_sources.hpp"
 
 namespace gearpod::mc {
 namespace {
@@ -160,12 +159,6 @@ std::size_t other_fault_variant(const Results& frame) {
     return static_cast<std::size_t>(found - frame.variants.begin());
 }
 
-// The other fault in words; "another fault" if the study cannot be read.
-std::string fault_text(const std::optional<Study>& study) {
-    const std::string text = study ? other_fault_text(*study) : "";
-    return text.empty() ? "another fault" : text;
-}
-
 std::string share_text(const OtherFaultAlarms& one) {
     return analysis::percent_text(static_cast<double>(one.alarms) /
                                   static_cast<double>(one.tested));
@@ -216,7 +209,7 @@ std::vector<OtherFaultAlarms> other_fault_alarms(const Results& frame, const Row
     return all;
 }
 
-std::string other_fault_limit(const Results& frame, const std::optional<Study>& study,
+std::string other_fault_limit(const Results& frame, std::string fault,
                               const std::vector<OtherFaultAlarms>& alarms,
                               const std::string& feature, std::size_t level) {
     const auto found = std::ranges::find_if(alarms, [&](const OtherFaultAlarms& one) {
@@ -225,7 +218,6 @@ std::string other_fault_limit(const Results& frame, const std::optional<Study>& 
     if (found == alarms.end()) {
         return "";
     }
-    std::string fault = fault_text(study);
     fault.front() = static_cast<char>(std::toupper(static_cast<unsigned char>(fault.front())));
     return fmt::format(
         "{} raises this alarm in {} of {} healthy gearboxes ({}; {} at {} confidence), against {} "
@@ -234,7 +226,7 @@ std::string other_fault_limit(const Results& frame, const std::optional<Study>& 
         analysis::percent_text(frame.request.confidence), found->without);
 }
 
-analysis::Section other_fault_section(const Results& frame, const std::optional<Study>& study,
+analysis::Section other_fault_section(const Results& frame, const std::string& fault,
                                       const std::vector<OtherFaultAlarms>& alarms) {
     analysis::Section section{"other_fault", "Alarms raised by another fault", {}};
     if (alarms.empty()) {
@@ -248,7 +240,7 @@ analysis::Section other_fault_section(const Results& frame, const std::optional<
     section.state("other_fault.how",
                   fmt::format("The healthy gearboxes that set the thresholds, with {}: the same "
                               "records, with its vibration added.",
-                              fault_text(study)));
+                              fault));
     analysis::Table table{
         "other_fault",
         "Healthy gearboxes with the other fault that alarm",

@@ -11,7 +11,6 @@
 #include "analysis/statistics/interval.hpp"
 #include "machine/fields.hpp"
 #include "mc/results/result_rows.hpp"
-#include "mc/study/study.hpp"
 
 namespace gearpod::mc {
 
@@ -52,12 +51,12 @@ GEARPOD_FIELDS(OtherFaultAlarms, feature_, level_, alarms, tested, without, lowe
 // fault.
 std::vector<OtherFaultAlarms> other_fault_alarms(const Results& frame, const RowSource& rows);
 
-// Sentence on the alarms of one feature at one noise level; "" without them. `study` is empty if it
-// cannot be read.
-std::string other_fault_limit(const Results& frame, const std::optional<Study>& study,
+// Sentence on the alarms of one feature at one noise level; "" without them. `fault`: the other
+// fault in words.
+std::string other_fault_limit(const Results& frame, std::string fault,
                               const std::vector<OtherFaultAlarms>& alarms,
                               const std::string& feature, std::size_t level);
-analysis::Section other_fault_section(const Results& frame, const std::optional<Study>& study,
+analysis::Section other_fault_section(const Results& frame, const std::string& fault,
                                       const std::vector<OtherFaultAlarms>& alarms);
 
 }  // namespace gearpod::mc

@@ -16,7 +16,6 @@
 #include "mc/plan/gearbox_streams.hpp"
 #include "mc/report/run_report.hpp"
 #include "mc/results/provenance.hpp"
-#include "mc/study/faults/fault_kind.hpp"
 #include "mc/study/random/philox.hpp"
 #include "mc/study/schema/schema.hpp"
 
@@ -31,12 +30,12 @@ std::size_t split_of(Philox engine) {
 
 }  // namespace
 
-RowIdentities::RowIdentities(const Results& frame, const std::optional<Study>& study) {
-    if (study) {
-        seed_ = static_cast<std::uint64_t>(study->ensemble.seed);
-        order_.emplace(study->ensemble);
-        plan_.emplace(EnsemblePlan(*study).batches(
-            read_part(frame.provenance_value("part")).value_or(Part{})));
+RowIdentities::RowIdentities(const Results& frame, const std::optional<RunFacts>& facts) {
+    if (facts) {
+        seed_ = static_cast<std::uint64_t>(facts->ensemble.seed);
+        order_ = facts->rows;
+        plan_.emplace(
+            facts->ensemble.batches(read_part(frame.provenance_value("part")).value_or(Part{})));
     }
     std::istringstream names(frame.provenance_value("recorded_gearboxes"));
     for (std::string name; std::getline(names, name);) {
@@ -114,10 +113,10 @@ class Dataset {
           shape_(row_shape(frame)),
           recorded_(frame.provenance_value("kind") == kRecordingsKind),
           study_text_(frame.provenance_value(recorded_ ? "measured_by_study" : "study")),
-          study_(read_study_text(study_text_, file).study),
-          identities_(frame, recorded_ ? std::nullopt : study_),
+          facts_(recorded_ ? std::nullopt : run_facts(study_text_, file)),
+          identities_(frame, facts_),
           other_fault_(std::ranges::count(frame.variants, kOtherFault, &Variant::name) > 0) {
-        if (!study_ && !recorded_) {
+        if (!facts_ && !recorded_) {
             throw std::runtime_error(file +
                                      ": its study cannot be read by this version; "
                                      "--dataset needs it for the gearboxes' identities");
@@ -279,7 +278,7 @@ class Dataset {
     const RowShape shape_;
     const bool recorded_;
     const std::string study_text_;
-    const std::optional<Study> study_;
+    const std::optional<RunFacts> facts_;  // of an ensemble
     const RowIdentities identities_;
     const bool other_fault_;
     std::vector<DatasetColumn> columns_;
@@ -295,16 +294,19 @@ std::string Dataset::card(const std::vector<NamedFile>& signals) const {
                                           Values&&... values) {
         text += fmt::format(format, std::forward<Values>(values)...);
     };
-    const std::string title = study_ && !study_->title.empty() ? study_->title : "without a title";
+    std::string title;
+    if (facts_) {
+        title = facts_->ensemble.title;
+    } else if (const auto measuring = measuring_facts(study_text_, file_)) {
+        title = measuring->title;
+    }
     add("\nFeatures of {} with labels, for machine learning.\n",
         recorded_ ? "recordings" : "simulated gearboxes");
     add("\n## Source\n\n| entry | value |\n| --- | --- |\n");
     const std::pair<const char*, std::string> entries[] = {
-        {"study", printable(title) + " (study.toml)"},
-        {"conditions", study_ && !recorded_ ? run_conditions(*study_) : ""},
-        {"fault", study_ && study_->fault.kind && !recorded_
-                      ? std::string(study_->fault.kind->words())
-                      : ""},
+        {"study", printable(title.empty() ? "without a title" : title) + " (study.toml)"},
+        {"conditions", facts_ ? facts_->conditions : ""},
+        {"fault", facts_ && facts_->fault.given() ? facts_->fault.words : ""},
         {"results computed by", version_text(frame_.provenance_value("code_version"),
                                              frame_.provenance_value("git_hash"))},
         {"dataset written by", version_text()},

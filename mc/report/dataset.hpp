@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "mc/plan/gearbox_streams.hpp"
+#include "mc/plan/study_facts.hpp"
 #include "mc/report/tables.hpp"
 #include "mc/results/result_rows.hpp"
 
@@ -28,8 +28,8 @@ struct RowIdentity {
 // expected in the first split and 15 % in each of the others.
 class RowIdentities {
   public:
-    // `study`: of an ensemble; empty for recordings.
-    RowIdentities(const Results& frame, const std::optional<Study>& study);
+    // `facts`: of an ensemble; empty for recordings.
+    RowIdentities(const Results& frame, const std::optional<RunFacts>& facts);
     // Identity of a row of these results, which may be a part of the study's.
     RowIdentity of(std::size_t row) const;
 

@@ -10,10 +10,9 @@
 #include "mc/files/input/terminal_text.hpp"
 #include "mc/files/json_text.hpp"
 #include "mc/files/sha256.hpp"
+#include "mc/plan/study_facts.hpp"
 #include "mc/report/page.hpp"
 #include "mc/results/provenance.hpp"
-#include "mc/study/faults/fault_kind.hpp"
-#include "mc/study/study.hpp"
 
 namespace gearpod::mc {
 namespace {
@@ -45,15 +44,19 @@ analysis::Table recorded_files_table(const Results& frame) {
 
 // Study, and the kind of damage that its indicators monitor; "" if it cannot be read.
 std::string monitored_text(EvidenceKind kind, const std::string& text) {
-    const auto study = read_study_text(text, "").study;
-    if (!study) {
-        return "";
+    const auto titled = [](const std::string& title) {
+        return fmt::format("Study: {}.", title.empty() ? "without a title" : title);
+    };
+    if (kind == EvidenceKind::recordings) {
+        const auto facts = measuring_facts(text);
+        return facts ? titled(facts->title) : "";
     }
-    const std::string title = study->title.empty() ? "without a title" : study->title;
-    return kind == EvidenceKind::recordings || study->fault.kind == nullptr
-               ? fmt::format("Study: {}.", title)
-               : fmt::format("Study: {}. Damage that is monitored: {}.", title,
-                             study->fault.kind->words());
+    const auto facts = run_facts(text);
+    return !facts ? ""
+                  : titled(facts->ensemble.title) +
+                        (facts->fault.given()
+                             ? fmt::format(" Damage that is monitored: {}.", facts->fault.words)
+                             : "");
 }
 
 // How the results are computed again.

@@ -15,8 +15,8 @@
 #include "analysis/report/json_values.hpp"
 #include "analysis/report/wording.hpp"
 #include "machine/no_value.hpp"
+#include "mc/plan/study_facts.hpp"
 #include "mc/study/random/philox.hpp"
-#include "mc/study/study.hpp"
 
 namespace gearpod::mc {
 namespace {
@@ -224,9 +224,9 @@ GearboxSeries series_of(const Results& frame, const GearboxRecords& gearbox) {
 // Monitors every feature separately, and the study's features combined ("fused").
 class RecordingMonitor {
   public:
-    RecordingMonitor(const Results& frame, const Study& study,
+    RecordingMonitor(const Results& frame, const MeasuringFacts& facts,
                      const std::vector<GearboxRecords>& gearboxes, MonitoringOverTime& monitoring)
-        : frame_(frame), study_(study), gearboxes_(gearboxes), monitoring_(monitoring) {}
+        : frame_(frame), facts_(facts), gearboxes_(gearboxes), monitoring_(monitoring) {}
 
     std::vector<RecordingMonitorResult> all() {
         std::vector<RecordingMonitorResult> watched;
@@ -238,7 +238,7 @@ class RecordingMonitor {
         }
         std::vector<std::size_t> used;
         for (std::size_t f = 0; f < frame_.features.size(); ++f) {
-            const auto& use = study_.features.use;
+            const auto& use = facts_.features;
             if (std::find(use.begin(), use.end(), frame_.features[f].name) != use.end()) {
                 used.push_back(f);
             }
@@ -251,7 +251,7 @@ class RecordingMonitor {
 
   private:
     std::size_t baseline() const {
-        return static_cast<std::size_t>(study_.monitoring.baseline_records);
+        return static_cast<std::size_t>(facts_.monitoring.baseline_records);
     }
 
     std::vector<double> deviations(const GearboxRecords& gearbox,
@@ -277,7 +277,7 @@ class RecordingMonitor {
             of_gearbox.push_back(deviations(gearbox, features));
             lives.push_back(healthy_life(gearbox, of_gearbox.back()));
         }
-        const auto& use = study_.features.use;
+        const auto& use = facts_.features;
         if (name == kFused || std::find(use.begin(), use.end(), name) != use.end()) {
             monitoring_.shown.push_back(name);
             for (std::size_t g = 0; g < gearboxes_.size(); ++g) {
@@ -291,7 +291,7 @@ class RecordingMonitor {
         const double stated = frame_.request.false_alarm_rate;
         const double rate = std::max(stated, analysis::smallest_rate(records));
         const double confidence = frame_.request.confidence;
-        for (const std::string& text : study_.monitoring.detectors) {
+        for (const std::string& text : facts_.monitoring.detectors) {
             const analysis::Detector detector = *analysis::parse_detector(text);
             RecordingMonitorResult one{name,
                                        text,
@@ -311,7 +311,7 @@ class RecordingMonitor {
     }
 
     const Results& frame_;
-    const Study& study_;
+    const MeasuringFacts& facts_;
     const std::vector<GearboxRecords>& gearboxes_;
     MonitoringOverTime& monitoring_;
 };
@@ -339,11 +339,11 @@ std::string refusal_of(const std::vector<GearboxRecords>& gearboxes, int baselin
 std::optional<MonitoringOverTime> monitoring_over_time(const Results& frame,
                                                        const RowSource& rows) {
     const auto time = frame.parameter_index("time");
-    const auto study = read_study_text(frame.provenance_value("measured_by_study"), "").study;
-    if (!time || !study || frame.provenance_value("kind") != kRecordingsKind) {
+    const auto facts = measuring_facts(frame.provenance_value("measured_by_study"));
+    if (!time || !facts || frame.provenance_value("kind") != kRecordingsKind) {
         return std::nullopt;
     }
-    const Monitoring& requested = study->monitoring;
+    const Monitoring& requested = facts->monitoring;
     const auto torque =
         requested.torque_regression ? frame.parameter_index("torque") : std::nullopt;
     MonitoringOverTime monitoring;
@@ -376,7 +376,7 @@ std::optional<MonitoringOverTime> monitoring_over_time(const Results& frame,
     }
     monitoring.refusal = refusal_of(gearboxes, requested.baseline_records, monitoring.healthy);
     if (monitoring.refusal.empty()) {
-        monitoring.watched = RecordingMonitor(frame, *study, gearboxes, monitoring).all();
+        monitoring.watched = RecordingMonitor(frame, *facts, gearboxes, monitoring).all();
     }
     return monitoring;
 }

@@ -16,16 +16,11 @@
 #include "analysis/report/reliability_json.hpp"
 #include "analysis/report/wording.hpp"
 #include "features/feature.hpp"
-#include "mc/ensemble/gearbox/record_window.hpp"
 #include "mc/files/input/terminal_text.hpp"
 #include "mc/report/example_gearboxes.hpp"
 #include "mc/report/gearbox_values.hpp"
 #include "mc/results/layout.hpp"
 #include "mc/results/reliability_of_results.hpp"
-#include "mc/study/assumptions.hpp"
-#include "mc/study/false_alarm_target.hpp"
-#include "mc/study/faults/fault_kind.hpp"
-#include "mc/study/noise.hpp"
 
 namespace gearpod::mc {
 namespace {
@@ -79,18 +74,15 @@ analysis::Section state_section(const Results& frame, const RowCounts& counts) {
 }
 
 // Noise that x 1 stands for.
-std::string noise_unit_text(const std::optional<Study>& study) {
-    if (!study) {
-        return "";
-    }
-    const double encoder = study->sensor.encoder_noise_rad;
-    const double sensor = study->effects.quasi_static() ? 0.0 : sensor_noise_m_s2(*study);
-    std::vector<std::string> parts;
-    if (sensor == 0.0 && encoder == 0.0) {
+std::string noise_unit_text(const RunFacts& facts) {
+    const double encoder = facts.encoder_noise_rad;
+    if (facts.sensor_noise_m_s2.value_or(0.0) == 0.0 && encoder == 0.0) {
         return "The study adds no noise. ";
     }
-    if (!study->effects.quasi_static()) {
-        parts.push_back(analysis::number_text(sensor) + " m/s^2 rms at the sensor");
+    std::vector<std::string> parts;
+    if (facts.sensor_noise_m_s2) {
+        parts.push_back(analysis::number_text(*facts.sensor_noise_m_s2) +
+                        " m/s^2 rms at the sensor");
     }
     constexpr double kArcSeconds = 180.0 * 3600.0 / std::numbers::pi;  // per radian
     parts.push_back(analysis::number_text(encoder * kArcSeconds) +
@@ -99,7 +91,7 @@ std::string noise_unit_text(const std::optional<Study>& study) {
 }
 
 std::string facts_text(const analysis::Findings& findings, const RowCounts& counts,
-                       const std::optional<Study>& study) {
+                       const std::optional<RunFacts>& facts) {
     bool any = false;
     for (const analysis::FeatureDetection& feature : findings.detection) {
         for (const analysis::LevelDetection& level : feature.levels) {
@@ -117,12 +109,12 @@ std::string facts_text(const analysis::Findings& findings, const RowCounts& coun
                     : fmt::format(
                           "{}{} simulated gearboxes, {}; {} healthy and {} "
                           "faulty ones have values.{}{}",
-                          noise_unit_text(study), counts.all,
+                          facts ? noise_unit_text(*facts) : "", counts.all,
                           counts.failed() == 0
                               ? "all computed"
                               : fmt::format("{} of which could not be computed", counts.failed()),
                           findings.healthy, findings.faulty, thresholds,
-                          study && any ? " " + false_alarm_target_text(*study) : "");
+                          facts && any ? " " + facts->false_alarms : "");
 }
 
 // Reason why an ensemble has rates only.
@@ -151,6 +143,10 @@ std::string numerical_of(const analysis::Findings& findings,
                            findings.request.size);
 }
 
+std::string other_fault_words(const RunFindings& run) {
+    return run.facts ? run.facts->other_fault : "another fault";
+}
+
 // Alarms of the answer's feature that another fault raises; "" without one.
 std::string other_fault_of(const analysis::Findings& findings, const Results& frame,
                            const RunFindings& run) {
@@ -158,28 +154,26 @@ std::string other_fault_of(const analysis::Findings& findings, const Results& fr
         findings.order[findings.reference].empty()) {
         return "";
     }
-    return other_fault_limit(frame, run.study, run.other_fault,
+    return other_fault_limit(frame, other_fault_words(run), run.other_fault,
                              findings.name(findings.best(findings.reference)), findings.reference);
 }
 
 analysis::Report report_of(const Results& frame, const RowSource& rows,
                            const std::optional<analysis::Reliability>& reliability,
                            const RunFindings& run) {
-    const std::optional<Study>& study = run.study;
+    const FaultPlan fault = run.facts ? run.facts->fault : FaultPlan{};
     std::vector<std::string> units;
     for (const FeatureResult& feature : frame.features) {
         units.push_back(feature.unit);
     }
-    const analysis::Findings findings(
-        {frame.detection, reliability ? &*reliability : nullptr, frame.request, subject_of(frame),
-         study && study->fault.kind ? std::string(study->fault.kind->words()) : "a fault",
-         reference_level(frame.noise_levels), units, [&study](double size) {
-             return study && study->fault.kind ? study->fault.kind->share(*study).text(size) : "";
-         }});
+    const analysis::Findings findings({frame.detection, reliability ? &*reliability : nullptr,
+                                       frame.request, subject_of(frame), fault.words,
+                                       reference_level(frame.noise_levels), units,
+                                       [&fault](double size) { return fault.share.text(size); }});
     analysis::Report report;
     report.add(state_section(frame, run.failures.counts));
-    report.add(analysis::headline_section(findings, study ? run_conditions(*study) : "",
-                                          facts_text(findings, run.failures.counts, study)));
+    report.add(analysis::headline_section(findings, run.facts ? run.facts->conditions : "",
+                                          facts_text(findings, run.failures.counts, run.facts)));
     report.add(analysis::limits_section(findings, numerical_of(findings, run.numerical),
                                         other_fault_of(findings, frame, run)));
     analysis::Section values = feature_values(frame, rows);
@@ -200,7 +194,7 @@ analysis::Report report_of(const Results& frame, const RowSource& rows,
         report.add(monitoring_section(*run.monitoring, best));
     }
     report.add(sensors_section(frame, run.sensors));
-    report.add(other_fault_section(frame, run.study, run.other_fault));
+    report.add(other_fault_section(frame, other_fault_words(run), run.other_fault));
     report.add(contact_section(run.contact_loss));
     report.add(numerical_section(frame, run.numerical));
     report.add(failures_section(frame, run.failures));
@@ -211,7 +205,7 @@ analysis::Report report_of(const Results& frame, const RowSource& rows,
 
 RunFindings findings_of_run(const Results& frame, const RowSource& rows,
                             const std::optional<analysis::Reliability>& reliability) {
-    RunFindings run{.study = read_study_text(frame.provenance_value("study"), "").study,
+    RunFindings run{.facts = run_facts(frame.provenance_value("study")),
                     .failures = failures_of(frame, rows),
                     .numerical = numerical_contributions(frame, rows, reliability),
                     .other_fault = other_fault_alarms(frame, rows),
@@ -338,16 +332,14 @@ Json features_json(const Results& frame) {
 }
 
 // Noise levels, and the noise that they multiply, if the study can be read.
-Json noise_json(const Results& frame, const std::optional<Study>& study) {
+Json noise_json(const Results& frame, const std::optional<RunFacts>& facts) {
     Json json{{"levels", frame.noise_levels},
               {"reference", reference_level(frame.noise_levels)},
               {"sensor_m_s2", nullptr},
               {"encoder_rad", nullptr}};
-    if (study) {
-        json["encoder_rad"] = study->sensor.encoder_noise_rad;
-        if (!study->effects.quasi_static()) {
-            json["sensor_m_s2"] = sensor_noise_m_s2(*study);
-        }
+    if (facts) {
+        json["encoder_rad"] = facts->encoder_noise_rad;
+        json["sensor_m_s2"] = analysis::json_of(facts->sensor_noise_m_s2);
     }
     return json;
 }
@@ -358,10 +350,10 @@ nlohmann::json report_json(const Results& frame, const RowSource& rows,
                            const std::optional<analysis::Reliability>& reliability,
                            const RunFindings& run) {
     Json json = examples_json(frame, rows);
-    const std::optional<Study>& study = run.study;
-    json["title"] = study ? study->title : "";
-    json["assumptions"] = study ? run_conditions(*study) : "";
-    json["fault"] = study && study->fault.kind ? Json(study->fault.kind->words()) : Json(nullptr);
+    const std::optional<RunFacts>& facts = run.facts;
+    json["title"] = facts ? facts->ensemble.title : "";
+    json["assumptions"] = facts ? facts->conditions : "";
+    json["fault"] = facts && facts->fault.given() ? Json(facts->fault.words) : Json(nullptr);
     json["detection"] = analysis::detection_json(frame.detection, frame.request, subject_of(frame));
     json["reliability"] =
         reliability ? analysis::reliability_json(*reliability, frame.request) : Json(nullptr);
@@ -374,7 +366,7 @@ nlohmann::json report_json(const Results& frame, const RowSource& rows,
     json["sensors"] = sensors_json(run.sensors);
     json["other_fault"] = other_fault_json(frame, run.other_fault);
     json["features"] = features_json(frame);
-    json["noise"] = noise_json(frame, study);
+    json["noise"] = noise_json(frame, facts);
     json["failures"] = failures_json(frame, run.failures);
     json["over_time"] = alarms_json(frame, run.over_time);
     json["monitoring"] = run.monitoring ? monitoring_json(*run.monitoring) : Json(nullptr);

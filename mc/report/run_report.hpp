@@ -7,20 +7,20 @@
 #include "analysis/reliability.hpp"
 #include "analysis/report/report.hpp"
 #include "mc/ensemble/ensemble.hpp"
+#include "mc/plan/study_facts.hpp"
 #include "mc/report/alarm_rates.hpp"
 #include "mc/report/gearbox_values.hpp"
 #include "mc/report/monitoring_over_time.hpp"
 #include "mc/report/numerical_quality.hpp"
 #include "mc/report/sensors.hpp"
 #include "mc/results/result_rows.hpp"
-#include "mc/study/study.hpp"
 
 namespace gearpod::mc {
 
 // Everything that a results file tells: the report, in the order of the page, and the numbers
 // behind it.
 struct RunFindings {
-    std::optional<Study> study;  // empty if it cannot be read
+    std::optional<RunFacts> facts;  // empty if the study cannot be read
     Failures failures;
     std::vector<NumericalContribution> numerical;
     std::vector<OtherFaultAlarms> other_fault;

@@ -44,7 +44,10 @@ ComparedRows compared_rows(const ComparedSide& a, const ComparedSide& b) {
                                     printable(b.frame.provenance_value("seed")));
         return rows;
     }
-    if (a.sampling != b.sampling) {
+    const auto sampling = [](const ComparedSide& side) {
+        return side.facts ? side.facts->sampling : SamplingKind::plain;
+    };
+    if (sampling(a) != sampling(b)) {
         rows.unpaired = "ensemble.sampling differs";
         return rows;
     }
@@ -189,8 +192,7 @@ ComparedSide read_compared(const std::string& path) {
             (threshold ? side.threshold : side.test).push_back(row);
         }
     }
-    const auto study = read_study_text(side.frame.provenance_value("study"), "").study;
-    side.sampling = study ? study->ensemble.sampling : SamplingKind::plain;
+    side.facts = run_facts(side.frame.provenance_value("study"));
     return side;
 }
 

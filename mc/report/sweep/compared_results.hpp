@@ -1,12 +1,13 @@
 // Comparison of two results files of `run`, gearbox by gearbox where seed and sizes agree.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "analysis/comparison/comparison_report.hpp"
+#include "mc/plan/study_facts.hpp"
 #include "mc/results/results_file.hpp"
-#include "mc/study/study.hpp"
 
 namespace gearpod::mc {
 
@@ -15,7 +16,7 @@ struct ComparedSide {
     std::string path;
     Results frame;                             // includes the columns
     std::vector<std::size_t> threshold, test;  // rows
-    SamplingKind sampling = SamplingKind::plain;
+    std::optional<RunFacts> facts;             // empty if the study cannot be read
 };
 
 // Reads a results file. Throws std::runtime_error if it is not one of `run`, or damaged.

@@ -1,0 +1,42 @@
+// What reports of a results file state of the study that it contains.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "mc/plan/ensemble_plan.hpp"
+#include "mc/plan/fault_plan.hpp"
+#include "mc/plan/gearbox_streams.hpp"
+#include "mc/study/study.hpp"
+
+namespace gearpod::mc {
+
+// Of the study by which recordings were measured.
+struct MeasuringFacts {
+    std::string title;
+    std::vector<std::string> features;  // used
+    Monitoring monitoring;
+};
+
+// Of the study of simulated gearboxes.
+struct RunFacts {
+    EnsemblePlan ensemble;
+    RowOrder rows;
+    SamplingKind sampling;
+    FaultPlan fault;
+    std::string other_fault;   // in words; "another fault" without one
+    std::string conditions;    // see run_conditions()
+    std::string false_alarms;  // see false_alarm_target_text()
+    // Nominal noise at level 1; no value for quasi-static gearboxes.
+    std::optional<double> sensor_noise_m_s2;
+    double encoder_noise_rad;
+};
+
+// Both read the text of a study in a results file; `name` stands for it in messages. Empty if this
+// program cannot read the study.
+std::optional<MeasuringFacts> measuring_facts(const std::string& study_text,
+                                              const std::string& name = "");
+std::optional<RunFacts> run_facts(const std::string& study_text, const std::string& name = "");
+
+}  // namespace gearpod::mc
