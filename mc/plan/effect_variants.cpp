@@ -13,8 +13,8 @@ bool has_bodies_in_plane(const Study& s) {
     return s.gearbox.kind == GearboxKind::planetary && !s.effects.torsional();
 }
 bool has_real_teeth(const Study& s) {
-    return s.gearbox.tooth_profile != ToothProfile::constant &&
-           s.gearbox.tooth_profile != ToothProfile::square_wave;
+    return s.gearbox.tooth_profile != StiffnessSource::constant &&
+           s.gearbox.tooth_profile != StiffnessSource::square_wave;
 }
 bool always(const Study&) {
     return true;

@@ -31,8 +31,8 @@ ModalPlan make_modal_plan(const Study& study) {
     if (has_gears(study)) {
         drivetrain = make_drivetrain(study);
     }
-    EXPECTS(drivetrain || study.gearbox.tooth_profile == ToothProfile::constant);
-    std::vector<double> mean_pairs = study.gearbox.tooth_profile == ToothProfile::constant
+    EXPECTS(drivetrain || study.gearbox.tooth_profile == StiffnessSource::constant);
+    std::vector<double> mean_pairs = study.gearbox.tooth_profile == StiffnessSource::constant
                                          ? constant_pairs(study)
                                          : SceneStiffness(study, *drivetrain).mean_pairs();
     return {BodyModel(study),      nominal_inputs(study), std::move(mean_pairs),

@@ -27,7 +27,7 @@ struct StiffnessLevels {
 
 StiffnessLevels levels_of(const Study& study, MeshKind mesh) {
     const MeshValues& given = study.gearbox.meshes[mesh];
-    if (study.gearbox.tooth_profile == ToothProfile::square_wave) {
+    if (study.gearbox.tooth_profile == StiffnessSource::square_wave) {
         return {given.low_stiffness_N_m.value(), given.high_stiffness_N_m.value(),
                 given.contact_ratio.value()};
     }

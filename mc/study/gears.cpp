@@ -144,8 +144,8 @@ bool has_unequal_planets(const Study& study) {
 }
 
 bool stiffness_given(const Study& study) {
-    return study.gearbox.tooth_profile == ToothProfile::constant ||
-           study.gearbox.tooth_profile == ToothProfile::square_wave;
+    return study.gearbox.tooth_profile == StiffnessSource::constant ||
+           study.gearbox.tooth_profile == StiffnessSource::square_wave;
 }
 
 bool has_gears(const Study& study) {
@@ -296,13 +296,13 @@ double working_angle_rad(const Study& study, MeshKind mesh) {
 
 stiffness::Profile profile_of(const Study& study) {
     switch (study.gearbox.tooth_profile) {
-        case ToothProfile::base_circle:
+        case StiffnessSource::base_circle:
             return stiffness::Profile::base_circle;
-        case ToothProfile::fillet:
+        case StiffnessSource::fillet:
             return stiffness::Profile::fillet;
-        case ToothProfile::root_circle:
-        case ToothProfile::constant:
-        case ToothProfile::square_wave:
+        case StiffnessSource::root_circle:
+        case StiffnessSource::constant:
+        case StiffnessSource::square_wave:
             return stiffness::Profile::root_circle;
     }
     return stiffness::Profile::root_circle;

@@ -169,7 +169,8 @@ struct Correlation {
 class FaultKind;  // mc/study/faults/fault_kind.hpp
 
 enum class GearboxKind { planetary, fixed_shaft };
-enum class ToothProfile { root_circle, base_circle, fillet, constant, square_wave };
+// Source of the mesh stiffness: beams with a tooth profile, or given values.
+enum class StiffnessSource { root_circle, base_circle, fillet, constant, square_wave };
 enum class MeshKind { sun_planet, ring_planet, pinion_gear };
 inline constexpr std::size_t kMeshKinds = 3;
 enum class Motion { translational_torsional, torsional, quasi_static, quasi_static_torsional };
@@ -237,7 +238,7 @@ struct Gearbox {
     std::optional<double> face_width_m, young_modulus_Pa, poisson_ratio;
     double addendum_coefficient = 1.0;
     double dedendum_coefficient = 1.25;
-    ToothProfile tooth_profile = ToothProfile::root_circle;
+    StiffnessSource tooth_profile = StiffnessSource::root_circle;
     gears::ReliefShape relief_shape = gears::ReliefShape::linear;
     std::optional<double> ring_to_sun_phase;  // mesh periods; by default from the geometry
     double support_stiffness_N_m = 0.0;       // tangential, holds the fixed member

@@ -53,7 +53,7 @@ void check_planet(StudyDraft& draft) {
 
 // True if the fault needs no tooth shape or the study has one.
 bool check_profile(StudyDraft& draft) {
-    const ToothProfile profile = draft.study.gearbox.tooth_profile;
+    const StiffnessSource profile = draft.study.gearbox.tooth_profile;
     if (!stiffness_given(draft.study) || !draft.study.fault.kind->shapes_tooth() ||
         !draft.usable("gearbox.tooth_profile")) {
         return true;
@@ -61,7 +61,7 @@ bool check_profile(StudyDraft& draft) {
     draft.reject("fault.kind",
                  fmt::format("{} needs the shape of its tooth (gearbox.tooth_profile is \"{}\")",
                              draft.study.fault.kind->words(),
-                             profile == ToothProfile::constant ? "constant" : "square-wave"),
+                             profile == StiffnessSource::constant ? "constant" : "square-wave"),
                  fmt::format("use fault.kind = {}, or tooth_profile = "
                              "\"root-circle\", \"base-circle\" or \"fillet\"",
                              shapeless_kinds()));

@@ -13,9 +13,9 @@ namespace {
 constexpr ChoiceName kKinds[] = {name("planetary", GearboxKind::planetary),
                                  name("fixed-shaft", GearboxKind::fixed_shaft)};
 constexpr ChoiceName kProfiles[] = {
-    name("root-circle", ToothProfile::root_circle), name("base-circle", ToothProfile::base_circle),
-    name("fillet", ToothProfile::fillet), name("constant", ToothProfile::constant),
-    name("square-wave", ToothProfile::square_wave)};
+    name("root-circle", StiffnessSource::root_circle),
+    name("base-circle", StiffnessSource::base_circle), name("fillet", StiffnessSource::fillet),
+    name("constant", StiffnessSource::constant), name("square-wave", StiffnessSource::square_wave)};
 
 constexpr ChoiceName kReliefShapes[] = {name("linear", gears::ReliefShape::linear),
                                         name("parabolic", gears::ReliefShape::parabolic)};

@@ -16,7 +16,7 @@ const Presence kOptional{Need::optional, "", {}};
 constexpr std::string_view kProfile = "gearbox.tooth_profile";
 constexpr std::string_view kMotion = "effects.motion";
 
-bool is(const Study& s, ToothProfile profile) {
+bool is(const Study& s, StiffnessSource profile) {
     return s.gearbox.tooth_profile == profile;
 }
 
@@ -115,8 +115,8 @@ Presence of_kind(const Study& s, GearboxKind kind, Presence (*rule)(const Study&
 }
 
 Presence tooth_numbers(const Study& s) {
-    return required_if(!is(s, ToothProfile::constant), "gearbox.tooth_profile is not \"constant\"",
-                       {kProfile});
+    return required_if(!is(s, StiffnessSource::constant),
+                       "gearbox.tooth_profile is not \"constant\"", {kProfile});
 }
 
 Presence tooth_module(const Study& s) {
@@ -162,13 +162,13 @@ Presence tooth_model(const Study& s) {
 }
 
 Presence constant_stiffness(const Study& s) {
-    return with(is(s, ToothProfile::constant), "gearbox.tooth_profile is \"constant\"",
+    return with(is(s, StiffnessSource::constant), "gearbox.tooth_profile is \"constant\"",
                 "only for gearbox.tooth_profile = \"constant\"; else the teeth define it",
                 kProfile);
 }
 
 Presence square_wave(const Study& s) {
-    return with(is(s, ToothProfile::square_wave), "gearbox.tooth_profile is \"square-wave\"",
+    return with(is(s, StiffnessSource::square_wave), "gearbox.tooth_profile is \"square-wave\"",
                 "only for gearbox.tooth_profile = \"square-wave\"", kProfile);
 }
 
@@ -259,7 +259,7 @@ Presence inertia(const Study& s) {
 }
 
 Presence inertia_over_r2(const Study& s) {
-    const bool no_disc = is(s, ToothProfile::constant) && !s.gearbox.has_teeth();
+    const bool no_disc = is(s, StiffnessSource::constant) && !s.gearbox.has_teeth();
     return required_if(no_disc && !s.effects.quasi_static(),
                        "without tooth numbers no disc can be assumed", {kProfile, kMotion});
 }

@@ -96,7 +96,7 @@ TEST_CASE(
 TEST_CASE("A mesh of nearly constant stiffness oscillates at the closed form's frequency") {
     for (const double stiffness : {6e8, 9e8, 1.1e9}) {
         mc::Study study = shipped_study("published/tian-fig-4-3.toml");
-        study.gearbox.tooth_profile = mc::ToothProfile::square_wave;
+        study.gearbox.tooth_profile = mc::StiffnessSource::square_wave;
         study.gearbox.meshes[mc::MeshKind::pinion_gear] = {{}, 0.9999 * stiffness, stiffness, 1.9};
         const mc::Scene scene(study);
         const double two = 1.0 + scene.pairs().start[0];
