@@ -24,8 +24,8 @@ Seconds& Seconds::operator+=(const Seconds& other) {
 
 BatchWorker::BatchWorker(const BatchTask& task)
     : task_(task), features_(task.scene, &task.healthy) {
-    for (const HealthyReference& healthy : task.additional) {
-        additional_.emplace_back(task.scene, &healthy);
+    for (std::size_t s = 0; s < task.additional.size(); ++s) {
+        additional_.emplace_back(task.scene, &task.additional[s], true, s + 1);
     }
 }
 BatchRows BatchWorker::compute(const Batch& batch, Seconds& seconds) {
@@ -55,18 +55,15 @@ BatchRows BatchWorker::compute(std::span<const GearboxId> ids, std::size_t recor
 void BatchWorker::add_rows(std::span<const GearboxId> ids, std::size_t records, BatchRows& rows,
                            Seconds& seconds) {
     GearboxTile computed =
-        run_gearboxes(task_.scene, task_.path, ids, task_.scene.ensemble().lanes,
+        run_gearboxes(task_.scene, ids, task_.scene.ensemble().lanes,
                       {.signal_meshes = features_.meshes(), .cache = &task_.cache});
     const auto start = WallClock::now();
     const double noise_before = features_.noise_s();
-    std::vector<LaneSignals> signals =
-        all_lane_signals(task_.scene, task_.path, computed, features_.meshes());
+    std::vector<LaneSignals> signals = all_lane_signals(task_.scene, computed, features_.meshes());
     computed.sensor_recorders.clear();  // frees memory: `signals` holds copies
     std::vector<LaneSignals> others(ids.size());
     const bool any_threshold = std::ranges::count(ids, Group::threshold, &GearboxId::group) > 0;
-    const bool other_fault =
-        std::ranges::count(task_.scene.ensemble().variants, kOtherFault, &VariantColumns::name) > 0;
-    if (other_fault && any_threshold) {
+    if (task_.scene.ensemble().has_other_fault() && any_threshold) {
         others = with_other_fault(task_.scene, std::span(computed.realizations).first(ids.size()),
                                   signals);
     }
@@ -100,10 +97,10 @@ std::vector<double> BatchWorker::variants_of(const Realization& record, const La
     for (const VariantColumns& variant : plan.variants) {
         std::vector<double> values(plan.shape.features * plan.shape.levels, kNan);
         if (variant.sensor) {
-            const std::size_t s = *variant.sensor;
-            SensorSignals measured = signals_of_sensor(task_.scene.study(), signals, s);
-            values = additional_[s].compute(measured.linked(),
-                                            at_sensor(task_.scene.study(), record, s + 1));
+            const SensorPlan& sensor = task_.scene.sensors()[*variant.sensor + 1];
+            SensorSignals measured = signals_of_sensor(sensor, signals);
+            values =
+                additional_[*variant.sensor].compute(measured.linked(), sensor.realization(record));
         } else if (record.id.group == Group::threshold) {
             values = features_.compute(other, record);
         }

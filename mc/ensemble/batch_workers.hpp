@@ -38,17 +38,13 @@ GEARPOD_FIELDS(Seconds, sampling, stiffness, integration, signals, noise, featur
 // Data shared by all workers of a process.
 struct BatchTask {
     explicit BatchTask(const Scene& shared_scene)
-        : scene(shared_scene),
-          path(sensor_paths(scene)),
-          cache(scene.solve()),
-          healthy(healthy_reference(scene, path)) {
-        for (std::size_t s = 1; s < path.size(); ++s) {
-            additional.push_back(healthy_reference(scene, path, s));
+        : scene(shared_scene), cache(scene.solve()), healthy(healthy_reference(scene)) {
+        for (std::size_t s = 1; s < scene.sensors().size(); ++s) {
+            additional.push_back(healthy_reference(scene, s));
         }
     }
 
     const Scene& scene;
-    const SensorPaths path;
     const IntegrationCache cache;
     const HealthyReference healthy;
     std::vector<HealthyReference> additional;  // of the additional sensors

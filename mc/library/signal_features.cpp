@@ -112,7 +112,7 @@ HealthyReference reference_at(double noise_level, const Scene& scene) {
         return {};
     }
     const auto level = static_cast<std::size_t>(found - levels.begin());
-    const HealthyReference all = simulated_reference(scene, sensor_paths(scene));
+    const HealthyReference all = simulated_reference(scene);
     return {{all.residual_variance[level]}, {all.envelope_variance[level]}, {all.amplitude[level]}};
 }
 

@@ -7,7 +7,6 @@ LifeTiles::LifeTiles(const Scene& scene, LifePlan plan)
       plan_(std::move(plan)),
       torques_(plan_.distributions.torque, plan_.torques),
       speeds_(plan_.distributions.speed, plan_.speeds),
-      path_(sensor_paths(scene)),
       crack_(plan_) {}
 
 std::size_t LifeTiles::lanes() const {
@@ -55,7 +54,7 @@ HealthySolution LifeTiles::healthy_solution(std::span<const Realization> gearbox
         gearbox.inputs.fixed_shaft.load_torque_N_m *= load.torque;
         gearbox.inputs.speed_rad_s *= load.speed;
     }
-    return {scene_, path_, std::move(all), static_cast<int>(lanes())};
+    return {scene_, std::move(all), static_cast<int>(lanes())};
 }
 
 }  // namespace gearpod::mc

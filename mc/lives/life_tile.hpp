@@ -100,7 +100,6 @@ class LifeTiles {
     const Scene& scene_;
     const LifePlan plan_;
     const LoadAxis torques_, speeds_;
-    const SensorPaths path_;
     const CrackLife crack_;
 };
 

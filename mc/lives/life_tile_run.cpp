@@ -30,9 +30,9 @@ class LifeTiles::Lane {
           features_(tiles.scene_.features().used),
           needs_(superposed_needs(features_)),
           span_(tiles.plan_.record_span(inputs_.speed_rad_s)),
-          record_(tiles.scene_, needs_.record, span_.turns * span_.recordings),
-          change_(tiles.scene_, needs_.change, span_.turns * span_.recordings),
-          reference_(tiles.scene_, needs_.baseline, span_.turns * span_.recordings),
+          record_(signals_with(needs_.record)),
+          change_(signals_with(needs_.change)),
+          reference_(signals_with(needs_.baseline)),
           python_(tiles.scene_.record(), tiles.scene_.features(), features_) {
         life_.history = tiles.crack_.history(gearbox, cracked);
         life_.values.assign(features_.size(),
@@ -60,9 +60,10 @@ class LifeTiles::Lane {
         noise_.sensor.resize(healthy.front().sensor.size());
         noise_.te_turn.assign(healthy.front().te_turn.size(), 0.0);
         Philox engine = gearbox_stream(plan.seed, id_, StreamPurpose::reference_noise);
-        if (noise_by_density(tiles_.scene_.study())) {
-            draw_unit_noise(tiles_.scene_, inputs_, NoiseEngines<Philox>{engine, engine, engine},
-                            std::span(noise_.sensor));
+        if (noise_stage().by_density()) {
+            draw_unit_noise(noise_stage(), noise_of(inputs_),
+                            tiles_.scene_.record().sample_s(inputs_),
+                            NoiseEngines<Philox>{engine, engine, engine}, std::span(noise_.sensor));
         } else {
             signals::draw_normals(engine, std::span(noise_.sensor));
         }
@@ -168,8 +169,7 @@ class LifeTiles::Lane {
     InstanceInputs inputs_of(const LifeRecord& record) const {
         InstanceInputs inputs = inputs_;
         if (tiles_.plan_.distributions.sensor_noise_only) {
-            const SensorNoise noise =
-                with_rms_factor(tiles_.scene_.study(), noise_of(inputs), record.noise);
+            const SensorNoise noise = noise_stage().with_rms_factor(noise_of(inputs), record.noise);
             inputs.noise_m_s2 = noise.all_m_s2;
             inputs.white_noise_m_s2 = noise.white_m_s2;
         } else {
@@ -214,7 +214,7 @@ class LifeTiles::Lane {
             changed = fold_record(superposed, coefficients, starts);
             if (uses_samples()) {
                 change_.load(changed, realization.inputs,
-                             noise_of_change(tiles_.scene_, changed, record_.noise(), {}));
+                             noise_of_change(tiles_.scene_.record(), changed, record_.noise(), {}));
             } else {
                 realization.id = record_id(id_, r, true);
                 change_.load(changed, realization);
@@ -302,7 +302,7 @@ class LifeTiles::Lane {
                                  static_cast<std::size_t>(span_.turns % span_.all_turns),
                                  sum.folded);
         }
-        if (uses_samples() || noise_by_density(tiles_.scene_.study())) {
+        if (uses_samples() || noise_stage().by_density()) {
             sum.turns = span_.turns * span_.recordings;
             add_samples(superposed, coefficients, starts, sum.sensor);
         }
@@ -318,6 +318,13 @@ class LifeTiles::Lane {
                                     static_cast<std::size_t>(span_.turns), samples);
         }
     }
+
+    RealizationSignals signals_with(features::SignalSet needs) const {
+        const Scene& plan = tiles_.scene_;
+        return {plan.record(),    plan.features(), plan.sensors().front(),
+                plan.draw().seed, needs,           span_.turns * span_.recordings};
+    }
+    const NoiseStage& noise_stage() const { return tiles_.scene_.sensors().front().noise(); }
 
     const LifeTiles& tiles_;
     const GearboxId id_;

@@ -314,7 +314,7 @@ GearboxTile pilot_tile(const Scene& plan) {
     }
     const int lanes =
         lockstep::lanes_for(plan.plan().precision, static_cast<int>(gearboxes.size()));
-    return run_realizations(plan, sensor_paths(plan), std::move(gearboxes), lanes,
+    return run_realizations(plan, std::move(gearboxes), lanes,
                             {.records = lockstep::RecordOptions{}});
 }
 

@@ -106,7 +106,6 @@ Pilot::Pilot(Planner planner, std::vector<GearboxId> ids)
     : planner_(std::move(planner)), ids_(std::move(ids)) {
     constexpr int kMostSignalMeshes = 200;
     const Scene plan = planner_.plan(without_tolerance(planner_.facts().numerics));
-    path_ = sensor_paths(plan);
     signal_meshes_ = std::clamp(plan.pattern().length, 1, kMostSignalMeshes);
 }
 
@@ -114,7 +113,7 @@ PilotRecord Pilot::run(const Numerics& numerics) const {
     const Scene plan = planner_.plan(numerics);
     const int lanes = lockstep::lanes_for(numerics.precision, full_lanes(numerics.precision));
     return record(plan, lanes, [&](std::span<const GearboxId> some) {
-        return run_gearboxes(plan, path_, filled(some, lanes), lanes,
+        return run_gearboxes(plan, filled(some, lanes), lanes,
                              {.records = lockstep::RecordOptions{}});
     });
 }
@@ -122,7 +121,7 @@ PilotRecord Pilot::run(const Numerics& numerics) const {
 PilotRecord Pilot::record_of_integration(const ForeignIntegrator& integrate) const {
     const Scene plan = planner_.plan(planner_.facts().numerics);
     return record(plan, lockstep::kPilotLanes, [&](std::span<const GearboxId> some) {
-        return complete_tile(plan, path_, some, integrate(some));
+        return complete_tile(plan, some, integrate(some));
     });
 }
 
@@ -131,7 +130,7 @@ PilotRecord Pilot::record(const Scene& plan, int lanes, const Tile& tile_of) con
     record.features_used = static_cast<int>(planner_.facts().features.size());
     record.levels = static_cast<int>(planner_.facts().noise_levels.size());
     record.steps = static_cast<int>(plan.plan().grid.steps.size());
-    const HealthyReference healthy = healthy_reference(plan, path_);
+    const HealthyReference healthy = healthy_reference(plan);
     RealizationFeatures features(plan, &healthy);
     double tiles_s = 0.0, features_s = 0.0, lanes_run = 0.0;
     for (std::size_t first = 0; first < ids_.size(); first += lockstep::kPilotLanes) {
@@ -155,17 +154,18 @@ PilotRecord Pilot::record(const Scene& plan, int lanes, const Tile& tile_of) con
                 continue;
             }
             const double features_start = thread_processor_s();
-            record.features.back() = features.compute(
-                lane_signals(plan, path_, tile, lane, features.meshes()), realization);
+            record.features.back() =
+                features.compute(lane_signals(plan, tile, lane, features.meshes()), realization);
             features_s += thread_processor_s() - features_start;
             const lockstep::SpanPart part =
                 tile.parts.empty() ? lockstep::SpanPart{0, signal_meshes_} : tile.parts.front();
             const int count = std::min(signal_meshes_, part.end - part.first);
-            record.sensor.back() = signals::synthesize(
-                tile.views, lane, tile.integration.content, plan.span(), path_[0][0],
-                realization.inputs.path_exponent, part.first, count);
+            record.sensor.back() =
+                signals::synthesize(tile.views, lane, tile.integration.content, plan.span(),
+                                    plan.sensors().front().paths.front(),
+                                    realization.inputs.path_exponent, part.first, count);
             record.te.back() =
-                recorded_te(plan, tile, lane, part.first, count, plan.samples_per_mesh());
+                recorded_te(plan.record(), tile, lane, part.first, count, plan.samples_per_mesh());
             remove_mean(record.te.back());
         }
     }

@@ -55,7 +55,6 @@ class Pilot {
 
     Planner planner_;
     std::vector<GearboxId> ids_;
-    SensorPaths path_;
     int signal_meshes_ = 0;
 };
 

@@ -403,8 +403,9 @@ class Describer {
             }
         }
         if (sensor.low_pass_Hz || sensor.quantisation_m_s2) {
-            text += fmt::format("; noise {:.4g} m/s^2 rms times the noise level",
-                                noise_at(study_, sensor, noise_of(gearbox_.nominal)).all_m_s2);
+            text +=
+                fmt::format("; noise {:.4g} m/s^2 rms times the noise level",
+                            noise_stage(study_, &sensor).of(noise_of(gearbox_.nominal)).all_m_s2);
         }
         return text;
     }

@@ -146,9 +146,6 @@ class Computation {
         inputs.noise_m_s2 = noise.all_m_s2;
         inputs.white_noise_m_s2 = noise.white_m_s2;
         inputs.background_noise_m_s2 = noise.background_m_s2;
-        inputs.low_pass_Hz = recipe_.noise.low_pass_Hz;
-        inputs.own_sampling_Hz = 0.0;
-        inputs.range_m_s2 = recipe_.range_m_s2;
         inputs.encoder_noise_rad = values_.or_0<"sensor.encoder_noise_arcsec">();
         inputs.fault_size = value(recipe_.fault_size).value_or(0.0);
         inputs.paris_factor = values_.or_0<"life.paris_factor">();
@@ -237,10 +234,7 @@ class Computation {
 }  // namespace
 
 InputsRecipe::InputsRecipe(const Study& study)
-    : nominal(study),
-      planets(given_planets(study)),
-      noise(noise_model(study)),
-      range_m_s2(study.sensor.range_m_s2.value_or(std::numeric_limits<double>::infinity())) {
+    : nominal(study), planets(given_planets(study)), noise(noise_model(study)) {
     for (const Member member : kAllMembers) {
         bodies[member] = body_recipe(study, member);
     }

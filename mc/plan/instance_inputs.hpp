@@ -107,9 +107,6 @@ struct InstanceInputs {
     double noise_m_s2;             // rms of all accelerometer noise
     double white_noise_m_s2;       // rms of the part that the low-pass does not filter
     double background_noise_m_s2;  // rms of the part that is the machine's background
-    double low_pass_Hz;            // of the sensor that has this noise
-    double own_sampling_Hz;        // of that sensor's converter; 0: that of the study
-    double range_m_s2;             // of that sensor; infinite without one
     double encoder_noise_rad;      // rms
     double fault_size;             // 0 in the threshold group and without a fault
     // Parameters of crack growth as in Life; 0 without one.
@@ -141,7 +138,6 @@ struct InputsRecipe {
     std::optional<InputId> fault_size;  // empty without a fault
     Planets planets;                    // given differences
     NoiseModel noise;
-    double range_m_s2;  // of the sensor; infinite without one
 };
 
 // Member whose speed a study gives: sun, ring or carrier, or the pinion.

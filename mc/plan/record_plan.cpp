@@ -8,6 +8,7 @@
 #include <numeric>
 
 #include "mc/plan/scene_error.hpp"
+#include "mc/plan/sensor_plan.hpp"
 #include "mc/study/assumptions.hpp"
 #include "mc/study/false_alarm_target.hpp"
 #include "mc/study/faults/fault_kind.hpp"
@@ -33,15 +34,14 @@ bool same_baselines(const Study& study) {
 
 // True for records of given length in gearboxes that need every mesh period integrated. Independent
 // of the numerics. Not for random or fluctuating speed, several records of each gearbox, elastic
-// shafts, responses of a housing, or lives: these need more than one part of the signal.
+// shafts, or lives: these need more than one part of the signal.
 bool shares_windows(const Study& study) {
     const bool random_speed = std::ranges::any_of(study.random, [](const RandomInput& input) {
         return input.quantity == RecordQuantity::speed;
     });
     return record_length(study).given() && !reason_not_periodic(study).empty() &&
            !study.effects.quasi_static() && !random_speed && !speed_fluctuates(study) &&
-           study.ensemble.threshold_records == 1 && !study.life.interval_h && !is_coupled(study) &&
-           !any_response(study);
+           study.ensemble.threshold_records == 1 && !study.life.interval_h && !is_coupled(study);
 }
 
 double meshes_of_record(const RecordLength& length, const signals::SpanLayout& span,
@@ -202,25 +202,42 @@ std::size_t RecordPlan::turn_samples() const {
     return static_cast<std::size_t>(span.planet_teeth) * static_cast<std::size_t>(samples);
 }
 
+int RecordPlan::sensor_meshes(features::SignalSet needs) const {
+    return needs_samples(needs) || samples_needed == SampleNeed::signal ? signal_meshes
+           : samples_needed == SampleNeed::span                         ? span.meshes()
+                                                                        : 0;
+}
+
 int RecordPlan::turns(const InstanceInputs& inputs) const {
     return std::clamp(whole_turns(length.value(), span, 1.0 / mesh_period_s(inputs)),
                       kLeastRecordTurns, signal_meshes / span.planet_teeth);
 }
 
 RecordPlan make_record_plan(const Study& study, const GearboxPlan& gearbox,
-                            const FeaturePlan& features, int samples, int te_samples) {
+                            const FeaturePlan& features, std::span<const SensorPlan> sensors,
+                            int samples, int te_samples) {
     RecordPlan plan;
     plan.span = features.span;
     plan.mesh_frequency_Hz = gearbox.mesh_frequency_Hz;
     plan.samples = samples;
     plan.te_samples = te_samples;
+    plan.sources = dynamics::sources(gearbox.bodies.layout);
+    plan.planet_sources =
+        plan.sources - (housing_bearings(study).empty() ? 0 : dynamics::kBearingSources);
     const RecordLength length = record_length(study);
     plan.signal_meshes = signal_meshes(length, features, std::abs(plan.mesh_frequency_Hz));
     plan.recorded_meshes = plan.signal_meshes;
     if (length.given()) {
         plan.length = length;
+        plan.samples_needed = features.sensor ? SampleNeed::signal : SampleNeed::none;
     }
-    plan.same_window = shares_windows(study) ? kTileLanes : 1;
+    for (const SensorPlan& sensor : sensors) {
+        plan.samples_needed = std::max(plan.samples_needed, sensor.samples());
+    }
+    // A response needs the whole signal.
+    const bool responds = std::ranges::any_of(
+        sensors, [](const SensorPlan& sensor) { return sensor.samples() == SampleNeed::signal; });
+    plan.same_window = shares_windows(study) && !responds ? kTileLanes : 1;
     plan.same_positions = is_coupled(study) ? kCoupledLanes : plan.same_window;
     plan.baselines = static_cast<std::size_t>(features.baselines);
     plan.computed_baselines =

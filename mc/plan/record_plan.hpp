@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -15,6 +16,8 @@
 #include "signals/tile_signals.hpp"
 
 namespace gearpod::mc {
+
+struct SensorPlan;  // sensor_plan.hpp
 
 // Length of a record if it is not the span, in seconds or in turns of the carrier. `section` is
 // that of the keys record_s and record_turns.
@@ -40,12 +43,19 @@ int whole_turns(const RecordLength& length, const signals::SpanLayout& span,
 void check_record_length(const RecordLength& length, const signals::SpanLayout& span,
                          double mesh_frequency_Hz);
 
+// Samples of a sensor that are needed: none if the folded squares of its windows are enough, those
+// of the span, or those of the whole signal.
+enum class SampleNeed { none, span, signal };
+
 struct RecordPlan {
     // Span after which every tooth of the monitored gear has met every tooth of its mate that it
     // can meet.
     signals::SpanLayout span;
     double mesh_frequency_Hz = 0.0;   // nominal, with the sign of Drivetrain
     int samples = 0, te_samples = 0;  // per mesh period, of the sensor and of the encoders
+    // Sources of vibration whose acceleration is recorded, and how many of them are planets; one in
+    // a fixed-shaft gearbox.
+    int sources = 0, planet_sources = 0;
     // Mesh periods of sensor signal from which records are taken: the span, or more for the teeth
     // of the sun or the ring, or the span and a record of given length.
     int signal_meshes = 0;
@@ -53,6 +63,8 @@ struct RecordPlan {
     // are fewer than those of the signal, they repeat.
     int recorded_meshes = 0;
     std::optional<RecordLength> length;  // empty: records are the whole signal
+    // Samples that the records and the stages of the sensors need, whatever the features need.
+    SampleNeed samples_needed = SampleNeed::none;
     // Number of successive gearboxes of a group whose records are the same window of their signals,
     // and of those whose records are computed together because their windows or the positions of
     // their coupled stages are the same; 1: none.
@@ -70,6 +82,9 @@ struct RecordPlan {
     double sample_s(const InstanceInputs& inputs) const { return mesh_period_s(inputs) / samples; }
     // Number of samples in a turn of the monitored gear.
     std::size_t turn_samples() const;
+    // Number of mesh periods of sensor samples that must be computed for features with these needs;
+    // 0: sensors are evaluated by the folded squares of their windows alone.
+    int sensor_meshes(features::SignalSet needs) const;
     // Number of turns in a record of a gearbox with these inputs. It follows from the gearbox's
     // speed, but is at least kLeastRecordTurns. Requires a length.
     int turns(const InstanceInputs& inputs) const;
@@ -78,7 +93,8 @@ struct RecordPlan {
 // Plan of a study's records with these numbers of samples per mesh period. Throws SceneError if
 // features need longer records.
 RecordPlan make_record_plan(const Study& study, const GearboxPlan& gearbox,
-                            const FeaturePlan& features, int samples, int te_samples);
+                            const FeaturePlan& features, std::span<const SensorPlan> sensors,
+                            int samples, int te_samples);
 
 // Length of a record at nominal speed, for example "10 s, 7 turns of 39 mesh periods".
 std::string record_length_text(const RecordPlan& plan);

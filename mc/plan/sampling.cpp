@@ -4,8 +4,6 @@
 #include <cmath>
 #include <numbers>
 
-#include "mc/study/noise.hpp"
-
 namespace gearpod::mc {
 namespace {
 
@@ -23,20 +21,6 @@ GearboxId owner(GearboxId id, DrawnPer per) {
 }
 
 }  // namespace
-
-Realization at_sensor(const Study& study, const Realization& realization, std::uint64_t sensor) {
-    Realization own = realization;
-    own.id.sensor = sensor;
-    const AdditionalSensor& additional = study.sensor.additional[sensor - 1];
-    const SensorNoise noise = noise_at(study, additional, noise_of(own.inputs));
-    own.inputs.noise_m_s2 = noise.all_m_s2;
-    own.inputs.white_noise_m_s2 = noise.white_m_s2;
-    own.inputs.background_noise_m_s2 = noise.background_m_s2;
-    own.inputs.low_pass_Hz = additional.low_pass_Hz.value_or(own.inputs.low_pass_Hz);
-    own.inputs.own_sampling_Hz = additional.sampling_Hz.value_or(0.0);
-    own.inputs.range_m_s2 = additional.range_m_s2.value_or(own.inputs.range_m_s2);
-    return own;
-}
 
 // Uniform variates of the correlated inputs.
 std::vector<double> Sampler::uniform_variates(const GearboxId& id) const {

@@ -20,9 +20,6 @@ struct Realization {
     std::vector<double> random_values = {};
 };
 
-// The same gearbox at an additional sensor (GearboxId::sensor): it has noise of its own.
-Realization at_sensor(const Study& study, const Realization& realization, std::uint64_t sensor);
-
 // Input with a given value, SI, which replaces the drawn or nominal one.
 struct GivenInput {
     InputId id;

@@ -35,8 +35,10 @@ Scene::Scene(const Study& study)
     gearbox->stages = make_stages(study, *gearbox, stages_);
     gearbox_ = std::move(gearbox);
     features_ = make_feature_plan(study, drivetrain().span());
-    record_ = make_record_plan(study, *gearbox_, features_, steps->integration.grid.samples,
-                               steps->te_samples);
+    const int samples = steps->integration.grid.samples;
+    sensors_ = std::make_shared<const std::vector<SensorPlan>>(
+        make_sensor_plans(study, drivetrain(), samples));
+    record_ = make_record_plan(study, *gearbox_, features_, *sensors_, samples, steps->te_samples);
     solve_ = std::make_shared<const SolvePlan>(SolveSettings(study), *gearbox_, record_,
                                                std::move(steps));
     plan_life();

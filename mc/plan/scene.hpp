@@ -14,6 +14,7 @@
 #include "mc/plan/sampling.hpp"
 #include "mc/plan/scene_error.hpp"
 #include "mc/plan/scene_plan.hpp"
+#include "mc/plan/sensor_plan.hpp"
 #include "mc/plan/solve_plan.hpp"
 #include "mc/study/study.hpp"
 
@@ -70,6 +71,8 @@ class Scene {
     }
 
     const FeaturePlan& features() const { return features_; }
+    // The first sensor and the additional ones.
+    const std::vector<SensorPlan>& sensors() const { return *sensors_; }
     // What is recorded of every gearbox. Its values by earlier names:
     const RecordPlan& record() const { return record_; }
     const signals::SpanLayout& span() const { return record_.span; }
@@ -109,6 +112,7 @@ class Scene {
     std::shared_ptr<const SolvePlan> solve_;
     FeaturePlan features_;
     RecordPlan record_;
+    std::shared_ptr<const std::vector<SensorPlan>> sensors_;
     std::vector<SceneError> life_problems_;
     std::shared_ptr<const LifePlan> life_;  // null if there are problems
 };

@@ -290,8 +290,7 @@ class Examples {
     Examples(const Scene& scene, const Results& frame)
         : scene_(scene),
           frame_(frame),
-          path_(sensor_paths(scene)),
-          healthy_(healthy_reference(scene, path_)),
+          healthy_(healthy_reference(scene)),
           features_(scene, &healthy_, false),
           level_(reference_level(frame.noise_levels)) {}
 
@@ -309,14 +308,13 @@ class Examples {
 
     Json run(const ExampleRow& row) {
         const GearboxId id = id_of(row.row);
-        const GearboxTile tile = run_gearboxes(scene_, path_, std::span(&id, 1), 1);
+        const GearboxTile tile = run_gearboxes(scene_, std::span(&id, 1), 1);
         if (tile.status[0] != Status::ok) {
             throw std::runtime_error("the gearbox in row " + std::to_string(row.row) +
                                      " failed when computed again");
         }
         std::vector<LevelSignals> levels;
-        const LaneSignals gearbox_signals =
-            lane_signals(scene_, path_, tile, 0, features_.meshes());
+        const LaneSignals gearbox_signals = lane_signals(scene_, tile, 0, features_.meshes());
         auto values = features_.compute(gearbox_signals, tile.realizations[0], &levels);
         std::vector<double> te_turn = features_.record().te_turn;
         rotate_to_first_tooth(features_.record(), scene_.te_samples_per_mesh(), te_turn);
@@ -355,9 +353,11 @@ class Examples {
                 {{"name", frame_.features[f].name}, {"value", analysis::number(value)}});
         }
         if (!gearbox_signals.folded.empty()) {
-            const Signals signals = record_of(tile.realizations[0], features_, whole_signals(tile));
+            const Signals signals = record_of(scene_.sensors().front(), tile.realizations[0],
+                                              features_, whole_signals(tile));
             add_sensor(signals, json);
-            json.update(sensor_json(signals, features_, levels[level_].tooth_rms, period_s));
+            json.update(sensor_json(scene_.sensors().front(), signals, features_,
+                                    levels[level_].tooth_rms, period_s));
             json["additional_sensors"] = additional_sensors(tile, period_s);
             if (speed_fluctuates(scene_.study())) {
                 json["spectrogram"] = spectrogram(id);
@@ -378,23 +378,24 @@ class Examples {
 
     // Signals of all sensors from which records are taken.
     LaneSignals whole_signals(const GearboxTile& tile) const {
-        return lane_signals(scene_, path_, tile, 0,
+        return lane_signals(scene_, tile, 0,
                             scene_.record().length ? scene_.signal_meshes() : scene_.span_meshes());
     }
 
-    Signals record_of(const Realization& realization, const RealizationFeatures& features,
-                      LaneSignals whole) const {
+    Signals record_of(const SensorPlan& sensor, const Realization& realization,
+                      const RealizationFeatures& features, LaneSignals whole) const {
         Signals signals{drawn_record(scene_, std::move(whole), realization), {}, scene_.span()};
         if (signals.record.turns > 0) {
             signals.layout.ring_teeth = signals.record.turns;
         }
         signals.noisy = signals.record.sensor;
-        add_noise(sample_noise(scene_, realization, signals.record.sensor, features.noise().sensor,
-                               signals.layout.ring_teeth),
-                  noise_level() * realization.inputs.noise_m_s2, signals.noisy);
-        if (has_range(scene_.study())) {
-            clip(realization.inputs, signals.noisy);
-            clip(realization.inputs, signals.record.sensor);
+        add_noise(
+            sample_noise(scene_.record(), sensor.noise(), scene_.draw().seed, realization,
+                         signals.record.sensor, features.noise().sensor, signals.layout.ring_teeth),
+            noise_level() * realization.inputs.noise_m_s2, signals.noisy);
+        if (const auto* range = sensor.find<RangeStage>()) {
+            range->clip(signals.noisy);
+            range->clip(signals.record.sensor);
             fold_again(scene_.record(), signals.record);
         }
         return signals;
@@ -413,13 +414,14 @@ class Examples {
     }
 
     // Spectrum and RMS of each tooth of a sensor's record, whose features were computed last.
-    Json sensor_json(const Signals& signals, const RealizationFeatures& features,
-                     const std::vector<double>& noisy_rms, double period_s) const {
+    Json sensor_json(const SensorPlan& sensor, const Signals& signals,
+                     const RealizationFeatures& features, const std::vector<double>& noisy_rms,
+                     double period_s) const {
         std::vector<double> clean_rms(noisy_rms.size());
         signals::Windowing windowing(signals.layout, scene_.samples_per_mesh(),
                                      scene_.features().tukey_taper);
-        windowing.load(has_range(scene_.study()) ? signals.record.folded
-                                                 : features.record().folded);
+        windowing.load(sensor.find<RangeStage>() != nullptr ? signals.record.folded
+                                                            : features.record().folded);
         windowing.search(0.0, clean_rms);
         rotate_to_first_tooth(features.record(), 1, clean_rms);
         return {{"spectrum",
@@ -443,22 +445,18 @@ class Examples {
 
     Json additional_sensors(const GearboxTile& tile, double period_s) const {
         Json all = Json::array();
-        const std::vector<AdditionalSensor>& sensors = scene_.study().sensor.additional;
-        for (std::size_t s = 0; s < sensors.size(); ++s) {
-            const HealthyReference healthy = healthy_reference(scene_, path_, s + 1);
-            RealizationFeatures features(scene_, &healthy, false);
-            const Realization own = at_sensor(scene_.study(), tile.realizations[0], s + 1);
-            const auto signals_over = [&](const LaneSignals& lane) {
-                return signals_of_sensor(scene_.study(), lane, s);
-            };
+        for (const SensorPlan& sensor : std::span(scene_.sensors()).subspan(1)) {
+            const HealthyReference healthy = healthy_reference(scene_, sensor.number);
+            RealizationFeatures features(scene_, &healthy, false, sensor.number);
+            const Realization here = sensor.realization(tile.realizations[0]);
             SensorSignals record =
-                signals_over(lane_signals(scene_, path_, tile, 0, features.meshes()));
+                signals_of_sensor(sensor, lane_signals(scene_, tile, 0, features.meshes()));
             std::vector<LevelSignals> levels;
-            features.compute(record.linked(), own, &levels);
-            Json json =
-                sensor_json(record_of(own, features, signals_over(whole_signals(tile)).record),
-                            features, levels[level_].tooth_rms, period_s);
-            json["name"] = sensors[s].name;
+            features.compute(record.linked(), here, &levels);
+            const Signals signals = record_of(
+                sensor, here, features, signals_of_sensor(sensor, whole_signals(tile)).record);
+            Json json = sensor_json(sensor, signals, features, levels[level_].tooth_rms, period_s);
+            json["name"] = sensor.name;
             all.push_back(std::move(json));
         }
         return all;
@@ -466,7 +464,6 @@ class Examples {
 
     const Scene& scene_;
     const Results& frame_;
-    const SensorPaths path_;
     const HealthyReference healthy_;
     RealizationFeatures features_;
     const std::size_t level_;

@@ -25,12 +25,6 @@ bool has_range(const Study& study) {
            });
 }
 
-bool has_own_rate(const Study& study) {
-    return std::ranges::any_of(study.sensor.additional, [](const AdditionalSensor& sensor) {
-        return sensor.sampling_Hz.has_value();
-    });
-}
-
 signals::NoiseSpectrum background_spectrum(const Study& study) {
     EXPECTS(has_background(study));
     return {study.sensor.background_Hz, study.sensor.background_density_m_s2_per_sqrt_Hz};
@@ -91,45 +85,6 @@ std::string noise_text(const Study& study) {
     }
     return text + fmt::format(" {:.4g} white, {:.4g} by quantisation", s.noise_m_s2,
                               s.quantisation_m_s2 / std::sqrt(12.0));
-}
-
-SensorNoise noise_at(const Study& study, const AdditionalSensor& sensor, const SensorNoise& noise) {
-    const double factor = sensor.noise;
-    if (!sensor.low_pass_Hz && !sensor.quantisation_m_s2) {
-        return {factor * noise.all_m_s2, factor * noise.white_m_s2, factor * noise.background_m_s2};
-    }
-    const double applied_Hz = study.sensor.low_pass_Hz,
-                 low_pass_Hz = sensor.low_pass_Hz.value_or(applied_Hz);
-    const auto square = [](double x) { return x * x; };
-    SensorNoise own{0.0, factor * noise.white_m_s2, factor * noise.background_m_s2};
-    double filtered = 0.0;  // variance
-    if (study.sensor.noise_density_m_s2_per_sqrt_Hz) {
-        filtered = square(factor) * low_pass_Hz / applied_Hz *
-                   std::max(0.0, square(noise.all_m_s2) - square(noise.white_m_s2) -
-                                     square(noise.background_m_s2));
-    }
-    if (has_background(study) && sensor.low_pass_Hz) {
-        const signals::NoiseSpectrum spectrum = background_spectrum(study);
-        own.background_m_s2 *= spectrum.rms_m_s2(low_pass_Hz) / spectrum.rms_m_s2(applied_Hz);
-    }
-    if (sensor.quantisation_m_s2) {
-        const double rms =
-            std::max(0.0, square(noise.white_m_s2) - square(study.sensor.quantisation_m_s2) / 12.0);
-        own.white_m_s2 = std::sqrt(square(factor) * rms + square(*sensor.quantisation_m_s2) / 12.0);
-    }
-    own.all_m_s2 = std::sqrt(filtered + square(own.white_m_s2) + square(own.background_m_s2));
-    return own;
-}
-
-SensorNoise with_rms_factor(const Study& study, const SensorNoise& noise, double factor) {
-    const double rounding = study.sensor.quantisation_m_s2 / std::sqrt(12.0);
-    if (rounding == 0.0 && noise.all_m_s2 == noise.white_m_s2) {
-        return {noise.all_m_s2 * factor, noise.white_m_s2 * factor, 0.0};
-    }
-    const double other = noise.all_m_s2 * noise.all_m_s2 - noise.white_m_s2 * noise.white_m_s2,
-                 rms = noise.white_m_s2 * noise.white_m_s2 - rounding * rounding,
-                 white = rms * factor * factor + rounding * rounding;
-    return {std::sqrt(std::max(0.0, other) + white), std::sqrt(white), noise.background_m_s2};
 }
 
 const char* noise_key(const Study& study) {

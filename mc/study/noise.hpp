@@ -20,8 +20,6 @@ signals::NoiseSpectrum background_spectrum(const Study& study);
 
 // True if the converter of any sensor has a measuring range, at which it clips the samples.
 bool has_range(const Study& study);
-// True if the converter of any additional sensor has a sampling rate of its own.
-bool has_own_rate(const Study& study);
 
 // Standard deviation of every sample, m/s^2: of all parts, of those that are white, and of the
 // background.
@@ -45,11 +43,6 @@ NoiseModel noise_model(const Study& study);
 // Noise of a gearbox with these values. Rounding to steps of q has the variance q^2 / 12 (W. R.
 // Bennett, Bell Syst. Tech. J. 27 (1948), 446-472), if the signal spans several steps.
 SensorNoise sensor_noise(const NoiseModel& model, const SensorNoiseInputs& inputs);
-// Noise of an additional sensor of a gearbox whose first one has `noise`: times its factor, after
-// its own low-pass and with its own converter, where it has them.
-SensorNoise noise_at(const Study& study, const AdditionalSensor& sensor, const SensorNoise& noise);
-// The same noise with a factor on the rms of its white part without the quantisation.
-SensorNoise with_rms_factor(const Study& study, const SensorNoise& noise, double factor);
 // Nominal standard deviation of every sample, m/s^2.
 double sensor_noise_m_s2(const Study& study);
 

@@ -16,7 +16,7 @@ namespace gearpod::test {
 inline mc::GearboxTile run_one(const mc::Scene& scene, bool with_motion = false,
                                std::uint64_t number = 0) {
     const mc::GearboxId id{mc::Group::test, number};
-    return mc::run_gearboxes(scene, mc::sensor_paths(scene), std::span(&id, 1), 1,
+    return mc::run_gearboxes(scene, std::span(&id, 1), 1,
                              {.records = lockstep::RecordOptions{
                                   .motion_meshes = with_motion ? scene.recorded_meshes() : 0}});
 }
@@ -27,7 +27,7 @@ inline std::vector<double> sensor_signal(const mc::Scene& scene, int meshes,
     const auto tile = run_one(scene, false, number);
     REQUIRE(tile.integration.status[0] == lockstep::LaneStatus::ok);
     return signals::synthesize(tile.views, 0, tile.integration.content, scene.span(),
-                               mc::sensor_paths(scene)[0][0],
+                               scene.sensors().front().paths.front(),
                                tile.realizations[0].inputs.path_exponent, 0, meshes);
 }
 

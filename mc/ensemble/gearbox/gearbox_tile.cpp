@@ -18,7 +18,6 @@
 #include "mc/ensemble/gearbox/tile_random_inputs.hpp"
 #include "mc/ensemble/gearbox/tile_sensors.hpp"
 #include "mc/study/fluctuations.hpp"
-#include "mc/study/housing.hpp"
 #include "mc/study/other_sources.hpp"
 #include "signals/sensor/sensor_signal.hpp"
 #include "signals/spectra/synchronous_average.hpp"
@@ -75,18 +74,22 @@ struct SolutionInputs {
     }
 };
 
+signals::Tones tones_of(const Scene& scene, std::span<const Realization> realizations) {
+    return draw_tones(scene.sensors().front().tones(), scene.gearbox(), scene.draw().seed,
+                      realizations);
+}
+
 // A coupled stage next to the gearboxes of a tile, and its recorder.
 struct StageTask {
     const lockstep::IntegrationPlan& integration;
-    const SensorPaths path;
     const SolutionInputs inputs;
     TileSensorRecorder recorder;
 
     StageTask(const Scene& plan, std::vector<Realization> realizations, int meshes)
         : integration(plan.solve().integration()),
-          path(sensor_paths(plan)),
           inputs(plan.draw(), plan.gearbox(), std::move(realizations)),
-          recorder(plan, path, inputs.realizations, meshes, meshes) {}
+          recorder(plan.record(), plan.sensors(), tones_of(plan, inputs.realizations),
+                   inputs.realizations, meshes, meshes) {}
 };
 
 std::vector<lockstep::TileResult> run_coupled(int lanes,
@@ -265,9 +268,9 @@ void solve_by_choice(const Scene& scene, const lockstep::RecordOptions& records,
 }
 
 // Solves the tile and records its sensor signals meanwhile.
-void solve_and_record(const Scene& scene, const SensorPaths& path, const TileOptions& options,
-                      GearboxTile& tile) {
-    TileSensorRecorder recorder(scene, path, tile.realizations, options.signal_meshes);
+void solve_and_record(const Scene& scene, const TileOptions& options, GearboxTile& tile) {
+    TileSensorRecorder recorder(scene.record(), scene.sensors(), tones_of(scene, tile.realizations),
+                                tile.realizations, options.signal_meshes);
     recorder.record_only(tile.parts);
     solve_by_choice(scene, {}, std::ref(recorder), options, tile);
     tile.sensor_recorders = recorder.take_recorders();
@@ -277,19 +280,18 @@ void solve_and_record(const Scene& scene, const SensorPaths& path, const TileOpt
 }
 
 // Computes the signals of the sensors from an integrated tile.
-void add_signals(const Scene& scene, const SensorPaths& path, GearboxTile& tile) {
+void add_signals(const Scene& scene, GearboxTile& tile) {
     add_status(scene.gearbox(), scene.solve(), tile);
     auto start = WallClock::now();
-    tile.views = views_of(scene, tile);
+    tile.views = views_of(scene.record(), tile);
     if (scene.features().sensor) {
-        tile.tones = draw_tones(scene.study().sensor.tones, scene.gearbox(), scene.draw().seed,
-                                tile.realizations);
+        tile.tones = tones_of(scene, tile.realizations);
     }
     if (!tile.sensor_recorders.empty()) {
-        for (std::size_t s = 0; s < path.size(); ++s) {
-            tile.folded.push_back(has_response(scene.study(), s)
-                                      ? machine::AlignedVector()
-                                      : tile.sensor_recorders[s].front()->folded());
+        for (const SensorPlan& sensor : scene.sensors()) {
+            tile.folded.push_back(sensor.find<PathStage>() != nullptr
+                                      ? tile.sensor_recorders[sensor.number].front()->folded()
+                                      : machine::AlignedVector());
         }
         tile.te_turn = tile.sensor_recorders.front().front()->averaged_te();
         tile.signals_s += lap(start);
@@ -304,10 +306,10 @@ void add_signals(const Scene& scene, const SensorPaths& path, GearboxTile& tile)
     if (scene.features().sensor) {
         const signals::FoldPlan plan(tile.integration.content, scene.span());
         const std::vector<double> exponents = path_exponents(tile.realizations, 0);
-        for (std::size_t s = 0; s < path.size(); ++s) {
+        for (const SensorPlan& sensor : scene.sensors()) {
             machine::AlignedVector& folded = tile.folded.emplace_back();
-            if (!has_response(scene.study(), s)) {
-                signals::fold_squares(tile.views, plan, path[s].front(), exponents, tile.tones,
+            if (sensor.find<PathStage>() != nullptr) {
+                signals::fold_squares(tile.views, plan, sensor.paths.front(), exponents, tile.tones,
                                       folded);
             }
         }
@@ -317,15 +319,14 @@ void add_signals(const Scene& scene, const SensorPaths& path, GearboxTile& tile)
     tile.signals_s += lap(start);
 }
 
-void run_tile(const Scene& scene, const SensorPaths& path, const TileOptions& options,
-              GearboxTile& tile) {
+void run_tile(const Scene& scene, const TileOptions& options, GearboxTile& tile) {
     const IntegrationCache* const cache = options.records ? nullptr : options.cache;
     auto start = WallClock::now();
     if (const auto before = cache != nullptr ? cache->find(tile.realizations) : nullptr) {
         tile.integration = *before;
         tile.integration_s = lap(start);
     } else if (scene.solve().records_during_integration && !options.records) {
-        solve_and_record(scene, path, options, tile);
+        solve_and_record(scene, options, tile);
     } else {
         solve_by_choice(scene, options.records.value_or(lockstep::RecordOptions{}), nullptr,
                         options, tile);
@@ -333,18 +334,18 @@ void run_tile(const Scene& scene, const SensorPaths& path, const TileOptions& op
             cache->keep(tile.realizations, tile.integration);
         }
     }
-    add_signals(scene, path, tile);
+    add_signals(scene, tile);
 }
 
-GearboxTile run_records(const Scene& scene, const SensorPaths& path, std::span<const GearboxId> ids,
-                        int fewest, const TileOptions& options) {
+GearboxTile run_records(const Scene& scene, std::span<const GearboxId> ids, int fewest,
+                        const TileOptions& options) {
     GearboxTile tile = drawn_tile(
         scene.sampler(), ids, lockstep::lanes_for(scene.solve().integration().precision, fewest));
     const auto* every_mesh = std::get_if<EveryMeshPeriod>(&scene.solve().strategy);
     if (every_mesh != nullptr && every_mesh->records_only) {
         tile.parts = parts_of_records(scene, tile.realizations);
     }
-    run_tile(scene, path, options, tile);
+    run_tile(scene, options, tile);
     return tile;
 }
 
@@ -374,10 +375,9 @@ std::vector<GearboxId> baselines_of(const RecordPlan& record, std::span<const Ge
 
 // Computes signals, status and times of the baseline records, at most as many at a time as there
 // are lanes. Their motion is freed before the test records are integrated.
-GearboxTile run_baselines(const Scene& scene, const SensorPaths& path,
-                          std::span<const GearboxId> ids, int fewest,
+GearboxTile run_baselines(const Scene& scene, std::span<const GearboxId> ids, int fewest,
                           const IntegrationCache* cache) {
-    const int meshes = needed_sensor_meshes(scene);
+    const int meshes = scene.record().sensor_meshes(scene.features().needs.all());
     const std::vector<GearboxId> earlier = baselines_of(scene.record(), ids);
     const auto lanes = static_cast<std::size_t>(
         lockstep::lanes_for(scene.solve().integration().precision, fewest));
@@ -397,9 +397,9 @@ GearboxTile run_baselines(const Scene& scene, const SensorPaths& path,
         const auto left = std::span<const GearboxId>(ordered).subspan(first);
         const auto some = left.first(shared_records(scene.record(), left, lanes));
         GearboxTile tile =
-            run_records(scene, path, some, fewest, {.signal_meshes = meshes, .cache = cache});
+            run_records(scene, some, fewest, {.signal_meshes = meshes, .cache = cache});
         auto start = WallClock::now();
-        std::vector<LaneSignals> signals = all_lane_signals(scene, path, tile, meshes);
+        std::vector<LaneSignals> signals = all_lane_signals(scene, tile, meshes);
         tile.signals_s += lap(start);
         for (std::size_t i = 0; i < some.size(); ++i) {
             all.baseline[order[first + i]] = std::move(signals[i]);
@@ -429,20 +429,22 @@ void add_baselines(GearboxTile earlier, GearboxTile& tile) {
 
 // Runs gearboxes that leave lanes free for all of their baseline records, which follow the test
 // records in the same tile.
-GearboxTile run_side_by_side(const Scene& scene, const SensorPaths& path,
-                             std::span<const GearboxId> ids, int lanes, TileOptions options) {
+GearboxTile run_side_by_side(const Scene& scene, std::span<const GearboxId> ids, int lanes,
+                             TileOptions options) {
     std::vector<GearboxId> both(ids.begin(), ids.end());
     const std::vector<GearboxId> earlier = baselines_of(scene.record(), ids);
     both.insert(both.end(), earlier.begin(), earlier.end());
     if (options.signal_meshes >= 0) {
-        options.signal_meshes = std::max(options.signal_meshes, needed_sensor_meshes(scene));
+        options.signal_meshes = std::max(
+            options.signal_meshes, scene.record().sensor_meshes(scene.features().needs.all()));
     }
-    GearboxTile tile = run_records(scene, path, both, lanes, options);
+    GearboxTile tile = run_records(scene, both, lanes, options);
     auto start = WallClock::now();
     std::vector<LaneSignals> baseline;
     for (std::size_t lane = ids.size(); lane < both.size(); ++lane) {
         baseline.push_back(
-            lane_signals(scene, path, tile, static_cast<int>(lane), needed_sensor_meshes(scene)));
+            lane_signals(scene, tile, static_cast<int>(lane),
+                         scene.record().sensor_meshes(scene.features().needs.all())));
     }
     tile.baseline = std::move(baseline);
     tile.signals_s += lap(start);
@@ -454,19 +456,19 @@ GearboxTile run_side_by_side(const Scene& scene, const SensorPaths& path,
 
 }  // namespace
 
-GearboxTile run_gearboxes(const Scene& scene, const SensorPaths& path,
-                          std::span<const GearboxId> ids, int fewest, const TileOptions& options) {
+GearboxTile run_gearboxes(const Scene& scene, std::span<const GearboxId> ids, int fewest,
+                          const TileOptions& options) {
     if (scene.record().baselines == 0) {
-        return run_records(scene, path, ids, fewest, options);
+        return run_records(scene, ids, fewest, options);
     }
     const int lanes = lockstep::lanes_for(scene.solve().integration().precision, fewest);
     const std::size_t records = 1 + scene.record().computed_baselines;
     if (scene.record().same_positions == 1 &&
         records * ids.size() <= static_cast<std::size_t>(lanes)) {
-        return run_side_by_side(scene, path, ids, lanes, options);
+        return run_side_by_side(scene, ids, lanes, options);
     }
-    GearboxTile earlier = run_baselines(scene, path, ids, fewest, options.cache);
-    GearboxTile tile = run_records(scene, path, ids, fewest, options);
+    GearboxTile earlier = run_baselines(scene, ids, fewest, options.cache);
+    GearboxTile tile = run_records(scene, ids, fewest, options);
     add_baselines(std::move(earlier), tile);
     return tile;
 }
@@ -485,12 +487,11 @@ std::vector<double> contact_loss(const GearboxTile& tile, std::size_t lane, std:
     return mean;
 }
 
-GearboxTile run_realizations(const Scene& scene, const SensorPaths& path,
-                             std::vector<Realization> realizations, int fewest,
+GearboxTile run_realizations(const Scene& scene, std::vector<Realization> realizations, int fewest,
                              const TileOptions& options) {
     GearboxTile tile = tile_of(std::move(realizations),
                                lockstep::lanes_for(scene.solve().integration().precision, fewest));
-    run_tile(scene, path, options, tile);
+    run_tile(scene, options, tile);
     return tile;
 }
 
@@ -506,16 +507,15 @@ GearboxTile run_fault_perturbations(const Scene& scene, std::vector<Realization>
     return tile;
 }
 
-GearboxTile complete_tile(const Scene& scene, const SensorPaths& path,
-                          std::span<const GearboxId> ids, lockstep::TileResult integration) {
+GearboxTile complete_tile(const Scene& scene, std::span<const GearboxId> ids,
+                          lockstep::TileResult integration) {
     GearboxTile tile =
         drawn_tile(scene.sampler(), ids, static_cast<int>(integration.status.size()));
     tile.integration = std::move(integration);
-    add_signals(scene, path, tile);
+    add_signals(scene, tile);
     if (scene.record().baselines > 0) {
         add_baselines(
-            run_baselines(scene, path, ids, static_cast<int>(tile.realizations.size()), nullptr),
-            tile);
+            run_baselines(scene, ids, static_cast<int>(tile.realizations.size()), nullptr), tile);
     }
     return tile;
 }

@@ -97,7 +97,7 @@ struct GearboxTile : TileSolution {
     SensorRecorders sensor_recorders;  // empty if the records were kept
     signals::Tones tones;              // interfering tones; may be empty
     // By sensor: [bin][lane], (m/s^2)^2; empty for a quasi-static gearbox. Each is empty where the
-    // sensor has a response (has_response).
+    // chain of the sensor does not begin with a PathStage.
     std::vector<machine::AlignedVector> folded;
     machine::AlignedVector te_turn;  // [sample][lane], rad
     // Equally many entries for each requested gearbox, one gearbox after the other. Empty unless a
@@ -127,14 +127,12 @@ struct TileOptions {
 // enough of its lanes are free. A gearbox whose baseline fails counts as failed. If every mesh
 // period is integrated, the sensor signals are recorded during integration and the motion is not
 // kept.
-GearboxTile run_gearboxes(const Scene& scene, const SensorPaths& path,
-                          std::span<const GearboxId> ids, int fewest,
+GearboxTile run_gearboxes(const Scene& scene, std::span<const GearboxId> ids, int fewest,
                           const TileOptions& options = {});
 
 // Runs the test records of these gearboxes, without baselines. Their inputs need not be those that
 // the study's distributions give.
-GearboxTile run_realizations(const Scene& scene, const SensorPaths& path,
-                             std::vector<Realization> realizations, int fewest,
+GearboxTile run_realizations(const Scene& scene, std::vector<Realization> realizations, int fewest,
                              const TileOptions& options = {});
 
 // Integrates only the mesh periods that the faults of these gearboxes change. Starts from the
@@ -145,12 +143,12 @@ GearboxTile run_fault_perturbations(const Scene& scene, std::vector<Realization>
                                     int lanes, const lockstep::SpanStates& healthy);
 
 // Views of the recorded motion of a tile, which must outlive them.
-signals::TileSignals views_of(const Scene& scene, const GearboxTile& tile);
+signals::TileSignals views_of(const RecordPlan& record, const GearboxTile& tile);
 
 // Completes a tile from a time integration made elsewhere, as run_gearboxes does. The number of
 // lanes is the number of status entries of `integration`.
-GearboxTile complete_tile(const Scene& scene, const SensorPaths& path,
-                          std::span<const GearboxId> ids, lockstep::TileResult integration);
+GearboxTile complete_tile(const Scene& scene, std::span<const GearboxId> ids,
+                          lockstep::TileResult integration);
 
 // Contact loss ratio of each mesh of the gearbox: the mean over the gear pairs of that mesh.
 // `meshes` is the number of meshes; 0 gives an empty result.
@@ -158,17 +156,15 @@ std::vector<double> contact_loss(const GearboxTile& tile, std::size_t lane, std:
 
 // Transmission error of a lane over mesh periods of a tile with all records, as `samples` values in
 // each.
-std::vector<double> recorded_te(const Scene& scene, const GearboxTile& tile, int lane, int first,
-                                int meshes, int samples);
+std::vector<double> recorded_te(const RecordPlan& plan, const GearboxTile& tile, int lane,
+                                int first, int meshes, int samples);
 // Subtracts the mean of the values from each of them.
 void remove_mean(std::vector<double>& values);
 
 // Signals of one lane. `meshes` is the number of mesh periods of sensor signal, 0 for none.
-LaneSignals lane_signals(const Scene& scene, const SensorPaths& path, const GearboxTile& tile,
-                         int lane, int meshes);
+LaneSignals lane_signals(const Scene& scene, const GearboxTile& tile, int lane, int meshes);
 // Signals of all requested gearboxes, computed together.
-std::vector<LaneSignals> all_lane_signals(const Scene& scene, const SensorPaths& path,
-                                          const GearboxTile& tile, int meshes);
+std::vector<LaneSignals> all_lane_signals(const Scene& scene, const GearboxTile& tile, int meshes);
 
 // Signals of an additional sensor of a gearbox, and those of its baseline records.
 struct SensorSignals {
@@ -182,7 +178,7 @@ struct SensorSignals {
         return record;
     }
 };
-// `sensor` counts the additional ones from 0. The record does not refer to its baselines.
-SensorSignals signals_of_sensor(const Study& study, const LaneSignals& all, std::size_t sensor);
+// The record does not refer to its baselines.
+SensorSignals signals_of_sensor(const SensorPlan& sensor, const LaneSignals& all);
 
 }  // namespace gearpod::mc

@@ -45,9 +45,9 @@ void clear_failed(HealthySolution::Signals& all) {
 
 }  // namespace
 
-HealthySolution::HealthySolution(const Scene& scene, const SensorPaths& path,
-                                 std::vector<Realization> realizations, int fewest)
-    : scene_(scene), path_(path), realizations_(std::move(realizations)) {
+HealthySolution::HealthySolution(const Scene& scene, std::vector<Realization> realizations,
+                                 int fewest)
+    : scene_(scene), realizations_(std::move(realizations)) {
     for (Realization& one : realizations_) {
         one.inputs.gain = 1.0;
     }
@@ -56,7 +56,7 @@ HealthySolution::HealthySolution(const Scene& scene, const SensorPaths& path,
     if (keep) {
         options.records.emplace().states = true;
     }
-    GearboxTile tile = run_realizations(scene, path, with_size(0.0), fewest, options);
+    GearboxTile tile = run_realizations(scene, with_size(0.0), fewest, options);
     healthy_ = signals_of(tile);
     lanes_ = static_cast<int>(tile.realizations.size());
     if (keep) {
@@ -76,14 +76,14 @@ std::vector<Realization> HealthySolution::with_size(double size) const {
 }
 
 HealthySolution::Signals HealthySolution::signals_of(const GearboxTile& tile) const {
-    Signals all{all_lane_signals(scene_, path_, tile, scene_.span_meshes()), tile.status};
+    Signals all{all_lane_signals(scene_, tile, scene_.span_meshes()), tile.status};
     clear_failed(all);
     return all;
 }
 
 HealthySolution::Signals HealthySolution::with_fault(double size) const {
     if (states_.all.empty()) {
-        return signals_of(run_realizations(scene_, path_, with_size(size), lanes_));
+        return signals_of(run_realizations(scene_, with_size(size), lanes_));
     }
     const GearboxTile changed = run_fault_perturbations(scene_, with_size(size), lanes_, states_);
     Signals all = healthy_;
@@ -136,9 +136,9 @@ void HealthySolution::change_sensor(const GearboxTile& changed,
         return;
     }
     const int phases = scene_.samples_per_mesh();
-    const auto sensor =
-        signals::synthesize(views_of(scene_, changed), span.timeline, scene_.span(), path_[0][0],
-                            path_exponents(realizations_, 0), span.meshes);
+    const auto sensor = signals::synthesize(views_of(scene_.record(), changed), span.timeline,
+                                            scene_.span(), scene_.sensors().front().paths.front(),
+                                            path_exponents(realizations_, 0), span.meshes);
     for (std::size_t lane = 0; lane < realizations_.size(); ++lane) {
         if (lanes[lane].sensor.empty()) {
             continue;

@@ -9,14 +9,13 @@
 
 namespace gearpod::mc {
 
-// Healthy reference solution of a tile, and its solutions with a fault. The scene and the path must
+// Healthy reference solution of a tile, and its solutions with a fault. The scene must
 // outlive it.
 class HealthySolution {
   public:
     // The fault sizes of the gearboxes are ignored. The sensor gain is taken as 1, because the
     // records apply it later.
-    HealthySolution(const Scene& scene, const SensorPaths& path,
-                    std::vector<Realization> realizations, int fewest);
+    HealthySolution(const Scene& scene, std::vector<Realization> realizations, int fewest);
 
     // Sensor signal, transmission error and status of each gearbox. A gearbox that failed has no
     // signals.
@@ -36,7 +35,6 @@ class HealthySolution {
     void change_sensor(const GearboxTile& changed, std::vector<LaneSignals>& lanes) const;
 
     const Scene& scene_;
-    const SensorPaths& path_;
     std::vector<Realization> realizations_;
     int lanes_ = 0;
     lockstep::SpanStates states_;

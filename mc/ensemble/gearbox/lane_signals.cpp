@@ -1,4 +1,5 @@
-// Extracts the signals of one gearbox of a tile, or of all of them.
+// Signals of the gearboxes of a tile: evaluates the stages of each sensor up to the noise. Without
+// samples, the squares that were folded with the tile take the place of the stages.
 #include <algorithm>
 #include <cmath>
 #include <complex>
@@ -9,34 +10,26 @@
 #include "mc/ensemble/gearbox/gearbox_tile.hpp"
 #include "mc/ensemble/gearbox/other_sources.hpp"
 #include "mc/ensemble/gearbox/record_window.hpp"
-#include "mc/ensemble/gearbox/solution_choice.hpp"
 #include "mc/ensemble/gearbox/tile_sensors.hpp"
-#include "mc/study/housing.hpp"
 #include "signals/sensor/sensor_signal.hpp"
 
 namespace gearpod::mc {
 
-signals::TileSignals views_of(const Scene& scene, const GearboxTile& tile) {
-    signals::TileSignals views{static_cast<int>(tile.realizations.size()),
-                               dynamics::sources(scene.plan().layout),
-                               scene.samples_per_mesh(),
-                               {},
-                               {}};
-    if (!housing_bearings(scene.study()).empty()) {
-        views.planets -= dynamics::kBearingSources;
-        views.further_sources = dynamics::kBearingSources;
-    }
-    for (const lockstep::MeshRecord& record : tile.integration.records) {
-        views.accel.push_back(record.acceleration.data());
-        views.te.push_back(record.te.data());
+signals::TileSignals views_of(const RecordPlan& record, const GearboxTile& tile) {
+    signals::TileSignals views{
+        static_cast<int>(tile.realizations.size()), record.planet_sources, record.samples, {}, {}};
+    views.further_sources = record.sources - record.planet_sources;
+    for (const lockstep::MeshRecord& mesh : tile.integration.records) {
+        views.accel.push_back(mesh.acceleration.data());
+        views.te.push_back(mesh.te.data());
     }
     return views;
 }
 
-std::vector<double> recorded_te(const Scene& scene, const GearboxTile& tile, int lane, int first,
-                                int meshes, int samples) {
+std::vector<double> recorded_te(const RecordPlan& plan, const GearboxTile& tile, int lane,
+                                int first, int meshes, int samples) {
     const auto& content = tile.integration.content;
-    const int stride = scene.samples_per_mesh() / samples * tile.views.lanes;
+    const int stride = plan.samples / samples * tile.views.lanes;
     std::vector<double> te;
     for (int k = first; k < first + meshes; ++k) {
         const int record = content[static_cast<std::size_t>(k) % content.size()];
@@ -70,196 +63,236 @@ std::vector<double> folded_of(const GearboxTile& tile, std::size_t sensor, int l
 }
 
 // All signals of a lane except the sensor samples.
-LaneSignals folded_lane(const SensorPaths& path, const GearboxTile& tile, int lane) {
-    LaneSignals lane_result;
-    lane_result.noise = noise_of(tile.realizations[static_cast<std::size_t>(lane)].inputs);
-    lane_result.folded = folded_of(tile, 0, lane);
-    lane_result.te_turn.resize(tile.te_turn.size() / static_cast<std::size_t>(tile.views.lanes));
-    signals::copy_lane(tile.te_turn, tile.views.lanes, lane, lane_result.te_turn);
-    lane_result.additional.resize(path.size() - 1);
-    for (std::size_t s = 1; s < path.size(); ++s) {
-        lane_result.additional[s - 1].folded = folded_of(tile, s, lane);
+LaneSignals folded_lane(std::size_t sensors, const GearboxTile& tile, int lane) {
+    LaneSignals signals;
+    signals.noise = noise_of(tile.realizations[static_cast<std::size_t>(lane)].inputs);
+    signals.folded = folded_of(tile, 0, lane);
+    signals.te_turn.resize(tile.te_turn.size() / static_cast<std::size_t>(tile.views.lanes));
+    signals::copy_lane(tile.te_turn, tile.views.lanes, lane, signals.te_turn);
+    signals.additional.resize(sensors - 1);
+    for (std::size_t s = 1; s < sensors; ++s) {
+        signals.additional[s - 1].folded = folded_of(tile, s, lane);
     }
     if (!tile.baseline.empty()) {
-        lane_result.baselines = tile.baseline.size() / tile.status.size();
-        lane_result.baseline =
-            &tile.baseline[static_cast<std::size_t>(lane) * lane_result.baselines];
+        signals.baselines = tile.baseline.size() / tile.status.size();
+        signals.baseline = &tile.baseline[static_cast<std::size_t>(lane) * signals.baselines];
     }
-    return lane_result;
+    for (const auto& stage : tile.coupled) {
+        signals.coupled.push_back(stage[static_cast<std::size_t>(lane)]);
+    }
+    return signals;
 }
 
-// True if records are cut from these signals, which then include the transmission error.
-bool cuts_records(const Scene& scene, int meshes) {
-    return scene.record().length && meshes == needed_sensor_meshes(scene);
-}
-
-// Transmission error of a lane over the mesh periods of the scene's signals.
-std::vector<double> te_signal(const Scene& scene, const GearboxTile& tile, int lane) {
-    const int meshes = scene.signal_meshes();
+// Transmission error of a lane over the mesh periods of the signals.
+std::vector<double> te_signal(const RecordPlan& plan, const GearboxTile& tile, int lane) {
     if (!tile.sensor_recorders.empty()) {
-        return tile.sensor_recorders.front().front()->te_signal(lane, meshes);
+        return tile.sensor_recorders.front().front()->te_signal(lane, plan.signal_meshes);
     }
-    return recorded_te(scene, tile, lane, 0, meshes, scene.te_samples_per_mesh());
+    return recorded_te(plan, tile, lane, 0, plan.signal_meshes, plan.te_samples);
 }
 
-// The first sensor's signals for number 0, else those of an additional one.
-LaneSignals& of_sensor(LaneSignals& signals, std::size_t sensor) {
-    return sensor == 0 ? signals : signals.additional[sensor - 1];
-}
+// Samples of lanes of a tile at all sensors.
+class LaneSamples {
+  public:
+    // `other`: vibration of other sources in each lane; may be empty.
+    LaneSamples(const RecordPlan& plan, const GearboxTile& tile, std::size_t first_lane, int meshes,
+                std::vector<std::vector<double>> other, std::span<LaneSignals> lanes)
+        : plan_(plan),
+          tile_(tile),
+          first_lane_(first_lane),
+          meshes_(meshes),
+          other_(std::move(other)),
+          lanes_(lanes) {}
 
-// Samples of a lane along one path of a sensor.
-std::vector<double> samples_along(const Scene& scene, const SensorPaths& path,
-                                  const GearboxTile& tile, std::size_t sensor, std::size_t part,
-                                  int lane, int meshes) {
-    if (!tile.sensor_recorders.empty()) {
-        return tile.sensor_recorders[sensor][part]->signal(lane, meshes);
-    }
-    const std::span<const Realization> own(&tile.realizations[static_cast<std::size_t>(lane)], 1);
-    return signals::synthesize(tile.views, lane, tile.integration.content, scene.span(),
-                               path[sensor][part], path_exponents(own, part).front(), 0, meshes,
-                               has_response(scene.study(), sensor) ? signals::Tones{} : tile.tones);
-}
-
-// Tones of a tile as a sensor measures them: they pass its measuring chain, but not the housing.
-// Those above half its sampling rate have the frequency to which it folds them, of either sign.
-signals::Tones tones_at(const Scene& scene, std::size_t sensor, const signals::Tones& tones) {
-    signals::Tones own = tones;
-    const auto chain = measuring_chain(scene.study(), sensor);
-    const auto samples = static_cast<std::size_t>(scene.signal_meshes()) *
-                         static_cast<std::size_t>(scene.samples_per_mesh());
-    for (std::size_t i = 0; chain && i < own.frequency_Hz.size(); ++i) {
-        const std::complex<double> factor = chain->at(own.frequency_Hz[i]);
-        own.amplitude_m_s2[i] *= std::abs(factor);
-        own.phase_rad[i] += std::arg(factor);
-        const double mesh_s = own.mesh_period_s[i % own.mesh_period_s.size()];
-        const std::size_t taken = chain->own_samples(samples, scene.samples_per_mesh() / mesh_s);
-        if (taken < samples) {
-            const double rate_Hz = static_cast<double>(taken) / (scene.signal_meshes() * mesh_s);
-            own.frequency_Hz[i] = std::remainder(own.frequency_Hz[i], rate_Hz);
+    // Evaluates the stages of a sensor up to the noise.
+    void evaluate(const SensorPlan& sensor) {
+        sensor_ = &sensor;
+        changed_ = false;
+        for (const SensorStage& stage : sensor.stages) {
+            std::visit([&](const auto& each) { apply(each); }, stage);
+        }
+        for (std::size_t i = 0; changed_ && i < lanes_.size(); ++i) {
+            fold_again(plan_, of_lane(i));
         }
     }
-    return own;
-}
 
-// Adds the response of a sensor and the tones to a lane. The response is computed over all samples
-// of the scene, of which the first `meshes` mesh periods are kept.
-void add_response(const Scene& scene, const SensorPaths& path, const GearboxTile& tile,
-                  std::size_t sensor, int lane, int meshes,
-                  std::optional<signals::PeriodicResponse>& response, LaneSignals& own) {
-    const Study& study = scene.study();
-    const InstanceInputs& inputs = tile.realizations[static_cast<std::size_t>(lane)].inputs;
-    const double factor = inputs.housing_frequency_factor,
-                 sampling_Hz = 1.0 / scene.record().sample_s(inputs);
-    const auto along = [&](std::size_t part) {
-        machine::throw_if_cancelled();
-        return samples_along(scene, path, tile, sensor, part, lane, scene.signal_meshes());
-    };
-    if (!response) {
-        response.emplace(scene.signal_meshes() * scene.samples_per_mesh());
+  private:
+    // Signals of the sensor in a lane.
+    LaneSignals& of_lane(std::size_t i) {
+        return sensor_->number == 0 ? lanes_[i] : lanes_[i].additional[sensor_->number - 1];
     }
-    response->add(along(0), sampling_Hz, housing_response(study, sensor, factor));
-    const std::vector<int> ring = ring_modes(study);
-    for (std::size_t i = 0; i < ring.size(); ++i) {
-        std::vector<double> load = along(1 + 2 * i);
-        const std::vector<double> along_y = along(2 + 2 * i);
-        std::ranges::transform(load, along_y, load.begin(), std::plus<>());
-        response->add(load, sampling_Hz, ring_response(study, sensor, ring[i], factor));
+    int tile_lane(std::size_t i) const { return static_cast<int>(first_lane_ + i); }
+    const InstanceInputs& inputs(std::size_t i) const {
+        return tile_.realizations[first_lane_ + i].inputs;
     }
-    const std::vector<HousingBearing> bearings = housing_bearings(study);
-    for (std::size_t i = 0; i < bearings.size(); ++i) {
-        const BodyInstance& body = inputs.bodies[bearings[i].shaft];
-        response->add(
-            along(1 + 2 * ring.size() + i), sampling_Hz,
-            bearing_response(study, sensor, bearings[i],
-                             {body.bearing_stiffness_N_m, body.bearing_damping_N_s_m}, factor));
-    }
-    const auto chain = measuring_chain(study, sensor);
-    own.sensor = response->take(chain, sampling_Hz);
-    own.sensor.resize(static_cast<std::size_t>(meshes) *
-                      static_cast<std::size_t>(scene.samples_per_mesh()));
-    if (!tile.tones.empty()) {
-        signals::add_tones(tones_at(scene, sensor, tile.tones), lane, scene.samples_per_mesh(),
-                           own.sensor);
-    }
-    fold_again(scene.record(), own);
-}
 
-// Adds the transmission error to lanes with sensor samples, `first` the first of them, and other
-// sources of vibration.
-void complete(const Scene& scene, const GearboxTile& tile, std::size_t first, int meshes,
-              std::span<LaneSignals> lanes) {
-    for (std::size_t i = 0; i < lanes.size() && cuts_records(scene, meshes); ++i) {
-        lanes[i].te = te_signal(scene, tile, static_cast<int>(first + i));
+    // Samples of a lane along one of the sensor's paths.
+    std::vector<double> along(std::size_t path, std::size_t i, int meshes,
+                              const signals::Tones& tones = {}) const {
+        if (!tile_.sensor_recorders.empty()) {
+            return tile_.sensor_recorders[sensor_->number][path]->signal(tile_lane(i), meshes);
+        }
+        const std::span<const Realization> gearbox(&tile_.realizations[first_lane_ + i], 1);
+        return signals::synthesize(tile_.views, tile_lane(i), tile_.integration.content, plan_.span,
+                                   sensor_->paths[path], path_exponents(gearbox, path).front(), 0,
+                                   meshes, tones);
     }
-    for (std::size_t i = 0; i < lanes.size(); ++i) {
-        for (const auto& stage : tile.coupled) {
-            lanes[i].coupled.push_back(stage[first + i]);
+
+    void apply(const PathStage&) {
+        if (lanes_.size() == 1) {
+            of_lane(0).sensor = along(0, 0, meshes_, tile_.tones);
+            return;
+        }
+        auto samples =
+            !tile_.sensor_recorders.empty()
+                ? tile_.sensor_recorders[sensor_->number].front()->signals(lanes_.size(), meshes_)
+                : signals::synthesize(
+                      tile_.views, tile_.integration.content, plan_.span, sensor_->paths.front(),
+                      path_exponents(std::span(tile_.realizations).first(lanes_.size()), 0), 0,
+                      meshes_, tile_.tones);
+        for (std::size_t i = 0; i < lanes_.size(); ++i) {
+            of_lane(i).sensor = std::move(samples[i]);
         }
     }
-    add_background(scene, std::span(tile.realizations).subspan(first, lanes.size()), lanes);
+
+    // The response is computed over all samples of the signal, of which the first mesh periods are
+    // kept.
+    void apply(const ResponseStage& stage) {
+        if (!response_) {
+            response_.emplace(plan_.signal_meshes * plan_.samples);
+        }
+        for (std::size_t i = 0; i < lanes_.size(); ++i) {
+            const double sampling_Hz = 1.0 / plan_.sample_s(inputs(i));
+            for (const PathResponse& part : stage.parts) {
+                machine::throw_if_cancelled();
+                std::vector<double> load = along(part.first_path, i, plan_.signal_meshes);
+                for (std::size_t path = 1; path < part.paths; ++path) {
+                    machine::throw_if_cancelled();
+                    const auto next = along(part.first_path + path, i, plan_.signal_meshes);
+                    std::ranges::transform(load, next, load.begin(), std::plus<>());
+                }
+                response_->add(load, sampling_Hz, part.of(inputs(i)));
+            }
+            std::vector<double>& samples = of_lane(i).sensor;
+            samples = response_->take(stage.chain, sampling_Hz);
+            samples.resize(static_cast<std::size_t>(meshes_) *
+                           static_cast<std::size_t>(plan_.samples));
+        }
+        changed_ = true;
+    }
+
+    void apply(const TonesStage& stage) {
+        const signals::Tones tones = passed_tones(stage.chain);
+        for (std::size_t i = 0; i < lanes_.size(); ++i) {
+            signals::add_tones(tones, tile_lane(i), plan_.samples, of_lane(i).sensor);
+        }
+    }
+
+    void apply(const OtherSourcesStage& stage) {
+        for (std::size_t i = 0; i < other_.size(); ++i) {
+            std::vector<double>& samples = of_lane(i).sensor;
+            const auto added = stage.chain ? passed(*stage.chain, i) : other_[i];
+            std::ranges::transform(samples, added, samples.begin(), std::plus<>());
+            changed_ = true;
+        }
+    }
+
+    // Stages of records (RealizationSignals).
+    void apply(const NoiseStage&) const {}
+    void apply(const RangeStage&) const {}
+
+    // Tones of the tile after a measuring chain. Those above half its sampling rate have the
+    // frequency to which it folds them, of either sign.
+    signals::Tones passed_tones(const std::optional<signals::MeasuringChain>& chain) const {
+        signals::Tones tones = tile_.tones;
+        const auto samples =
+            static_cast<std::size_t>(plan_.signal_meshes) * static_cast<std::size_t>(plan_.samples);
+        for (std::size_t i = 0; chain && i < tones.frequency_Hz.size(); ++i) {
+            const std::complex<double> factor = chain->at(tones.frequency_Hz[i]);
+            tones.amplitude_m_s2[i] *= std::abs(factor);
+            tones.phase_rad[i] += std::arg(factor);
+            const double mesh_s = tones.mesh_period_s[i % tones.mesh_period_s.size()];
+            const std::size_t taken = chain->own_samples(samples, plan_.samples / mesh_s);
+            if (taken < samples) {
+                const double rate_Hz = static_cast<double>(taken) / (plan_.signal_meshes * mesh_s);
+                tones.frequency_Hz[i] = std::remainder(tones.frequency_Hz[i], rate_Hz);
+            }
+        }
+        return tones;
+    }
+
+    // Vibration of other sources in a lane after a measuring chain.
+    std::vector<double> passed(const signals::MeasuringChain& chain, std::size_t i) {
+        const double sampling_Hz = 1.0 / plan_.sample_s(inputs(i));
+        if (!other_response_) {
+            other_response_.emplace(static_cast<int>(other_[i].size()));
+        }
+        other_response_->add(other_[i], sampling_Hz, {.modes = {}, .measured = {}, .chain = chain});
+        return other_response_->take(chain, sampling_Hz);
+    }
+
+    const RecordPlan& plan_;
+    const GearboxTile& tile_;
+    const std::size_t first_lane_;
+    const int meshes_;
+    const std::vector<std::vector<double>> other_;
+    const std::span<LaneSignals> lanes_;
+    const SensorPlan* sensor_ = nullptr;
+    bool changed_ = false;  // true if the samples are no longer those that the tile has folded
+    // Made where they are needed first.
+    std::optional<signals::PeriodicResponse> response_, other_response_;
+};
+
+// Signals of `count` lanes.
+std::vector<LaneSignals> signals_of_lanes(const Scene& scene, const GearboxTile& tile,
+                                          std::size_t first, std::size_t count, int meshes) {
+    const RecordPlan& plan = scene.record();
+    const std::vector<SensorPlan>& sensors = scene.sensors();
+    std::vector<LaneSignals> lanes;
+    for (std::size_t lane = first; lane < first + count; ++lane) {
+        lanes.push_back(folded_lane(sensors.size(), tile, static_cast<int>(lane)));
+    }
+    // Records that are cut from the signals need their transmission error, too.
+    if (plan.length && meshes == plan.sensor_meshes(scene.features().needs.all())) {
+        for (std::size_t i = 0; i < count; ++i) {
+            lanes[i].te = te_signal(plan, tile, static_cast<int>(first + i));
+        }
+    }
+    if (meshes > 0) {
+        const auto realizations = std::span(tile.realizations).subspan(first, count);
+        LaneSamples samples(plan, tile, first, meshes,
+                            background_vibration(scene, realizations, lanes, meshes), lanes);
+        for (const SensorPlan& sensor : sensors) {
+            samples.evaluate(sensor);
+        }
+    }
+    return lanes;
 }
 
 }  // namespace
 
-LaneSignals lane_signals(const Scene& scene, const SensorPaths& path, const GearboxTile& tile,
-                         int lane, int meshes) {
-    LaneSignals lane_result = folded_lane(path, tile, lane);
-    std::optional<signals::PeriodicResponse> response;
-    for (std::size_t sensor = 0; meshes > 0 && sensor < path.size(); ++sensor) {
-        LaneSignals& own = of_sensor(lane_result, sensor);
-        if (has_response(scene.study(), sensor)) {
-            add_response(scene, path, tile, sensor, lane, meshes, response, own);
-        } else {
-            own.sensor = samples_along(scene, path, tile, sensor, 0, lane, meshes);
-        }
-    }
-    complete(scene, tile, static_cast<std::size_t>(lane), meshes, std::span(&lane_result, 1));
-    return lane_result;
+LaneSignals lane_signals(const Scene& scene, const GearboxTile& tile, int lane, int meshes) {
+    return std::move(
+        signals_of_lanes(scene, tile, static_cast<std::size_t>(lane), 1, meshes).front());
 }
 
-std::vector<LaneSignals> all_lane_signals(const Scene& scene, const SensorPaths& path,
-                                          const GearboxTile& tile, int meshes) {
-    std::vector<LaneSignals> all;
-    for (std::size_t lane = 0; lane < tile.status.size(); ++lane) {
-        all.push_back(folded_lane(path, tile, static_cast<int>(lane)));
-    }
-    std::optional<signals::PeriodicResponse> response;
-    for (std::size_t sensor = 0; meshes > 0 && sensor < path.size(); ++sensor) {
-        if (has_response(scene.study(), sensor)) {
-            for (std::size_t lane = 0; lane < all.size(); ++lane) {
-                add_response(scene, path, tile, sensor, static_cast<int>(lane), meshes, response,
-                             of_sensor(all[lane], sensor));
-            }
-            continue;
-        }
-        auto samples =
-            !tile.sensor_recorders.empty()
-                ? tile.sensor_recorders[sensor].front()->signals(all.size(), meshes)
-                : signals::synthesize(
-                      tile.views, tile.integration.content, scene.span(), path[sensor].front(),
-                      path_exponents(std::span(tile.realizations).first(all.size()), 0), 0, meshes,
-                      tile.tones);
-        for (std::size_t lane = 0; lane < all.size(); ++lane) {
-            of_sensor(all[lane], sensor).sensor = std::move(samples[lane]);
-        }
-    }
-    complete(scene, tile, 0, meshes, all);
-    return all;
+std::vector<LaneSignals> all_lane_signals(const Scene& scene, const GearboxTile& tile, int meshes) {
+    return signals_of_lanes(scene, tile, 0, tile.status.size(), meshes);
 }
 
-SensorSignals signals_of_sensor(const Study& study, const LaneSignals& all, std::size_t sensor) {
-    const auto one = [&](const LaneSignals& record) {
-        LaneSignals own = record.additional[sensor];
-        own.te_turn = record.te_turn;
-        own.te = record.te;
-        own.noise = noise_at(study, study.sensor.additional[sensor], record.noise);
-        return own;
+SensorSignals signals_of_sensor(const SensorPlan& sensor, const LaneSignals& all) {
+    const auto at_sensor = [&](const LaneSignals& record) {
+        LaneSignals signals = record.additional[sensor.number - 1];
+        signals.te_turn = record.te_turn;
+        signals.te = record.te;
+        signals.noise = sensor.noise().of(record.noise);
+        return signals;
     };
-    SensorSignals own{one(all), {}};
+    SensorSignals signals{at_sensor(all), {}};
     for (std::size_t k = 0; k < all.baselines; ++k) {
-        own.baseline.push_back(one(all.baseline[k]));
+        signals.baseline.push_back(at_sensor(all.baseline[k]));
     }
-    return own;
+    return signals;
 }
 
 }  // namespace gearpod::mc

@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <boost/random/uniform_01.hpp>
 #include <cmath>
+#include <functional>
 #include <iterator>
 #include <memory>
 #include <numbers>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -15,26 +15,25 @@
 #include "mc/ensemble/coupling/neighbour_stages.hpp"
 #include "mc/ensemble/gearbox/record_window.hpp"
 #include "mc/ensemble/gearbox/tile_random_inputs.hpp"
-#include "mc/study/housing.hpp"
 #include "signals/spectra/resampling.hpp"
 
 namespace gearpod::mc {
 namespace {
 
-void add_bearings(const Scene& scene, const Realization& realization, SourceRole role,
+using Bearings = std::vector<OtherSourcesStage::NumberedBearing>;
+
+// Adds the vibration of faulty bearings to the samples of a record.
+void add_bearings(const GearboxPlan& gearbox, const RecordPlan& plan, const Bearings& bearings,
+                  double low_pass_Hz, std::uint64_t seed, const Realization& realization,
                   std::vector<double>& samples) {
-    const std::vector<Bearing>& bearings = scene.study().sensor.bearings;
-    for (std::size_t i = 0; i < bearings.size(); ++i) {
-        if (bearings[i].role == role) {
-            machine::throw_if_cancelled();
-            Philox engine =
-                record_stream(scene.draw().seed, realization.id,
-                              with_suffix(StreamPurpose::bearing_impulses, std::to_string(i)));
-            signals::add_bearing_vibration(
-                bearing_impulses(scene.gearbox(), realization.inputs, bearings[i]),
-                scene.study().sensor.low_pass_Hz, scene.record().sample_s(realization.inputs),
-                engine, samples);
-        }
+    for (const auto& [number, bearing] : bearings) {
+        machine::throw_if_cancelled();
+        Philox engine =
+            record_stream(seed, realization.id,
+                          with_suffix(StreamPurpose::bearing_impulses, std::to_string(number)));
+        signals::add_bearing_vibration(bearing_impulses(gearbox, realization.inputs, bearing),
+                                       low_pass_Hz, plan.sample_s(realization.inputs), engine,
+                                       samples);
     }
 }
 
@@ -105,12 +104,11 @@ void add_coupled_fault(const Scene& scene, std::size_t stage,
                        std::span<const Realization> realizations,
                        std::span<const LaneSignals> records,
                        std::vector<std::vector<double>>& samples) {
-    const SensorPaths path = sensor_paths(scene);
     const GearboxTile tile =
-        run_realizations(scene, path, {realizations.begin(), realizations.end()},
-                         scene.study().numerics.lanes, {.faulty_stage = stage});
+        run_realizations(scene, {realizations.begin(), realizations.end()},
+                         scene.solve().settings.lanes, {.faulty_stage = stage});
     const std::vector<LaneSignals> faulty =
-        all_lane_signals(scene, path, tile, scene.signal_meshes());
+        all_lane_signals(scene, tile, scene.record().signal_meshes);
     for (std::size_t r = 0; r < samples.size(); ++r) {
         for (std::size_t i = 0; i < samples[r].size(); ++i) {
             samples[r][i] +=
@@ -130,17 +128,16 @@ struct StageRecord {
 
 // Samples become NaN if the stage's gearbox fails.
 void add_stage(const Scene& scene, std::size_t stage, std::span<const StageRecord> records) {
-    const Scene& own = scene.stages()[stage];
-    const SensorPaths path = sensor_paths(own);
-    const auto lanes = static_cast<std::size_t>(own.study().numerics.lanes);
+    const Scene& plan = scene.stages()[stage];
+    const auto lanes = static_cast<std::size_t>(plan.solve().settings.lanes);
     for (std::size_t first = 0; first < records.size(); first += lanes) {
         const auto part = records.subspan(first, std::min(lanes, records.size() - first));
         std::vector<Realization> gearboxes;
         std::ranges::transform(part, std::back_inserter(gearboxes), &StageRecord::gearbox);
         const GearboxTile tile =
-            run_realizations(own, path, gearboxes, static_cast<int>(part.size() > 1 ? lanes : 1));
+            run_realizations(plan, gearboxes, static_cast<int>(part.size() > 1 ? lanes : 1));
         const std::vector<LaneSignals> signals =
-            all_lane_signals(own, path, tile, own.span_meshes());
+            all_lane_signals(plan, tile, plan.record().span.meshes());
         for (std::size_t i = 0; i < part.size(); ++i) {
             machine::throw_if_cancelled();
             if (tile.status[i] == Status::ok) {
@@ -153,33 +150,18 @@ void add_stage(const Scene& scene, std::size_t stage, std::span<const StageRecor
     }
 }
 
-// Vibration of other sources as the measuring chain of an additional sensor passes it. `response`
-// is made where it is needed first.
-std::vector<double> passed(const signals::MeasuringChain& chain, const std::vector<double>& samples,
-                           double sample_s, std::optional<signals::PeriodicResponse>& response) {
-    if (!response) {
-        response.emplace(static_cast<int>(samples.size()));
-    }
-    response->add(samples, 1.0 / sample_s, {.modes = {}, .measured = {}, .chain = chain});
-    return response->take(chain, 1.0 / sample_s);
-}
-
-// Adds samples to those of a sensor of a record.
-void add_samples(const Scene& scene, const std::vector<double>& samples, LaneSignals& sensor) {
-    std::ranges::transform(sensor.sensor, samples, sensor.sensor.begin(), std::plus<>());
-    fold_again(scene.record(), sensor);
-}
-
 }  // namespace
 
-void add_background(const Scene& scene, std::span<const Realization> realizations,
-                    std::span<LaneSignals> records) {
-    const Sensor& sensor = scene.study().sensor;
-    const bool any =
-        !sensor.stages.empty() ||
-        std::ranges::count(sensor.bearings, SourceRole::background, &Bearing::role) > 0;
-    if (!any || records.empty() || records.front().sensor.empty()) {
-        return;
+std::vector<std::vector<double>> background_vibration(const Scene& scene,
+                                                      std::span<const Realization> realizations,
+                                                      std::span<const LaneSignals> records,
+                                                      int meshes) {
+    const RecordPlan& plan = scene.record();
+    const std::vector<StagePlan>& stages = scene.gearbox().stages;
+    const auto* sources = scene.sensors().front().find<OtherSourcesStage>();
+    std::vector<std::vector<double>> samples;
+    if (sources == nullptr || (stages.empty() && sources->background.empty())) {
+        return samples;
     }
     // Records of a coupled tile share it.
     CoupledSpan span;
@@ -187,13 +169,13 @@ void add_background(const Scene& scene, std::span<const Realization> realization
         span = coupled_span(scene.draw(), scene.gearbox(), scene.record(), *coupled,
                             realizations.front().id);
     }
-    std::vector<std::vector<double>> samples;
     for (std::size_t i = 0; i < records.size(); ++i) {
-        samples.emplace_back(records[i].sensor.size(), 0.0);
-        add_bearings(scene, realizations[i], SourceRole::background, samples[i]);
+        samples.emplace_back(
+            static_cast<std::size_t>(meshes) * static_cast<std::size_t>(plan.samples), 0.0);
+        add_bearings(scene.gearbox(), plan, sources->background, sources->low_pass_Hz,
+                     scene.draw().seed, realizations[i], samples[i]);
         add_coupled_stages(scene, span, records[i], samples[i]);
     }
-    const std::vector<StagePlan>& stages = scene.gearbox().stages;
     for (std::size_t stage = 0; stage < stages.size(); ++stage) {
         if (stages[stage].shaft) {
             continue;
@@ -206,18 +188,7 @@ void add_background(const Scene& scene, std::span<const Realization> realization
         }
         add_stage(scene, stage, next);
     }
-    std::optional<signals::PeriodicResponse> response;
-    for (std::size_t i = 0; i < records.size(); ++i) {
-        add_samples(scene, samples[i], records[i]);
-        for (std::size_t s = 0; s < records[i].additional.size(); ++s) {
-            const auto chain = measuring_chain(scene.study(), s + 1);
-            add_samples(scene,
-                        chain ? passed(*chain, samples[i],
-                                       scene.record().sample_s(realizations[i].inputs), response)
-                              : samples[i],
-                        records[i].additional[s]);
-        }
-    }
+    return samples;
 }
 
 std::vector<LaneSignals> with_other_fault(const Scene& scene,
@@ -227,10 +198,13 @@ std::vector<LaneSignals> with_other_fault(const Scene& scene,
     if (records.front().sensor.empty()) {
         return other;
     }
+    const RecordPlan& plan = scene.record();
+    const OtherSourcesStage& sources = *scene.sensors().front().find<OtherSourcesStage>();
     std::vector<std::vector<double>> samples;
     for (std::size_t i = 0; i < records.size(); ++i) {
         samples.emplace_back(records[i].sensor.size(), 0.0);
-        add_bearings(scene, realizations[i], SourceRole::other_fault, samples[i]);
+        add_bearings(scene.gearbox(), plan, sources.other_fault, sources.low_pass_Hz,
+                     scene.draw().seed, realizations[i], samples[i]);
     }
     const std::vector<StagePlan>& stages = scene.gearbox().stages;
     for (std::size_t stage = 0; stage < stages.size(); ++stage) {
@@ -254,7 +228,9 @@ std::vector<LaneSignals> with_other_fault(const Scene& scene,
         add_stage(scene, stage, next);
     }
     for (std::size_t i = 0; i < records.size(); ++i) {
-        add_samples(scene, samples[i], other[i]);
+        std::vector<double>& sensor = other[i].sensor;
+        std::ranges::transform(sensor, samples[i], sensor.begin(), std::plus<>());
+        fold_again(plan, other[i]);
     }
     return other;
 }

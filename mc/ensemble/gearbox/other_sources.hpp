@@ -10,14 +10,17 @@
 
 namespace gearpod::mc {
 
-// Adds the background sources to the samples of all sensors of records and folds them again. No
-// effect without samples. Coupled stages have vibrated with the gearbox (LaneSignals::coupled);
-// other stages are integrated here. Samples count as evenly spaced even if the speed fluctuates. A
-// record next to whose gearbox a stage fails becomes NaN.
-void add_background(const Scene& scene, std::span<const Realization> realizations,
-                    std::span<LaneSignals> records);
+// Vibration of the background sources in records of that many mesh periods of these gearboxes, one
+// per lane, before the sensors' measuring chains; empty without such sources. Coupled stages have
+// vibrated with the gearbox (LaneSignals::coupled); other stages are integrated here. Samples count
+// as evenly spaced even if the speed fluctuates. A record next to whose gearbox a stage fails
+// becomes NaN.
+std::vector<std::vector<double>> background_vibration(const Scene& scene,
+                                                      std::span<const Realization> realizations,
+                                                      std::span<const LaneSignals> records,
+                                                      int meshes);
 // The whole records of these gearboxes, with their background, and with the other fault in the
-// samples of the first sensor. Requires has_other_fault(study).
+// samples of the first sensor. Requires sources of another fault.
 std::vector<LaneSignals> with_other_fault(const Scene& scene,
                                           std::span<const Realization> realizations,
                                           std::span<const LaneSignals> records);

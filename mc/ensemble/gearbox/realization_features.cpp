@@ -183,9 +183,10 @@ HealthyReference HealthyRecordsMean::mean() const {
 
 namespace {
 
-HealthyReference reference_of(const Scene& scene, const SensorPaths& path, std::uint64_t sensor) {
-    const int lanes = scene.study().numerics.lanes;
-    RealizationSignals records(scene, features::SignalSet::of<features::SensorTurn>());
+HealthyReference reference_of(const Scene& scene, const SensorPlan& sensor) {
+    const int lanes = scene.solve().settings.lanes;
+    RealizationSignals records(scene.record(), scene.features(), sensor, scene.draw().seed,
+                               features::SignalSet::of<features::SensorTurn>());
     const std::size_t levels = scene.record().noise_levels.size();
     HealthyRecordsMean mean(levels);
     for (int first = 0; first < HealthyReference::kRecords; first += lanes) {
@@ -194,16 +195,14 @@ HealthyReference reference_of(const Scene& scene, const SensorPaths& path, std::
             ids.push_back({Group::threshold, static_cast<std::uint64_t>(i)});
         }
         const GearboxTile tile =
-            run_gearboxes(scene, path, ids, lanes, {.signal_meshes = records.meshes()});
-        auto signals = all_lane_signals(scene, path, tile, records.meshes());
+            run_gearboxes(scene, ids, lanes, {.signal_meshes = records.meshes()});
+        auto signals = all_lane_signals(scene, tile, records.meshes());
         for (std::size_t lane = 0; lane < ids.size(); ++lane) {
             machine::throw_if_cancelled();
             if (tile.status[lane] == Status::ok) {
-                Realization realization = tile.realizations[lane];
-                if (sensor > 0) {
-                    realization = at_sensor(scene.study(), realization, sensor);
-                    signals[lane] =
-                        signals_of_sensor(scene.study(), signals[lane], sensor - 1).record;
+                const Realization realization = sensor.realization(tile.realizations[lane]);
+                if (sensor.number > 0) {
+                    signals[lane] = signals_of_sensor(sensor, signals[lane]).record;
                 }
                 const LaneSignals record =
                     drawn_record(scene, std::move(signals[lane]), realization);
@@ -219,16 +218,15 @@ HealthyReference reference_of(const Scene& scene, const SensorPaths& path, std::
 
 }  // namespace
 
-HealthyReference healthy_reference(const Scene& scene, const SensorPaths& path,
-                                   std::uint64_t sensor) {
+HealthyReference healthy_reference(const Scene& scene, std::uint64_t sensor) {
     if (!scene.features().needs.all().has<features::HealthyRecords>()) {
         return {};
     }
-    return reference_of(scene, path, sensor);
+    return reference_of(scene, scene.sensors()[sensor]);
 }
 
-HealthyReference simulated_reference(const Scene& scene, const SensorPaths& path) {
-    return reference_of(scene, path, 0);
+HealthyReference simulated_reference(const Scene& scene) {
+    return reference_of(scene, scene.sensors().front());
 }
 
 namespace {
@@ -241,8 +239,9 @@ const LaneSignals& baseline_of(const LaneSignals& gearbox, std::size_t k) {
 }  // namespace
 
 RealizationFeatures::RealizationFeatures(const Scene& scene, const HealthyReference* healthy,
-                                         bool python)
-    : RealizationSignals(scene, scene.features().needs.record),
+                                         bool python, std::uint64_t sensor)
+    : RealizationSignals(scene.record(), scene.features(), scene.sensors()[sensor],
+                         scene.draw().seed, scene.features().needs.record),
       scene_(scene),
       features_(scene.features().used),
       python_(scene.record(), scene.features(),
@@ -250,11 +249,15 @@ RealizationFeatures::RealizationFeatures(const Scene& scene, const HealthyRefere
       healthy_(healthy),
       levels_(scene.record().noise_levels.size()) {
     const ComparedNeeds& needs = scene.features().needs;
+    const auto signals_with = [&](features::SignalSet with_needs) {
+        return RealizationSignals(scene.record(), scene.features(), scene.sensors()[sensor],
+                                  scene.draw().seed, with_needs);
+    };
     for (int k = 0; k < scene.features().baselines; ++k) {
-        baselines_.push_back({RealizationSignals(scene, needs.baseline), {}, {}});
+        baselines_.push_back({signals_with(needs.baseline), {}, {}});
     }
     if (!needs.change.empty()) {
-        change_ = std::make_unique<RealizationSignals>(scene, needs.change);
+        change_ = std::make_unique<RealizationSignals>(signals_with(needs.change));
     }
 }
 
@@ -309,8 +312,9 @@ void RealizationFeatures::load_change(const LaneSignals& gearbox, const Realizat
         noises.push_back(
             {&baseline.signals.noise(), noise_m_s2 > 0.0 ? baseline.noise_m_s2 / noise_m_s2 : 1.0});
     }
-    changed_ = change_since_baseline(scene_, record(), before);
-    change_->load(changed_, realization.inputs, noise_of_change(scene_, changed_, noise(), noises));
+    changed_ = change_since_baseline(scene_.record(), record(), before);
+    change_->load(changed_, realization.inputs,
+                  noise_of_change(scene_.record(), changed_, noise(), noises));
 }
 
 std::vector<double> RealizationFeatures::compute(const LaneSignals& gearbox,

@@ -87,11 +87,10 @@ class HealthyRecordsMean {
 
 // Mean over the first eight gearboxes of the threshold sample, with their own noise. Gearboxes that
 // failed are left out.
-HealthyReference simulated_reference(const Scene& scene, const SensorPaths& path);
+HealthyReference simulated_reference(const Scene& scene);
 // The same mean, of the first sensor or of an additional one (GearboxId::sensor); empty unless a
 // feature of the study needs it.
-HealthyReference healthy_reference(const Scene& scene, const SensorPaths& path,
-                                   std::uint64_t sensor = 0);
+HealthyReference healthy_reference(const Scene& scene, std::uint64_t sensor = 0);
 
 // Signals from which features are computed at one noise level.
 struct LevelSignals {
@@ -103,8 +102,9 @@ struct LevelSignals {
 class RealizationFeatures : public RealizationSignals {
   public:
     // `healthy` comes from healthy_reference() and must outlive the object. Without `python`,
-    // features in Python are NaN, and their files are not needed.
-    RealizationFeatures(const Scene& scene, const HealthyReference* healthy, bool python = true);
+    // features in Python are NaN, and their files are not needed. `sensor` as in GearboxId.
+    RealizationFeatures(const Scene& scene, const HealthyReference* healthy, bool python = true,
+                        std::uint64_t sensor = 0);
 
     // Values of all used features, [feature * noise levels + level]. If `signals` is not null, one
     // entry per noise level is appended to it.

@@ -2,13 +2,10 @@
 
 #include <algorithm>
 #include <boost/random/uniform_01.hpp>
-#include <cmath>
 
 #include "machine/clocks.hpp"
 #include "machine/team.hpp"
 #include "mc/ensemble/gearbox/record_window.hpp"
-#include "mc/ensemble/gearbox/solution_choice.hpp"
-#include "mc/study/noise.hpp"
 #include "mc/study/random/philox.hpp"
 #include "signals/noise/normals.hpp"
 #include "signals/noise/sensor_noise.hpp"
@@ -32,53 +29,35 @@ class Stopwatch {
 
 }  // namespace
 
-signals::LowPassNoise low_pass_noise(const Scene& scene, const InstanceInputs& inputs) {
-    return signals::LowPassNoise(inputs.low_pass_Hz * scene.record().sample_s(inputs));
-}
-
-signals::ShapedNoise background_noise(const Scene& scene, const InstanceInputs& inputs) {
-    return {background_spectrum(scene.study()), inputs.low_pass_Hz,
-            1.0 / scene.record().sample_s(inputs)};
-}
-
-namespace {
-
-// True if the noise is drawn sample by sample, because it is not white.
-bool generates_samples(const Scene& scene, const InstanceInputs& inputs) {
-    return noise_by_density(scene.study()) || inputs.own_sampling_Hz > 0.0;
-}
-
-}  // namespace
-
-std::vector<double> sample_noise(const Scene& scene, const Realization& realization,
+std::vector<double> sample_noise(const RecordPlan& plan, const NoiseStage& stage,
+                                 std::uint64_t seed, const Realization& realization,
                                  std::span<const double> clean, const signals::NoiseVariates& draw,
                                  int turns) {
-    if (generates_samples(scene, realization.inputs)) {
-        const auto normals = [&](StreamPurpose purpose) {
-            return Normals::of_noise(scene.draw().seed, realization.id, purpose);
-        };
+    const auto normals = [&](StreamPurpose purpose) {
+        return Normals::of_noise(seed, realization.id, purpose);
+    };
+    if (stage.by_samples()) {
         Normals filtered = normals(StreamPurpose::sensor_noise),
                 white = normals(StreamPurpose::sensor_noise_direction),
                 background = normals(StreamPurpose::background_noise);
+        const double sample_s = plan.sample_s(realization.inputs);
         std::vector<double> unit(clean.size());
-        draw_unit_noise(scene, realization.inputs,
+        draw_unit_noise(stage, noise_of(realization.inputs), sample_s,
                         NoiseEngines<Normals>{filtered, white, background}, std::span(unit));
-        if (realization.inputs.own_sampling_Hz > 0.0) {
+        if (stage.sampling_Hz) {
             signals::PeriodicResponse response(static_cast<int>(unit.size()));
-            const double sampling_Hz = 1.0 / scene.record().sample_s(realization.inputs);
+            const double sampling_Hz = 1.0 / sample_s;
             response.add(unit, sampling_Hz, {.modes = {}, .measured = {}});
             unit = response.take(
-                signals::MeasuringChain{.low_pass = {},
-                                        .mounting = {},
-                                        .sampling_Hz = realization.inputs.own_sampling_Hz},
+                signals::MeasuringChain{
+                    .low_pass = {}, .mounting = {}, .sampling_Hz = stage.sampling_Hz},
                 sampling_Hz);
         }
         return unit;
     }
     // Each gearbox has one stream for sensor noise, one for encoder noise, and this one. It gives
     // the directions that expand folded sensor noise to individual samples.
-    Normals engine =
-        Normals::of_noise(scene.draw().seed, realization.id, StreamPurpose::sensor_noise_direction);
+    Normals engine = normals(StreamPurpose::sensor_noise_direction);
     const std::size_t bins = draw.along.size();
     const std::size_t span = bins * static_cast<std::size_t>(turns);
     std::vector<double> unit = signals::unit_noise(clean.first(span), bins, draw, engine);
@@ -93,32 +72,28 @@ void add_noise(std::span<const double> unit, double sigma, std::span<double> sam
     }
 }
 
-void clip(const InstanceInputs& inputs, std::span<double> samples) {
-    for (double& sample : samples) {
-        sample = std::clamp(sample, -inputs.range_m_s2, inputs.range_m_s2);
-    }
-}
-
-RealizationSignals::RealizationSignals(const Scene& scene, features::SignalSet needs)
-    : RealizationSignals(scene, needs, scene.span().ring_teeth) {}
-
-RealizationSignals::RealizationSignals(const Scene& scene, features::SignalSet needs, int turns)
-    : scene_(scene),
-      default_turns_(turns),
-      span_{scene.span().planet_teeth, turns, scene.span().carrier_meshes},
-      sensor_noise_(turns),
-      windowing_(span_, scene.samples_per_mesh(), scene.features().tukey_taper),
-      spectrum_(scene.span().planet_teeth * scene.te_samples_per_mesh()),
-      analysis_(scene.record(), scene.features(), needs),
+RealizationSignals::RealizationSignals(const RecordPlan& plan, const FeaturePlan& features,
+                                       const SensorPlan& sensor, std::uint64_t seed,
+                                       features::SignalSet needs, int turns)
+    : plan_(plan),
+      feature_plan_(features),
+      noise_stage_(sensor.noise()),
+      range_(sensor.find<RangeStage>()),
+      seed_(seed),
+      default_turns_(turns > 0 ? turns : plan.span.ring_teeth),
+      span_{plan.span.planet_teeth, default_turns_, plan.span.carrier_meshes},
+      sensor_noise_(default_turns_),
+      windowing_(span_, plan.samples, features.tukey_taper),
+      spectrum_(plan.span.planet_teeth * plan.te_samples),
+      analysis_(plan, features, needs),
       needs_samples_(needs_samples(needs)),
-      meshes_(needed_sensor_meshes(scene, needs)),
-      highest_level_(std::ranges::max(scene.study().sensor.noise_levels)),
+      meshes_(plan.sensor_meshes(needs)),
+      highest_level_(std::ranges::max(plan.noise_levels)),
       amplitude_(static_cast<std::size_t>(spectrum_.orders())),
-      tooth_rms_(static_cast<std::size_t>(scene.span().planet_teeth)) {}
+      tooth_rms_(static_cast<std::size_t>(plan.span.planet_teeth)) {}
 
 bool RealizationSignals::keeps_samples() const {
-    return needs_samples_ || noise_by_density(scene_.study()) || has_range(scene_.study()) ||
-           has_own_rate(scene_.study());
+    return needs_samples_ || noise_stage_.by_samples() || range_ != nullptr;
 }
 
 void RealizationSignals::set_turns(int turns) {
@@ -126,8 +101,7 @@ void RealizationSignals::set_turns(int turns) {
     if (needed != span_.ring_teeth) {
         span_.ring_teeth = needed;
         sensor_noise_ = signals::SensorNoise(needed);
-        windowing_ =
-            signals::Windowing(span_, scene_.samples_per_mesh(), scene_.features().tukey_taper);
+        windowing_ = signals::Windowing(span_, plan_.samples, feature_plan_.tukey_taper);
     }
 }
 
@@ -139,18 +113,18 @@ void RealizationSignals::draw_sensor_noise(const LaneSignals& gearbox,
                                            const Realization& realization) {
     const GearboxId& id = realization.id;
     const std::size_t bins = gearbox.folded.size();
-    const bool by_samples = generates_samples(scene_, realization.inputs);
+    const bool by_samples = noise_stage_.by_samples();
     if (!by_samples) {
-        Normals engine = Normals::of_noise(scene_.draw().seed, id, StreamPurpose::sensor_noise);
+        Normals engine = Normals::of_noise(seed_, id, StreamPurpose::sensor_noise);
         sensor_noise_.draw(engine, bins, noise_.sensor);
         if (id.noise_sampling != NoiseSampling::plain) {
             sample_sensor_noise(gearbox, realization);
         }
     }
     noise_.samples.clear();
-    if (!gearbox.sensor.empty() && (needs_samples_ || by_samples || has_range(scene_.study()))) {
-        noise_.samples =
-            sample_noise(scene_, realization, gearbox.sensor, noise_.sensor, span_.ring_teeth);
+    if (!gearbox.sensor.empty() && keeps_samples()) {
+        noise_.samples = sample_noise(plan_, noise_stage_, seed_, realization, gearbox.sensor,
+                                      noise_.sensor, span_.ring_teeth);
     }
     if (by_samples) {
         const std::size_t span = bins * static_cast<std::size_t>(span_.ring_teeth);
@@ -169,17 +143,17 @@ void RealizationSignals::sample_sensor_noise(const LaneSignals& gearbox,
     };
     if (!sampler_ || !same(sampled_gearbox_)) {
         std::vector<double> sigmas;
-        for (const double level : scene_.study().sensor.noise_levels) {
+        for (const double level : plan_.noise_levels) {
             sigmas.push_back(level * realization.inputs.noise_m_s2);
         }
-        sampler_.emplace(span_, scene_.samples_per_mesh(), scene_.features().tukey_taper);
+        sampler_.emplace(span_, plan_.samples, feature_plan_.tukey_taper);
         sampler_->load(gearbox.folded, sigmas,
                        id.noise_sampling == NoiseSampling::towards_alarms
                            ? signals::NoiseImportanceSampler::TargetTail::loud
                            : signals::NoiseImportanceSampler::TargetTail::quiet);
         sampled_gearbox_ = id;
     }
-    Philox engine = noise_stream(scene_.draw().seed, id, StreamPurpose::sensor_noise_kind);
+    Philox engine = noise_stream(seed_, id, StreamPurpose::sensor_noise_kind);
     const double pick = boost::random::uniform_01<double>()(engine);
     sampler_->sample(id.repeat % signals::NoiseImportanceSampler::kKinds, pick, noise_.sensor);
     importance_sampled_ = true;
@@ -203,8 +177,7 @@ void RealizationSignals::draw_noise(const LaneSignals& gearbox, const Realizatio
     }
     noise_.encoder.assign(gearbox.te_turn.size(), 0.0);
     if (highest_level_ * inputs.encoder_noise_rad > 0.0) {
-        Normals encoder =
-            Normals::of_noise(scene_.draw().seed, realization.id, StreamPurpose::encoder_noise);
+        Normals encoder = Normals::of_noise(seed_, realization.id, StreamPurpose::encoder_noise);
         signals::draw_encoder_noise(encoder, span_.ring_teeth, noise_.encoder);
     }
 }
@@ -236,16 +209,16 @@ void RealizationSignals::load_signals(const LaneSignals& gearbox, const Instance
 }
 
 void RealizationSignals::sensor_features(double noise, features::FeatureInput& input) {
-    const bool clips = std::isfinite(inputs_.range_m_s2);
-    if (needs_samples_ || clips) {
+    if (needs_samples_ || range_ != nullptr) {
         samples_ = gearbox_->sensor;
         add_noise(noise_.samples, noise, samples_);
     }
-    if (clips) {
-        clip(inputs_, samples_);
-        windowing_.load(folded_squares(scene_.record(), *gearbox_, samples_));
+    if (range_ != nullptr) {
+        range_->clip(samples_);
+        windowing_.load(folded_squares(plan_, *gearbox_, samples_));
     }
-    const double folded_noise = clips ? 0.0 : noise;  // of squares that do not contain it
+    // Of squares that do not contain it.
+    const double folded_noise = range_ != nullptr ? 0.0 : noise;
     const int offset = windowing_.search(folded_noise, tooth_rms_);
     input.get<features::ToothRms<Member::planet>>() = {tooth_rms_};
     input.get<features::SensorPower>() = {windowing_.mean_square(folded_noise)};
@@ -261,13 +234,13 @@ void RealizationSignals::te_features(double noise, features::FeatureInput& input
     }
     spectrum_.amplitudes(noise, amplitude_);
     input.get<features::TeTurn>() = {te_, amplitude_, span_.planet_teeth,
-                                     scene_.features().te_harmonics};
+                                     feature_plan_.te_harmonics};
     analysis_.te(te_, input);
 }
 
 features::FeatureInput RealizationSignals::at(std::size_t level) {
     machine::throw_if_cancelled();
-    const double factor = scene_.study().sensor.noise_levels[level];
+    const double factor = plan_.noise_levels[level];
     features::FeatureInput input;
     if (!gearbox_->folded.empty()) {
         sensor_features(factor * inputs_.noise_m_s2, input);
@@ -286,7 +259,7 @@ void subtract(std::span<const double> b, double factor, std::vector<double>& a) 
 
 }  // namespace
 
-LaneSignals change_since_baseline(const Scene& scene, const LaneSignals& record,
+LaneSignals change_since_baseline(const RecordPlan& plan, const LaneSignals& record,
                                   std::span<const LaneSignals* const> baselines) {
     LaneSignals change;
     change.te_turn = record.te_turn;
@@ -297,24 +270,24 @@ LaneSignals change_since_baseline(const Scene& scene, const LaneSignals& record,
         subtract(baseline->te_turn, share, change.te_turn);
         subtract(baseline->sensor, share, change.sensor);
     }
-    fold_again(scene.record(), change);
+    fold_again(plan, change);
     return change;
 }
 
-RealizationNoise noise_of_change(const Scene& scene, const LaneSignals& change,
+RealizationNoise noise_of_change(const RecordPlan& plan, const LaneSignals& change,
                                  const RealizationNoise& record,
                                  std::span<const BaselineNoise> baselines) {
     RealizationNoise noise;
     noise.samples = record.samples;
     noise.encoder = record.encoder;
     const double share = 1.0 / static_cast<double>(baselines.size());
-    for (const BaselineNoise& one : baselines) {
-        subtract(one.noise->samples, share * one.rms, noise.samples);
-        subtract(one.noise->encoder, share, noise.encoder);
+    for (const BaselineNoise& baseline : baselines) {
+        subtract(baseline.noise->samples, share * baseline.rms, noise.samples);
+        subtract(baseline.noise->encoder, share, noise.encoder);
     }
-    noise.sensor = signals::noise_variates_of_samples(
-        folded_part(scene.record(), change, change.sensor),
-        folded_part(scene.record(), change, noise.samples), scene.record().turn_samples());
+    noise.sensor = signals::noise_variates_of_samples(folded_part(plan, change, change.sensor),
+                                                      folded_part(plan, change, noise.samples),
+                                                      plan.turn_samples());
     return noise;
 }
 

@@ -11,7 +11,7 @@
 #include "mc/ensemble/gearbox/gearbox_tile.hpp"
 #include "mc/ensemble/gearbox/span_analysis.hpp"
 #include "mc/plan/sampling.hpp"
-#include "mc/plan/scene.hpp"
+#include "mc/plan/sensor_plan.hpp"
 #include "signals/noise/coloured_noise.hpp"
 #include "signals/noise/normals.hpp"
 #include "signals/noise/sensor_noise.hpp"
@@ -21,19 +21,6 @@
 
 namespace gearpod::mc {
 
-// Unit noise for every sample of a gearbox's noise-free sensor signal. The signal begins with
-// `turns` turns of the monitored gear. Within them, the noise folds exactly to `draw`; after them,
-// each sample is independent.
-// Noise given by its spectral density, and that of a sensor with a sampling rate of its own, is
-// generated sample by sample throughout, and `draw` follows from it.
-std::vector<double> sample_noise(const Scene& scene, const Realization& realization,
-                                 std::span<const double> clean, const signals::NoiseVariates& draw,
-                                 int turns);
-// Low-pass filter for the unit noise of a sensor whose noise is given by its spectral density.
-// Samples count as evenly spaced even if the speed fluctuates.
-signals::LowPassNoise low_pass_noise(const Scene& scene, const InstanceInputs& inputs);
-// Filter for the unit noise of the machine's background, likewise.
-signals::ShapedNoise background_noise(const Scene& scene, const InstanceInputs& inputs);
 // Random numbers of the parts of a record's noise.
 template <class Engine>
 struct NoiseEngines {
@@ -41,15 +28,16 @@ struct NoiseEngines {
     Engine& white;
     Engine& background;
 };
-// Draws unit noise with the spectrum of a study that gives noise by density: the filtered part, and
-// the white part and the background if there are any.
+// Draws unit noise with the spectrum of a stage that gives noise by density: the filtered part, and
+// the white part and the background if there are any. Samples count as evenly spaced even if the
+// speed fluctuates.
 template <class Engine>
-void draw_unit_noise(const Scene& scene, const InstanceInputs& inputs, NoiseEngines<Engine> engines,
-                     std::span<double> unit) {
-    const double all = inputs.noise_m_s2, white = inputs.white_noise_m_s2 / all,
-                 background = inputs.background_noise_m_s2 / all;
-    if (scene.study().sensor.noise_density_m_s2_per_sqrt_Hz) {
-        low_pass_noise(scene, inputs).draw(engines.filtered, unit);
+void draw_unit_noise(const NoiseStage& stage, const SensorNoise& noise, double sample_s,
+                     NoiseEngines<Engine> engines, std::span<double> unit) {
+    const double white = noise.white_m_s2 / noise.all_m_s2,
+                 background = noise.background_m_s2 / noise.all_m_s2;
+    if (stage.filtered) {
+        signals::LowPassNoise(stage.low_pass_Hz() * sample_s).draw(engines.filtered, unit);
     } else {
         std::ranges::fill(unit, 0.0);
     }
@@ -72,14 +60,21 @@ void draw_unit_noise(const Scene& scene, const InstanceInputs& inputs, NoiseEngi
         add(white);
     }
     if (background > 0.0) {
-        background_noise(scene, inputs).draw(engines.background, std::span(part));
+        signals::ShapedNoise(*stage.background, stage.low_pass_Hz(), 1.0 / sample_s)
+            .draw(engines.background, std::span(part));
         add(background);
     }
 }
 // Computes samples[i] += sigma * unit[i].
 void add_noise(std::span<const double> unit, double sigma, std::span<double> samples);
-// Limits the magnitude of samples to the range of the sensor's converter.
-void clip(const InstanceInputs& inputs, std::span<double> samples);
+// Unit noise for every sample of a gearbox's noise-free sensor signal. The signal begins with
+// `turns` turns of the monitored gear. Within them, the noise folds exactly to `draw`; after them,
+// each sample is independent. Noise that is drawn sample by sample throughout
+// (NoiseStage::by_samples) does not use `draw`, which follows from it.
+std::vector<double> sample_noise(const RecordPlan& plan, const NoiseStage& stage,
+                                 std::uint64_t seed, const Realization& realization,
+                                 std::span<const double> clean, const signals::NoiseVariates& draw,
+                                 int turns);
 
 // Noise of one gearbox, common to all noise levels.
 struct RealizationNoise {
@@ -93,12 +88,13 @@ struct RealizationNoise {
 // thread.
 class RealizationSignals {
   public:
-    // `needs`: signals that features need.
-    RealizationSignals(const Scene& scene, features::SignalSet needs);
-    // The same for signals folded over `turns` planet turns instead of the scene's span, at least
-    // 3. Only for features that do not need samples. Signals with LaneSignals::turns have their own
-    // number of turns.
-    RealizationSignals(const Scene& scene, features::SignalSet needs, int turns);
+    // `needs`: signals that features need. `turns`: number of planet turns over which signals are
+    // folded, at least 3, or 0 for the span; others than the span only for features that do not
+    // need samples. Signals with LaneSignals::turns have their own number of turns. The plans must
+    // outlive the object.
+    RealizationSignals(const RecordPlan& plan, const FeaturePlan& features,
+                       const SensorPlan& sensor, std::uint64_t seed, features::SignalSet needs,
+                       int turns = 0);
 
     // Number of mesh periods of sensor signal that LaneSignals must hold; may be 0.
     int meshes() const { return meshes_; }
@@ -110,8 +106,7 @@ class RealizationSignals {
     // Signals of the loaded gearbox at a noise level; valid until the next call.
     features::FeatureInput at(std::size_t level);
 
-    // True if sensor samples of the records are used: by features, for noise that is not white, or
-    // because they are clipped.
+    // True if sensor samples of the records are used: by features, or by the stages of records.
     bool keeps_samples() const;
     const LaneSignals& record() const { return *gearbox_; }  // loaded last
     const RealizationNoise& noise() const { return noise_; }
@@ -135,7 +130,11 @@ class RealizationSignals {
     void sensor_features(double noise, features::FeatureInput& input);
     void te_features(double noise, features::FeatureInput& input);
 
-    const Scene& scene_;
+    const RecordPlan& plan_;
+    const FeaturePlan& feature_plan_;
+    const NoiseStage& noise_stage_;
+    const RangeStage* const range_;  // null if samples are not clipped
+    const std::uint64_t seed_;
     const int default_turns_;
     signals::SpanLayout span_;
     signals::SensorNoise sensor_noise_;
@@ -160,7 +159,7 @@ class RealizationSignals {
 // baseline records, sample by sample.
 
 // Change without noise. The record and its baseline records must have equally many sensor samples.
-LaneSignals change_since_baseline(const Scene& scene, const LaneSignals& record,
+LaneSignals change_since_baseline(const RecordPlan& plan, const LaneSignals& record,
                                   std::span<const LaneSignals* const> baselines);
 
 // Noise of a baseline record. `rms`: that of its sensor noise divided by that of the test record.
@@ -169,7 +168,7 @@ struct BaselineNoise {
     double rms = 1.0;
 };
 // Noise of that change: the difference of the record's noise and the mean of the baselines'.
-RealizationNoise noise_of_change(const Scene& scene, const LaneSignals& change,
+RealizationNoise noise_of_change(const RecordPlan& plan, const LaneSignals& change,
                                  const RealizationNoise& record,
                                  std::span<const BaselineNoise> baselines);
 

@@ -63,37 +63,37 @@ void add_motion(const Scene& scene, const GearboxTile& tile, MeshRange meshes, S
     }
 }
 
-// Adds a sensor's samples without and with noise. `signals` are those of the scene's
-// signal_meshes().
-void add_sensor(const Scene& scene, const Realization& realization, LaneSignals signals,
-                const RealizationFeatures& features, const std::string& name, std::size_t rows,
-                Simulation& out) {
+// Adds the samples of a record without and with noise. `signals` are those of the whole signal.
+void add_sensor(const Scene& scene, const SensorPlan& sensor, const Realization& realization,
+                LaneSignals signals, const RealizationFeatures& features, const std::string& name,
+                std::size_t rows, Simulation& out) {
     const LaneSignals record = drawn_record(scene, std::move(signals), realization);
     const std::vector<double>& clean = record.sensor;
-    const auto noise = sample_noise(scene, realization, clean, features.noise().sensor,
-                                    record.turns > 0 ? record.turns : scene.span().ring_teeth);
-    const auto first = [&](const std::vector<double>& all) {
-        return std::vector<double>(all.begin(), all.begin() + static_cast<std::ptrdiff_t>(rows));
+    const auto noise = sample_noise(
+        scene.record(), sensor.noise(), scene.draw().seed, realization, clean,
+        features.noise().sensor, record.turns > 0 ? record.turns : scene.record().span.ring_teeth);
+    const auto add_column = [&](std::string column, std::vector<double> samples) {
+        if (const auto* range = sensor.find<RangeStage>()) {
+            range->clip(samples);
+        }
+        samples.resize(rows);
+        out.columns.push_back({std::move(column), "m/s^2", std::move(samples)});
     };
-    std::vector<double> clipped = clean;
-    clip(realization.inputs, clipped);
-    out.columns.push_back({name, "m/s^2", first(clipped)});
-    for (std::size_t level = 0; level < out.noise_levels.size(); ++level) {
+    add_column(name, clean);
+    for (const double level : out.noise_levels) {
         std::vector<double> noisy = clean;
-        add_noise(noise, out.noise_levels[level] * realization.inputs.noise_m_s2, noisy);
-        clip(realization.inputs, noisy);
-        out.columns.push_back(
-            {fmt::format("{}_noise_{:g}", name, out.noise_levels[level]), "m/s^2", first(noisy)});
+        add_noise(noise, level * realization.inputs.noise_m_s2, noisy);
+        add_column(fmt::format("{}_noise_{:g}", name, level), std::move(noisy));
     }
 }
 
 // Adds the samples of all sensors. `features` are those of the first one.
-void add_sensors(const Scene& scene, const GearboxTile& tile, const SensorPaths& path,
-                 const RealizationFeatures& features, std::size_t rows, Simulation& out) {
+void add_sensors(const Scene& scene, const GearboxTile& tile, const RealizationFeatures& features,
+                 std::size_t rows, Simulation& out) {
     const Realization& realization = tile.realizations[0];
-    const LaneSignals all = lane_signals(scene, path, tile, 0, scene.signal_meshes());
-    add_sensor(scene, realization, all, features, "sensor", rows, out);
-    if (has_other_fault(scene.study())) {
+    const LaneSignals all = lane_signals(scene, tile, 0, scene.record().signal_meshes);
+    add_sensor(scene, scene.sensors().front(), realization, all, features, "sensor", rows, out);
+    if (scene.ensemble().has_other_fault()) {
         LaneSignals other =
             with_other_fault(scene, std::span(&realization, 1), std::span(&all, 1)).front();
         std::ranges::transform(other.sensor, all.sensor, other.sensor.begin(), std::minus<>());
@@ -101,16 +101,15 @@ void add_sensors(const Scene& scene, const GearboxTile& tile, const SensorPaths&
         samples.resize(rows);
         out.columns.push_back({kOtherFault, "m/s^2", std::move(samples)});
     }
-    const std::vector<AdditionalSensor>& additional = scene.study().sensor.additional;
-    for (std::size_t s = 0; s < additional.size(); ++s) {
-        const HealthyReference healthy = healthy_reference(scene, path, s + 1);
-        RealizationFeatures own_features(scene, &healthy, false);
-        const Realization own = at_sensor(scene.study(), realization, s + 1);
-        SensorSignals signals = signals_of_sensor(
-            scene.study(), lane_signals(scene, path, tile, 0, own_features.meshes()), s);
-        own_features.compute(signals.linked(), own);
-        add_sensor(scene, own, signals_of_sensor(scene.study(), all, s).record, own_features,
-                   kSensorVariant + additional[s].name, rows, out);
+    for (const SensorPlan& sensor : std::span(scene.sensors()).subspan(1)) {
+        const HealthyReference healthy = healthy_reference(scene, sensor.number);
+        RealizationFeatures sensor_features(scene, &healthy, false, sensor.number);
+        const Realization here = sensor.realization(realization);
+        SensorSignals signals =
+            signals_of_sensor(sensor, lane_signals(scene, tile, 0, sensor_features.meshes()));
+        sensor_features.compute(signals.linked(), here);
+        add_sensor(scene, sensor, here, signals_of_sensor(sensor, all).record, sensor_features,
+                   kSensorVariant + sensor.name, rows, out);
     }
 }
 
@@ -157,7 +156,6 @@ std::vector<double> sample_times(const Scene& scene, const Realization& realizat
 }  // namespace
 
 Simulation simulate(const Scene& scene, const GearboxId& id, long meshes) {
-    const SensorPaths path = sensor_paths(scene);
     const MeshRange range{
         scene.record().length
             ? record_window(scene, id, scene.record().turns(scene.sampler().draw(id).inputs))
@@ -165,19 +163,19 @@ Simulation simulate(const Scene& scene, const GearboxId& id, long meshes) {
             : 0,
         meshes};
     const GearboxTile tile =
-        run_gearboxes(scene, path, std::span(&id, 1), 1,
+        run_gearboxes(scene, std::span(&id, 1), 1,
                       {.records = lockstep::RecordOptions{
                            .motion_meshes = static_cast<int>(range.first + range.count)}});
     if (tile.status[0] != Status::ok) {
         throw std::runtime_error(fmt::format("this gearbox {}", failure_text(tile.status[0])));
     }
-    const HealthyReference healthy = healthy_reference(scene, path);
+    const HealthyReference healthy = healthy_reference(scene);
     RealizationFeatures features(scene, &healthy);
     Simulation out;
     out.noise_levels = scene.record().noise_levels;
     out.feature_names = scene.study().features.use;
-    out.features = features.compute(lane_signals(scene, path, tile, 0, features.meshes()),
-                                    tile.realizations[0]);
+    out.features =
+        features.compute(lane_signals(scene, tile, 0, features.meshes()), tile.realizations[0]);
 
     const int samples = scene.samples_per_mesh();
     const auto inputs = scene.inputs(tile.realizations[0].inputs);
@@ -196,7 +194,7 @@ Simulation simulate(const Scene& scene, const GearboxId& id, long meshes) {
         out.columns.push_back(angle);
     }
     if (!scene.study().effects.quasi_static()) {
-        add_sensors(scene, tile, path, features, rows, out);
+        add_sensors(scene, tile, features, rows, out);
     }
     add_motion(scene, tile, range, out);
     if (!tile.integration.contact_loss.empty()) {

@@ -15,8 +15,6 @@
 #include "lockstep/tile/tile_integrators.hpp"
 #include "machine/clocks.hpp"
 #include "mc/ensemble/gearbox/tile_random_inputs.hpp"
-#include "mc/study/housing.hpp"
-#include "mc/study/noise.hpp"
 #include "mc/study/other_sources.hpp"
 
 namespace gearpod::mc {
@@ -73,19 +71,6 @@ lockstep::IntegrationPlan explicit_plan(lockstep::IntegrationPlan plan,
 
 }  // namespace
 
-int needed_sensor_meshes(const Scene& scene, features::SignalSet needs) {
-    const bool cut = scene.record().length && !scene.study().effects.quasi_static();
-    return needs_samples(needs) || cut || any_response(scene.study()) ? scene.signal_meshes()
-           : noise_by_density(scene.study()) || has_range(scene.study()) ||
-                   has_other_sources(scene.study())
-               ? scene.span_meshes()
-               : 0;
-}
-
-int needed_sensor_meshes(const Scene& scene) {
-    return needed_sensor_meshes(scene, scene.features().needs.all());
-}
-
 double motion_bytes(const Scene& scene) {
     const SolvePlan& solve = scene.solve();
     if (!solve.records_during_integration) {
@@ -94,7 +79,8 @@ double motion_bytes(const Scene& scene) {
     // Copies: samples as recorded and by lane, plus those of the baseline records.
     const double copies = 2.0 + static_cast<double>(scene.record().baselines);
     const double samples =
-        static_cast<double>(needed_sensor_meshes(scene)) * scene.samples_per_mesh();
+        static_cast<double>(scene.record().sensor_meshes(scene.features().needs.all())) *
+        scene.samples_per_mesh();
     return copies * 8.0 * samples * solve.settings.lanes +
            (std::holds_alternative<Superposed>(solve.strategy) ? solve.record_bytes
                                                                : 2.0 * solve.mesh_record_bytes);

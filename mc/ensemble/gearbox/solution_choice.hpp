@@ -25,11 +25,6 @@ auto with_lane_count(int lanes, Call call) {
     return call(std::integral_constant<int, 16>());
 }
 
-// Number of mesh periods of sensor samples that must be synthesized: for features that need these
-// signals, or for all features of the study.
-int needed_sensor_meshes(const Scene& scene, features::SignalSet needs);
-int needed_sensor_meshes(const Scene& scene);
-
 // Memory in bytes for the motion that a tile keeps.
 double motion_bytes(const Scene& scene);
 

@@ -1,4 +1,4 @@
-// Transmission paths of a scene's sensors.
+// Records the signals of a tile's sensors and encoders while it is being integrated.
 #pragma once
 
 #include <memory>
@@ -8,25 +8,13 @@
 #include "lockstep/plan/integration_plan.hpp"
 #include "lockstep/tile/tile.hpp"
 #include "mc/plan/sampling.hpp"
-#include "mc/plan/scene.hpp"
-#include "signals/path/transmission_path.hpp"
+#include "mc/plan/sensor_plan.hpp"
 #include "signals/sensor/sensor_signal.hpp"
 
 namespace gearpod::mc {
 
-// Path through the window, then for each of ring_modes() the loads along x and y, then that of each
-// of housing_bearings().
-using SensorPath = std::vector<signals::PathGrid>;
-// Paths of the first sensor and of the additional ones.
-using SensorPaths = std::vector<SensorPath>;
-
-SensorPaths sensor_paths(const Scene& scene);
-
 // Recorders of a tile's sensor signals, one for each path of each sensor.
 using SensorRecorders = std::vector<std::vector<std::unique_ptr<signals::SensorResponse>>>;
-
-// Records the accelerometer and encoder signals of a tile while it is being integrated, and applies
-// the gain of the sensor.
 
 bool has_gain(std::span<const Realization> realizations);
 // Multiplies the recorded acceleration of each lane by the sensor gain of that lane's gearbox.
@@ -38,10 +26,11 @@ std::vector<double> path_exponents(std::span<const Realization> realizations, st
 class TileSensorRecorder {
   public:
     // Keeps the first `kept_meshes` mesh periods of sensor samples; -1 keeps all. `realizations`
-    // has one entry per lane and must outlive the object. `path` must outlive the time integration.
-    // `meshes`: number of mesh periods that are recorded; 0 stands for those of the scene.
-    TileSensorRecorder(const Scene& scene, const SensorPaths& path,
-                       std::span<const Realization> realizations, int kept_meshes, int meshes = 0);
+    // has one entry per lane and must outlive the object. `sensors` must outlive the time
+    // integration. `meshes`: number of mesh periods that are recorded; 0 stands for the plan's.
+    TileSensorRecorder(const RecordPlan& plan, std::span<const SensorPlan> sensors,
+                       const signals::Tones& tones, std::span<const Realization> realizations,
+                       int kept_meshes, int meshes = 0);
 
     // Only these parts of the signal are recorded; empty: all of it.
     void record_only(std::span<const lockstep::SpanPart> parts) { parts_ = parts; }

@@ -34,7 +34,6 @@ class Simulator {
     Simulator(const Scene& scene, const RecordLengths& lengths, const SetSummary& summary)
         : scene_(scene),
           plan_{scene.record(), scene.features(), scene.gearbox().nominal},
-          path_(sensor_paths(scene)),
           lengths_(lengths),
           summary_(summary) {}
 
@@ -49,7 +48,7 @@ class Simulator {
             InstanceInputs& inputs = realizations.back().inputs;
             inputs.gain = inputs.tone_level = 1.0;
         }
-        const GearboxTile tile = run_realizations(scene_, path_, std::move(realizations), lanes(),
+        const GearboxTile tile = run_realizations(scene_, std::move(realizations), lanes(),
                                                   {.records = lockstep::RecordOptions{}});
         std::vector<RecordValues> values(items.size());
         for (std::size_t lane = 0; lane < items.size(); ++lane) {
@@ -68,7 +67,8 @@ class Simulator {
     std::vector<double> synthesize(const GearboxTile& tile, int lane, double exponent,
                                    const signals::Tones& tones) const {
         return signals::synthesize(tile.views, lane, tile.integration.content, plan_.record.span,
-                                   path_[0][0], exponent, 0, plan_.record.signal_meshes, tones);
+                                   scene_.sensors().front().paths.front(), exponent, 0,
+                                   plan_.record.signal_meshes, tones);
     }
 
     // Records of a gearbox with each background.
@@ -116,9 +116,9 @@ class Simulator {
         MeasuredSignal signal;
         signal.has_sensor = true;
         signal.sensor.resize(count);
-        if (noise_by_density(scene_.study())) {
-            draw_unit_noise(scene_, inputs, NoiseEngines<Philox>{engine, engine, engine},
-                            std::span(signal.sensor));
+        if (const NoiseStage& noise = scene_.sensors().front().noise(); noise.by_density()) {
+            draw_unit_noise(noise, noise_of(inputs), scene_.record().sample_s(inputs),
+                            NoiseEngines<Philox>{engine, engine, engine}, std::span(signal.sensor));
         } else {
             signals::draw_normals(engine, std::span(signal.sensor));
         }
@@ -134,7 +134,6 @@ class Simulator {
 
     const Scene& scene_;
     const MeasurementPlan plan_;
-    const SensorPaths path_;
     const RecordLengths& lengths_;
     const SetSummary& summary_;
 };

@@ -42,10 +42,9 @@ TEST_CASE("A record equals its gearbox integrated at that depth and torque") {
         inputs.fault_size = record.depth_m;
         inputs.torque_N_m *= record.torque;
         inputs.gain *= record.gain;
-        const auto path = mc::sensor_paths(scene);
-        const auto tile = mc::run_realizations(scene, path, {gearbox}, 1);
-        const auto integrated_features = features.compute(
-            mc::lane_signals(scene, path, tile, 0, scene.signal_meshes()), gearbox);
+        const auto tile = mc::run_realizations(scene, {gearbox}, 1);
+        const auto integrated_features =
+            features.compute(mc::lane_signals(scene, tile, 0, scene.signal_meshes()), gearbox);
         for (std::size_t f = 0; f < integrated_features.size(); ++f) {
             INFO(r << " " << scene.study().features.use[f]);
             CHECK(life.values[f][r] == Approx(integrated_features[f]).epsilon(1e-6));
@@ -160,11 +159,9 @@ TEST_CASE("A change in lives equals that of the snapshot study") {
     REQUIRE(life.history.records.front().depth_m == Approx(2e-3));
     const mc::HealthyReference none;
     mc::RealizationFeatures features(snapshot, &none);
-    const auto path = mc::sensor_paths(snapshot);
-    const auto tile = mc::run_gearboxes(snapshot, path, std::vector{id}, 1);
-    const auto values =
-        features.compute(mc::lane_signals(snapshot, path, tile, 0, snapshot.signal_meshes()),
-                         tile.realizations.front());
+    const auto tile = mc::run_gearboxes(snapshot, std::vector{id}, 1);
+    const auto values = features.compute(
+        mc::lane_signals(snapshot, tile, 0, snapshot.signal_meshes()), tile.realizations.front());
     for (std::size_t f = 0; f < values.size(); ++f) {
         INFO(snapshot.study().features.use[f]);
         CHECK(life.values[f][0] == Approx(values[f]).epsilon(1e-6));

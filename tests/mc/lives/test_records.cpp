@@ -116,10 +116,8 @@ TEST_CASE("A record at another speed is close to an integration at that speed") 
         inputs.fault_size = 0.0;
         inputs.torque_N_m *= record.torque;
         inputs.speed_rad_s *= record.speed;
-        const auto path = mc::sensor_paths(scene);
-        const auto tile = mc::run_realizations(scene, path, {gearbox}, 1);
-        const auto integrated =
-            features.compute(mc::lane_signals(scene, path, tile, 0, 0), gearbox);
+        const auto tile = mc::run_realizations(scene, {gearbox}, 1);
+        const auto integrated = features.compute(mc::lane_signals(scene, tile, 0, 0), gearbox);
         for (std::size_t f = 0; f < integrated.size(); ++f) {
             CHECK(life.values[f][r] == Approx(integrated[f]).epsilon(5.0 * errors.load));
         }

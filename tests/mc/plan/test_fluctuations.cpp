@@ -27,8 +27,7 @@ Study study_of(const std::string& text, const std::vector<std::string>& override
 }
 
 GearboxTile run(const Scene& scene, std::vector<GearboxId> ids, int lanes) {
-    return run_gearboxes(scene, sensor_paths(scene), ids, lanes,
-                         {.records = lockstep::RecordOptions{}});
+    return run_gearboxes(scene, ids, lanes, {.records = lockstep::RecordOptions{}});
 }
 
 std::vector<std::uint64_t> bits(const machine::AlignedVector& values, int lanes, int lane) {

@@ -55,8 +55,7 @@ struct TwoSignals {
 };
 
 TwoSignals signals_of(const mc::Scene& scene, const mc::GearboxTile& tile) {
-    const mc::LaneSignals all =
-        mc::lane_signals(scene, mc::sensor_paths(scene), tile, 0, scene.span().carrier_meshes);
+    const mc::LaneSignals all = mc::lane_signals(scene, tile, 0, scene.span().carrier_meshes);
     return {all.sensor, all.additional.front().sensor};
 }
 

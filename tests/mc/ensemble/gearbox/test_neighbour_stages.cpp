@@ -30,10 +30,9 @@ namespace {
 
 // Noise-free sensor signal of a gearbox over the span.
 std::vector<double> sensor_signal(const mc::Scene& scene, const mc::Realization& gearbox) {
-    const auto path = mc::sensor_paths(scene);
-    const auto tile = mc::run_realizations(scene, path, {gearbox}, 1);
+    const auto tile = mc::run_realizations(scene, {gearbox}, 1);
     REQUIRE(tile.status.front() == mc::Status::ok);
-    return mc::lane_signals(scene, path, tile, 0, scene.span_meshes()).sensor;
+    return mc::lane_signals(scene, tile, 0, scene.span_meshes()).sensor;
 }
 
 // Values of a signal of that period, at positions in samples, by its Fourier series.

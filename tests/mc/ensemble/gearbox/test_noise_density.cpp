@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "mc/plan/calibration_plan.hpp"
+#include "mc/plan/sensor_plan.hpp"
 #include "mc/study/noise.hpp"
 #include "mc/study/study.hpp"
 #include "signals/spectra/order_spectrum.hpp"
@@ -157,8 +158,9 @@ TEST_CASE("A study may give its noise by rms and by density") {
     CHECK(mc::sensor_noise_m_s2(*both.study) ==
           Approx(std::hypot(0.3, 0.01 * std::sqrt(1.0261721529 * 800.0))));
     // A factor on the rms leaves the other parts alone.
-    const mc::SensorNoise scaled = mc::with_rms_factor(
-        *both.study, mc::sensor_noise(mc::noise_model(*both.study), {0.01, 0.3}), 2.0);
+    const mc::SensorNoise scaled =
+        mc::noise_stage(*both.study)
+            .with_rms_factor(mc::sensor_noise(mc::noise_model(*both.study), {0.01, 0.3}), 2.0);
     CHECK(scaled.white_m_s2 == Approx(0.6));
     CHECK(scaled.all_m_s2 == Approx(std::hypot(0.6, 0.01 * std::sqrt(1.0261721529 * 800.0))));
 

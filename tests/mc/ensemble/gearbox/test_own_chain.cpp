@@ -6,6 +6,7 @@
 #include <complex>
 #include <numbers>
 
+#include "mc/plan/sensor_plan.hpp"
 #include "mc/study/noise.hpp"
 #include "mc/study/study.hpp"
 #include "tests/mc/ensemble/gearbox/chain_signals.hpp"
@@ -187,8 +188,8 @@ TEST_CASE("The variances of all parts of a sensor's noise add") {
     const mc::SensorNoise first = mc::sensor_noise(mc::noise_model(*study), {0.01, 0.4, 1.0});
     const double background = 2.0 * mc::background_spectrum(*study).rms_m_s2(30.0),
                  white = 4.0 * 0.16 + 0.01 / 12.0;
-    const mc::SensorNoise own = mc::noise_at(*study, sensors[0], first),
-                          twice = mc::noise_at(*study, sensors[1], first);
+    const mc::SensorNoise own = mc::noise_stage(*study, &sensors[0]).of(first),
+                          twice = mc::noise_stage(*study, &sensors[1]).of(first);
     CHECK(own.background_m_s2 == Approx(background).epsilon(1e-12));
     CHECK(own.white_m_s2 == Approx(std::sqrt(white)).epsilon(1e-12));
     CHECK(own.all_m_s2 ==

@@ -34,10 +34,9 @@ class Computed {
   public:
     explicit Computed(const Study& study, GearboxId id = {Group::test, 4})
         : scene_(study),
-          path_(sensor_paths(scene_)),
-          tile_(run_gearboxes(scene_, path_, std::span(&id, 1), 1)),
+          tile_(run_gearboxes(scene_, std::span(&id, 1), 1)),
           features_(scene_, &healthy_),
-          signals_(lane_signals(scene_, path_, tile_, 0, scene_.signal_meshes())) {
+          signals_(lane_signals(scene_, tile_, 0, scene_.signal_meshes())) {
         REQUIRE(tile_.status[0] == Status::ok);
         values_ = features_.compute(signals_, tile_.realizations[0]);
     }
@@ -53,7 +52,6 @@ class Computed {
 
   private:
     Scene scene_;
-    SensorPaths path_;
     GearboxTile tile_;
     HealthyReference healthy_;
     RealizationFeatures features_;
@@ -176,17 +174,15 @@ TEST_CASE("Records that are integrated alone are those of the whole signal") {
     // Others have the window of the first one, whatever tile computes them.
     const Computed other(real_teeth({}), {Group::test, 19});
     CHECK(other.window().first_mesh == alone.window().first_mesh);
-    const SensorPaths path = sensor_paths(other.scene());
     std::vector<GearboxId> ids;
     for (std::uint64_t index = 16; index < 24; ++index) {
         ids.push_back({Group::test, index});
     }
-    const GearboxTile tile = run_gearboxes(other.scene(), path, ids, 8);
+    const GearboxTile tile = run_gearboxes(other.scene(), ids, 8);
     const HealthyReference healthy;
     RealizationFeatures features(other.scene(), &healthy);
-    const std::vector<double> values =
-        features.compute(lane_signals(other.scene(), path, tile, 3, other.scene().signal_meshes()),
-                         tile.realizations[3]);
+    const std::vector<double> values = features.compute(
+        lane_signals(other.scene(), tile, 3, other.scene().signal_meshes()), tile.realizations[3]);
     for (const std::size_t feature : {0, 1, 2, 3}) {
         CHECK(values[feature] == other[feature]);
     }

@@ -117,7 +117,7 @@ TEST_CASE("The baseline record of a worn gearbox is that of the gearbox without 
                          "features.use=['change_sensor_rms','own_sensor_rms']"});
         const Scene scene(test::study_of_text(worn_example("\"sun\""), settings));
         const GearboxId first{Group::test, 0};
-        return run_gearboxes(scene, sensor_paths(scene), std::span(&first, 1), 1, {});
+        return run_gearboxes(scene, std::span(&first, 1), 1, {});
     };
     const GearboxTile healthy = tile_of("0"), worn = tile_of("10");
     REQUIRE(healthy.baseline.size() == 1);
