@@ -129,8 +129,8 @@ bool check_output(const RunOptions& options) {
 bool check_memory(const RunOptions& options, const Scene& scene, const Ranks& ranks) {
     const BatchPlan plan = plan_of(options, scene.ensemble());
     const int here = ranks.on_this_machine();
-    const double needed =
-        least_memory_bytes(scene, plan, here * thread_count(scene.ensemble(), here));
+    const double needed = least_memory_bytes(motion_bytes(scene), scene.ensemble().shape, plan,
+                                             here * thread_count(scene.ensemble(), here));
     const double at_hand = available_memory_bytes();
     if (options.force || needed <= at_hand) {
         return true;

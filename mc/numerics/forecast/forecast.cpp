@@ -117,9 +117,9 @@ class Pool {
     Trend trend(std::size_t feature, std::size_t level) const {
         std::vector<double> sizes, values;
         for (const std::size_t row : order_) {
-            if (const double one = value(row, feature, level); std::isfinite(one)) {
+            if (const double found = value(row, feature, level); std::isfinite(found)) {
                 sizes.push_back(size(row));
-                values.push_back(one);
+                values.push_back(found);
             }
         }
         return {sizes, values};
@@ -134,9 +134,9 @@ class Pool {
     double smoothing(std::size_t feature, std::size_t level) const {
         double sum = 0.0, squares = 0.0, n = 0.0;
         for (const std::size_t row : order_) {
-            if (const double one = value(row, feature, level); std::isfinite(one)) {
-                sum += one;
-                squares += one * one;
+            if (const double found = value(row, feature, level); std::isfinite(found)) {
+                sum += found;
+                squares += found * found;
                 n += 1.0;
             }
         }
@@ -172,8 +172,8 @@ std::size_t gearboxes_of(const BatchPlan& plan) {
     return plan.threshold_gearboxes() + plan.test_rows();
 }
 
-std::size_t values_of(const Study& study, const BatchPlan& plan) {
-    return gearboxes_of(plan) * study.features.use.size() * study.sensor.noise_levels.size();
+std::size_t values_of(const RowShape& shape, const BatchPlan& plan) {
+    return gearboxes_of(plan) * shape.features * shape.levels;
 }
 
 double seconds_of_analysis(Results results, int threads, bool assessed) {
@@ -187,12 +187,11 @@ double seconds_of_analysis(Results results, int threads, bool assessed) {
 
 }  // namespace
 
-Results synthetic_results(const Scene& scene, const RunCost& calibration, const BatchPlan& plan,
-                          std::size_t rows, const std::vector<std::size_t>& levels) {
-    Study study = scene.study();
-    study.ensemble.threshold_records = 1;  // a row for each gearbox
-    const RowOrder order(study.ensemble);
-    const EnsemblePlan& ensemble = scene.ensemble();
+Results synthetic_results(const Sampler& sampler, const EnsemblePlan& ensemble,
+                          const RunCost& calibration, const BatchPlan& plan, std::size_t rows,
+                          const std::vector<std::size_t>& levels) {
+    RowOrder order = sampler.plan().rows;
+    order.records = 1;  // a row for each gearbox
     const RowShape& shape = ensemble.shape;
     Results results = results_frame(ensemble);
     results.request.threshold_records = 1;
@@ -221,16 +220,16 @@ Results synthetic_results(const Scene& scene, const RunCost& calibration, const 
     }
     for (std::size_t i = 0; i < rows; ++i) {
         const GearboxId id = order.id_of(static_cast<long>(i * gearboxes_of(plan) / rows));
-        const Realization realization = scene.sampler().draw(id);
+        const Realization realization = sampler.draw(id);
         const double size = realization.inputs.fault_size;
         std::vector<double> parameters;
         ensemble.append_inputs(realization.random_values, 1.0, parameters);
         parameters.push_back(size);
-        Philox engine(static_cast<std::uint64_t>(study.ensemble.seed), id.group, id.index,
+        Philox engine(static_cast<std::uint64_t>(ensemble.seed), id.group, id.index,
                       StreamPurpose::forecast_rows);
         boost::random::normal_distribution<double> normal;
-        const Pool& own = pools[static_cast<std::size_t>(id.group)];
-        const Pool& pool = own.empty() ? scatter : own;
+        const Pool& of_group = pools[static_cast<std::size_t>(id.group)];
+        const Pool& pool = of_group.empty() ? scatter : of_group;
         const std::size_t template_row = pool.draw(size, engine);
         results.group.push_back(static_cast<int>(id.group));
         results.status.push_back(calibration.rows.status[template_row]);
@@ -239,29 +238,29 @@ Results synthetic_results(const Scene& scene, const RunCost& calibration, const 
         }
         for (std::size_t f = 0; f < shape.features; ++f) {
             for (std::size_t l = 0; l < levels.size(); ++l) {
-                const std::size_t at = f * levels.size() + l;
-                const Trend& trend = trends[static_cast<std::size_t>(id.group)][at];
+                const std::size_t column = f * levels.size() + l;
+                const Trend& trend = trends[static_cast<std::size_t>(id.group)][column];
                 results.features[f].values.push_back(
                     pool.value(template_row, f, levels[l]) + trend.at(size) -
-                    trend.at(pool.size(template_row)) + smoothing[at] * normal(engine));
+                    trend.at(pool.size(template_row)) + smoothing[column] * normal(engine));
             }
         }
     }
     return results;
 }
 
-double assessment_bytes(const Study& study, const BatchPlan& plan) {
+double assessment_bytes(const RowShape& shape, const BatchPlan& plan) {
     const auto assessed = [](std::size_t count) {
         const auto values = static_cast<double>(count);
         return std::min(kFirstBytesOfValue * values, kBytesBeyond + kBytesOfValue * values);
     };
-    const double gearboxes = assessed(std::min(values_of(study, plan), kMostAssessedValues));
+    const double gearboxes = assessed(std::min(values_of(shape, plan), kMostAssessedValues));
     if (plan.threshold_records() == 1) {
         return gearboxes;
     }
     // With several records per gearbox, all records count if they fit into memory.
-    const std::size_t of_feature = plan.rows() * study.sensor.noise_levels.size();
-    const std::size_t all = of_feature * study.features.use.size();
+    const std::size_t of_feature = plan.rows() * shape.levels;
+    const std::size_t all = of_feature * shape.features;
     if (all <= kMostAssessedValues) {
         return assessed(all);
     }
@@ -270,13 +269,13 @@ double assessment_bytes(const Study& study, const BatchPlan& plan) {
                     kBytesOfColumns * at_once + kBytesOfRecord * static_cast<double>(plan.rows()));
 }
 
-AnalysisTrial measure_analysis(const Scene& scene, const RunCost& calibration,
-                               const BatchPlan& plan, int threads, double budget_s) {
+AnalysisTrial measure_analysis(const Sampler& sampler, const EnsemblePlan& ensemble,
+                               const RunCost& calibration, const BatchPlan& plan, int threads,
+                               double budget_s) {
     AnalysisTrial trial;
-    const Study& study = scene.study();
-    const std::size_t levels = study.sensor.noise_levels.size();
-    const bool assessed = values_of(study, plan) <= kMostAssessedValues;
-    trial.bytes = assessment_bytes(study, plan);
+    const std::size_t levels = ensemble.shape.levels;
+    const bool assessed = values_of(ensemble.shape, plan) <= kMostAssessedValues;
+    trial.bytes = assessment_bytes(ensemble.shape, plan);
     if (calibration.gearboxes.empty()) {
         return trial;
     }
@@ -290,7 +289,8 @@ AnalysisTrial measure_analysis(const Scene& scene, const RunCost& calibration,
         std::vector<std::size_t> now(first, first + static_cast<std::ptrdiff_t>(count));
         std::sort(now.begin(), now.end());
         trial.total_s += seconds_of_analysis(
-            synthetic_results(scene, calibration, plan, trial.rows, now), threads, assessed);
+            synthetic_results(sampler, ensemble, calibration, plan, trial.rows, now), threads,
+            assessed);
         trial.levels += count;
         trial.trial_s = seconds_since(start);
     }
@@ -340,13 +340,12 @@ std::array<Tiles, 2> tiles_of(const RunCost& calibration, const IntegrationCount
             Tiles(calibration.cost[1], integrations.integrated[1])};
 }
 
-Seconds all_work(const RunCost& calibration, const BatchPlan& plan, std::size_t lanes,
-                 const IntegrationCounts& integrations) {
-    auto tiles = tiles_of(calibration, integrations);
+Seconds all_work(const RunCost& calibration, const BatchPlan& plan) {
+    auto tiles = tiles_of(calibration, calibration.integrations);
     Seconds work;
     for (std::size_t b = 0; b < plan.batches(); ++b) {
         const Batch batch = plan.batch(b);
-        for_each_tile(batch, lanes, tiles[static_cast<std::size_t>(batch.group)],
+        for_each_tile(batch, calibration.lanes, tiles[static_cast<std::size_t>(batch.group)],
                       [&](const TileCost& cost, std::size_t rows) {
                           work += cost.whole;
                           work.noise += static_cast<double>(rows) * cost.row.noise;
@@ -358,7 +357,7 @@ Seconds all_work(const RunCost& calibration, const BatchPlan& plan, std::size_t 
 
 }  // namespace
 
-double gearboxes_s(const RunCost& calibration, const BatchPlan& plan, std::size_t lanes,
+double gearboxes_s(const RunCost& calibration, const BatchPlan& plan,
                    const IntegrationCounts& integrations) {
     auto tiles = tiles_of(calibration, integrations);
     // Times at which the threads become free; the earliest is on top.
@@ -370,7 +369,7 @@ double gearboxes_s(const RunCost& calibration, const BatchPlan& plan, std::size_
         const Batch batch = plan.batch(b);
         double seconds = 0.0;
         for_each_tile(
-            batch, lanes, tiles[static_cast<std::size_t>(batch.group)],
+            batch, calibration.lanes, tiles[static_cast<std::size_t>(batch.group)],
             [&](const TileCost& cost, std::size_t rows) { seconds += cost.seconds(rows); });
         const double done = free.top() + seconds;
         free.pop();
@@ -380,27 +379,27 @@ double gearboxes_s(const RunCost& calibration, const BatchPlan& plan, std::size_
     return last;
 }
 
-double verification_s(const Scene& scene, const RunCost& calibration) {
+double verification_s(const Scene& plan, const RunCost& cost) {
     const auto start = WallClock::now();
-    const Planner planner(scene);
-    const auto finer =
-        planner.facts().verified ? finer_setting(planner, planner.facts().numerics) : std::nullopt;
+    const Planner planner(plan);
+    const SolverFacts& facts = planner.facts();
+    const auto finer = facts.verified ? finer_setting(planner, facts.numerics) : std::nullopt;
     if (!finer) {
         return 0.0;
     }
     const Scene finer_plan = planner.plan(finer->numerics);
     const double setup_s = seconds_since(start);
-    const TileCost& own = calibration.cost[static_cast<std::size_t>(Group::test)].integrated;
-    const auto lanes = static_cast<std::size_t>(scene.study().numerics.lanes);
+    const TileCost& tile = cost.cost[static_cast<std::size_t>(Group::test)].integrated;
     const double integration_s = mesh_period_s(finer_plan.draw(), finer_plan.gearbox(),
                                                finer_plan.solve(), finer_plan.record()) *
                                  finer_plan.solve().integrated_meshes;
-    const std::int64_t pairs = scene.study().numerics.paired_gearboxes;
+    const std::int64_t pairs = facts.numerics.paired_gearboxes;
     const auto batches = static_cast<double>((2 * pairs + kBatchRows - 1) / kBatchRows);
-    const double tiles = pairs > 0 ? std::ceil(batches / calibration.threads) * kBatchRows /
-                                         static_cast<double>(lanes)
-                                   : 1.0;
-    return setup_s + tiles * (2.0 * own.seconds(lanes) - own.whole.integration + integration_s);
+    const double tiles =
+        pairs > 0 ? std::ceil(batches / cost.threads) * kBatchRows / static_cast<double>(cost.lanes)
+                  : 1.0;
+    return setup_s +
+           tiles * (2.0 * tile.seconds(cost.lanes) - tile.whole.integration + integration_s);
 }
 
 double memory_bytes(const MemoryUse& memory, const IntegrationCounts& integrations,
@@ -412,23 +411,21 @@ double memory_bytes(const MemoryUse& memory, const IntegrationCounts& integratio
            std::max(memory.peak + memory.records + kept, held + analysis_bytes + kFileBytes);
 }
 
-double least_memory_bytes(const Scene& scene, const BatchPlan& plan, int threads) {
+double least_memory_bytes(double motion_bytes, const RowShape& shape, const BatchPlan& plan,
+                          int threads) {
     const auto teams = std::min(static_cast<std::size_t>(threads), plan.batches());
-    return std::max(static_cast<double>(teams) * motion_bytes(scene),
-                    assessment_bytes(scene.study(), plan));
+    return std::max(static_cast<double>(teams) * motion_bytes, assessment_bytes(shape, plan));
 }
 
-RunForecast forecast_run(const Scene& scene, const BatchPlan& plan, const RunCost& calibration,
-                         const AnalysisTrial& analysis, double setup_s) {
-    const auto lanes = static_cast<std::size_t>(scene.study().numerics.lanes);
-    const double motion = motion_bytes(scene);
-    const IntegrationCounts integrations = count_integrations(scene, plan, motion);
+RunForecast forecast_run(const RunCost& cost, const BatchPlan& plan, const AnalysisTrial& analysis,
+                         double verification_s, double setup_s) {
     RunForecast forecast;
-    forecast.setup_s = setup_s + calibration.task_s + kFiles_s;
-    forecast.gearboxes_s = gearboxes_s(calibration, plan, lanes, integrations);
-    forecast.work = all_work(calibration, plan, lanes, integrations);
-    forecast.detection_s = analysis.total_s + verification_s(scene, calibration);
-    forecast.memory_bytes = memory_bytes(calibration.memory, integrations, motion, analysis.bytes);
+    forecast.setup_s = setup_s + cost.task_s + kFiles_s;
+    forecast.gearboxes_s = gearboxes_s(cost, plan, cost.integrations);
+    forecast.work = all_work(cost, plan);
+    forecast.detection_s = analysis.total_s + verification_s;
+    forecast.memory_bytes =
+        memory_bytes(cost.memory, cost.integrations, cost.motion_bytes, analysis.bytes);
     return forecast;
 }
 

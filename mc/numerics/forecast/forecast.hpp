@@ -2,7 +2,6 @@
 // from a few computed gearboxes.
 #pragma once
 
-#include "mc/ensemble/gearbox/integration_cache.hpp"
 #include "mc/numerics/forecast/run_cost.hpp"
 #include "mc/results/results_file.hpp"
 
@@ -22,19 +21,21 @@ struct AnalysisTrial {
 // along the feature's trend over the size. A smoothed bootstrap (B. W. Silverman, G. A. Young,
 // Biometrika 74 (1987), 469-479) avoids ties that a run would not have. Detection results are not
 // filled in.
-Results synthetic_results(const Scene& scene, const RunCost& calibration, const BatchPlan& plan,
-                          std::size_t rows, const std::vector<std::size_t>& levels);
+Results synthetic_results(const Sampler& sampler, const EnsemblePlan& ensemble,
+                          const RunCost& calibration, const BatchPlan& plan, std::size_t rows,
+                          const std::vector<std::size_t>& levels);
 
 // Runs detection and reliability analysis on synthetic results, as `run` does: all features, up to
 // kTrialRows gearboxes, and as many noise levels at once as there are threads, until `budget_s`
 // seconds are over. The rest is extrapolated in proportion.
-AnalysisTrial measure_analysis(const Scene& scene, const RunCost& calibration,
-                               const BatchPlan& plan, int threads, double budget_s);
+AnalysisTrial measure_analysis(const Sampler& sampler, const EnsemblePlan& ensemble,
+                               const RunCost& calibration, const BatchPlan& plan, int threads,
+                               double budget_s);
 
 inline constexpr std::size_t kTrialRows = 6000;
 
 // Peak memory for assessing all gearboxes of a run.
-double assessment_bytes(const Study& study, const BatchPlan& plan);
+double assessment_bytes(const RowShape& shape, const BatchPlan& plan);
 
 // Computes the time and memory of a run from the cost of some gearboxes.
 
@@ -51,7 +52,7 @@ struct RunForecast {
 
 // Time for `threads` threads to compute the batches of the plan. A thread takes the next batch when
 // it is free, so some threads may be idle at the end.
-double gearboxes_s(const RunCost& calibration, const BatchPlan& plan, std::size_t lanes,
+double gearboxes_s(const RunCost& calibration, const BatchPlan& plan,
                    const IntegrationCounts& integrations);
 
 // Peak memory: that of the gearboxes with cached motion, or that of the analysis after them.
@@ -59,15 +60,16 @@ double memory_bytes(const MemoryUse& memory, const IntegrationCounts& integratio
                     double motion_bytes, double analysis_bytes);
 
 // Time for integrating some gearboxes again if the run verifies its numerics; 0 otherwise.
-double verification_s(const Scene& scene, const RunCost& calibration);
+double verification_s(const Scene& plan, const RunCost& cost);
 
 // Lower limit of the additional memory of a run: the motion of one tile per thread, or the columns
 // of the analysis. See memory_bytes() for an estimate.
-double least_memory_bytes(const Scene& scene, const BatchPlan& plan, int threads);
+double least_memory_bytes(double motion_bytes, const RowShape& shape, const BatchPlan& plan,
+                          int threads);
 
 // Forecast of a run. `setup_s`: time for starting the program and setting up the scene. It is an
 // upper limit if ensemble.until may end the run earlier.
-RunForecast forecast_run(const Scene& scene, const BatchPlan& plan, const RunCost& calibration,
-                         const AnalysisTrial& analysis, double setup_s);
+RunForecast forecast_run(const RunCost& cost, const BatchPlan& plan, const AnalysisTrial& analysis,
+                         double verification_s, double setup_s);
 
 }  // namespace gearpod::mc

@@ -16,7 +16,7 @@
 namespace gearpod::mc {
 namespace {
 
-std::size_t at(Group group) {
+std::size_t index_of(Group group) {
     return static_cast<std::size_t>(group);
 }
 
@@ -52,15 +52,15 @@ class SpreadTiles {
         if (both && given_ == 2) {
             return tile(healthy_);
         }
-        const std::size_t place = advance();
-        return tile(both && place == healthy_ ? advance() : place);
+        const std::size_t index = advance();
+        return tile(both && index == healthy_ ? advance() : index);
     }
 
   private:
     std::size_t advance() {
-        const std::size_t place = place_;
-        place_ = (place_ + stride_) % all_;
-        return place;
+        const std::size_t index = next_;
+        next_ = (next_ + stride_) % all_;
+        return index;
     }
 
     // Full batches consist of whole tiles; only the last batch of a group may be incomplete.
@@ -69,20 +69,20 @@ class SpreadTiles {
                (rows % kBatchRows + lanes_ - 1) / lanes_;
     }
 
-    Batch tile(std::size_t place) const {
+    Batch tile(std::size_t index) const {
         const std::size_t each = (kBatchRows + lanes_ - 1) / lanes_;
-        const bool healthy = place < healthy_;
-        const std::size_t own = healthy ? place : place - healthy_;
+        const bool healthy = index < healthy_;
+        const std::size_t of_group = healthy ? index : index - healthy_;
         const std::size_t before = healthy ? 0 : plan_.threshold_batches();
-        const Batch batch = plan_.batch(before + own / each);
-        const std::size_t first = own % each * lanes_;
+        const Batch batch = plan_.batch(before + of_group / each);
+        const std::size_t first = of_group % each * lanes_;
         return {batch.group, batch.first_index + first, batch.first_row + first * batch.records,
                 std::min(lanes_, batch.gearboxes - first), std::min(batch.records, kTriedRecords)};
     }
 
     const BatchPlan plan_;
     const std::size_t lanes_, healthy_, all_;
-    std::size_t stride_, place_ = 0, given_ = 0;
+    std::size_t stride_, next_ = 0, given_ = 0;
 };
 
 struct MeasuredTile {
@@ -98,8 +98,12 @@ struct MeasuredTile {
 // Measures tiles on several threads. Its members are common to all threads.
 class CostMeasurement {
   public:
-    CostMeasurement(const BatchTask& task, const SpreadTiles& tiles, bool reusable, double budget_s)
-        : task_(task), tiles_(tiles), reusable_(reusable), budget_s_(budget_s) {}
+    CostMeasurement(BatchComputers computers, const SpreadTiles& tiles, bool reusable,
+                    double budget_s)
+        : computers_(std::move(computers)),
+          tiles_(tiles),
+          reusable_(reusable),
+          budget_s_(budget_s) {}
 
     std::vector<MeasuredTile> run(int threads) {
         start_ = WallClock::now();
@@ -120,11 +124,11 @@ class CostMeasurement {
     bool few_tiles() const { return measured_tiles_ < 2 * threads_; }
 
   private:
-    // `own_s`: processor time of the thread so far.
-    std::optional<Batch> next(int had, double own_s) {
+    // `used_s`: processor time of the thread so far.
+    std::optional<Batch> next(int had, double used_s) {
         const std::scoped_lock lock(mutex_);
         const bool more =
-            had == 0 || seconds_since(start_) < budget_s_ || (had == 1 && own_s < 2.0 * budget_s_);
+            had == 0 || seconds_since(start_) < budget_s_ || (had == 1 && used_s < 2.0 * budget_s_);
         return more ? tiles_.next() : std::nullopt;
     }
 
@@ -134,18 +138,18 @@ class CostMeasurement {
             const std::scoped_lock lock(mutex_);
             threads_ = threads;
         }
-        std::optional<BatchWorker> worker;
+        BatchComputer computer;
         const double processor_start_s = thread_processor_s();
         const auto compute_next = [&] {
             auto start = WallClock::now();
-            if (!worker) {
-                worker.emplace(task_);
+            if (!computer) {
+                computer = computers_();
             }
             const std::optional<Batch> tile = next(had, thread_processor_s() - processor_start_s);
             if (tile) {
-                compute(*worker, {.tile = *tile, .first = had++ == 0}, start);
+                compute(computer, {.tile = *tile, .first = had++ == 0}, start);
                 if (reusable_) {
-                    compute(*worker, {.tile = *tile, .repeated = true}, WallClock::now());
+                    compute(computer, {.tile = *tile, .repeated = true}, WallClock::now());
                 }
             }
             return tile.has_value();
@@ -160,8 +164,9 @@ class CostMeasurement {
         }
     }
 
-    void compute(BatchWorker& worker, MeasuredTile measured, WallClock::time_point start) {
-        measured.rows = worker.compute(measured.tile, measured.work);
+    void compute(const BatchComputer& computer, MeasuredTile measured,
+                 WallClock::time_point start) {
+        measured.rows = computer(measured.tile, measured.work);
         measured.wall_s = seconds_since(start);
         measured.reused = measured.work.meshes == 0;
         const std::scoped_lock lock(mutex_);
@@ -171,7 +176,7 @@ class CostMeasurement {
         measured_.push_back(std::move(measured));
     }
 
-    const BatchTask& task_;
+    const BatchComputers computers_;
     SpreadTiles tiles_;
     const bool reusable_;
     const double budget_s_;
@@ -217,9 +222,9 @@ TileCost cost_of(const std::vector<MeasuredTile>& all, Group group, bool reused,
                  const TileCost& otherwise) {
     for (const bool first : {false, true}) {
         Mean mean;
-        for (const MeasuredTile& one : all) {
-            if (one.tile.group == group && one.reused == reused && one.first == first) {
-                mean.add(one);
+        for (const MeasuredTile& tile : all) {
+            if (tile.tile.group == group && tile.reused == reused && tile.first == first) {
+                mean.add(tile);
             }
         }
         if (!mean.empty()) {
@@ -232,51 +237,56 @@ TileCost cost_of(const std::vector<MeasuredTile>& all, Group group, bool reused,
 double start_of_thread(const std::vector<MeasuredTile>& all, const std::array<GroupCost, 2>& cost) {
     double sum = 0.0;
     int threads = 0;
-    for (const MeasuredTile& one : all) {
-        const GroupCost& group = cost[at(one.tile.group)];
-        if (one.first) {
-            sum += one.wall_s -
-                   (one.reused ? group.reused : group.integrated).seconds(one.tile.rows());
+    for (const MeasuredTile& tile : all) {
+        const GroupCost& group = cost[index_of(tile.tile.group)];
+        if (tile.first) {
+            sum += tile.wall_s -
+                   (tile.reused ? group.reused : group.integrated).seconds(tile.tile.rows());
             ++threads;
         }
     }
     return threads == 0 ? 0.0 : std::max(0.0, sum / threads);
 }
 
+// Mesh periods that a tile records and integrates.
+struct TileMeshes {
+    int recorded;
+    double integrated;
+};
+
 // Converts the cost of a tile that recorded the mesh periods of `measured` to that of all mesh
 // periods of `whole`. Test and baseline records scale alike.
-void complete(TileCost& cost, const Scene& measured, const Scene& whole) {
-    if (measured.solve().test_record_meshes == whole.solve().test_record_meshes) {
+void complete(TileCost& cost, const TileMeshes& measured, const TileMeshes& whole) {
+    if (measured.recorded == whole.recorded) {
         return;
     }
     const bool integrated = cost.whole.meshes > 0;  // otherwise copied from the cache
-    cost.whole.integration *=
-        integrated ? whole.solve().integrated_meshes / measured.solve().integrated_meshes
-                   : static_cast<double>(whole.solve().test_record_meshes) /
-                         measured.solve().test_record_meshes;
+    cost.whole.integration *= integrated ? whole.integrated / measured.integrated
+                                         : static_cast<double>(whole.recorded) / measured.recorded;
 }
 
-// Number of mesh periods that a tile may record within the budget.
-int choose_recorded(const Scene& scene, double mesh_s, double budget_s) {
-    const int all = scene.solve().test_record_meshes;
-    if (scene.study().numerics.horizon == Horizon::periodic || mesh_s == 0.0) {
-        return all;
-    }
-    const double before = scene.solve().integrated_meshes - all;
+// Number of mesh periods that a tile may record within the budget if every one is integrated.
+int affordable_meshes(const TileMeshes& whole, double mesh_s, double budget_s) {
+    const double before = whole.integrated - whole.recorded;
     const double affordable = budget_s / mesh_s - before;
-    return affordable >= all ? all
-                             : std::min(all, std::max(kFewestMeshes, static_cast<int>(affordable)));
+    return affordable >= whole.recorded
+               ? whole.recorded
+               : std::min(whole.recorded, std::max(kFewestMeshes, static_cast<int>(affordable)));
 }
 
-void measure(const Scene& scene, const BatchPlan& plan, double budget_s, RunCost& result) {
+void measure(const Scene& plan, const BatchPlan& batches, double budget_s, RunCost& result) {
     auto start = WallClock::now();
-    const BatchTask task(scene);
+    const BatchTask task(plan);
     result.task_s = seconds_since(start);
-    const bool reusable = scene.solve().settings.distinct_integrations.has_value();
+    const bool reusable = plan.solve().settings.distinct_integrations.has_value();
+    const auto computers = [&task]() -> BatchComputer {
+        return
+            [worker = std::make_shared<BatchWorker>(task)](const Batch& batch, Seconds& seconds) {
+                return worker->compute(batch, seconds);
+            };
+    };
     start = WallClock::now();
-    CostMeasurement measurement(
-        task, SpreadTiles(plan, static_cast<std::size_t>(scene.study().numerics.lanes)), reusable,
-        budget_s);
+    CostMeasurement measurement(computers, SpreadTiles(batches, result.lanes), reusable, budget_s);
     const std::vector<MeasuredTile> all = measurement.run(result.threads);
     result.threads = measurement.threads();
     result.wall_s = seconds_since(start);
@@ -288,66 +298,73 @@ void measure(const Scene& scene, const BatchPlan& plan, double budget_s, RunCost
     result.memory.fragments = kFragmentsOfThread * result.threads +
                               (measurement.few_tiles() ? kShareAfterFew : kFragmentShare) *
                                   (result.memory.peak - result.memory.before);
-    const double bytes_each = motion_bytes(scene);
-    result.memory.kept = -bytes_each * static_cast<double>(task.cache.kept());
+    result.memory.kept = -motion_bytes(plan) * static_cast<double>(task.cache.kept());
 
     std::array<GroupCost, 2>& cost = result.cost;
     for (const Group group : {Group::threshold, Group::test}) {
         const Group other = group == Group::test ? Group::threshold : Group::test;
         const TileCost alike = cost_of(all, other, false, {});
-        cost[at(group)].integrated = cost_of(all, group, false, alike);
-        cost[at(group)].reused = cost_of(all, group, true, cost[at(group)].integrated);
+        cost[index_of(group)].integrated = cost_of(all, group, false, alike);
+        cost[index_of(group)].reused = cost_of(all, group, true, cost[index_of(group)].integrated);
     }
     result.start_s = start_of_thread(all, cost);
-    for (const MeasuredTile& one : all) {
-        result.meshes += one.work.meshes;
-        if (one.repeated) {
+    for (const MeasuredTile& tile : all) {
+        result.meshes += tile.work.meshes;
+        if (tile.repeated) {
             continue;
         }
-        for (std::size_t i = 0; i < one.tile.rows(); ++i) {
-            result.gearboxes.push_back({one.tile.group, one.tile.first_index + i / one.tile.records,
-                                        Record::test, i % one.tile.records});
+        for (std::size_t i = 0; i < tile.tile.rows(); ++i) {
+            result.gearboxes.push_back({tile.tile.group,
+                                        tile.tile.first_index + i / tile.tile.records, Record::test,
+                                        i % tile.tile.records});
         }
-        result.rows.status.insert(result.rows.status.end(), one.rows.status.begin(),
-                                  one.rows.status.end());
-        result.rows.values.insert(result.rows.values.end(), one.rows.values.begin(),
-                                  one.rows.values.end());
+        result.rows.status.insert(result.rows.status.end(), tile.rows.status.begin(),
+                                  tile.rows.status.end());
+        result.rows.values.insert(result.rows.values.end(), tile.rows.values.begin(),
+                                  tile.rows.values.end());
     }
 }
 
 }  // namespace
 
-RunCost measure_run_cost(const Scene& scene, const BatchPlan& plan, int threads, double budget_s) {
+RunCost measure_run_cost(const Scene& whole, const BatchPlan& batches, int threads,
+                         double budget_s) {
     RunCost result;
-    result.threads =
-        static_cast<int>(std::min(static_cast<std::size_t>(std::max(1, threads)), plan.batches()));
-    result.to_record = scene.solve().test_record_meshes;
-    const bool moves = !scene.study().effects.quasi_static();
-    const double mesh_s =
-        moves ? mesh_period_s(scene.draw(), scene.gearbox(), scene.solve(), scene.record()) : 0.0;
+    result.threads = static_cast<int>(
+        std::min(static_cast<std::size_t>(std::max(1, threads)), batches.batches()));
+    result.lanes = static_cast<std::size_t>(whole.ensemble().lanes);
+    const SolvePlan& solve = whole.solve();
+    const double mesh_s = solve.settings.quasi_static
+                              ? 0.0
+                              : mesh_period_s(whole.draw(), whole.gearbox(), solve, whole.record());
+    const TileMeshes all{solve.test_record_meshes, solve.integrated_meshes};
+    result.to_record = all.recorded;
     // Half of the budget, so that a thread can compute two tiles.
-    result.recorded = choose_recorded(scene, mesh_s, 0.5 * budget_s);
-    const double all_records = motion_bytes(scene),
-                 full_integration_s = mesh_s * scene.solve().integrated_meshes;
-    const Scene measured = scene.recording_at_most(result.recorded);
+    result.recorded = solve.settings.horizon == Horizon::periodic || mesh_s == 0.0
+                          ? all.recorded
+                          : affordable_meshes(all, mesh_s, 0.5 * budget_s);
+    result.motion_bytes = motion_bytes(whole);
+    const Scene part = whole.recording_at_most(result.recorded);
+    const TileMeshes measured{part.solve().test_record_meshes, part.solve().integrated_meshes};
     result.memory.before = peak_memory_bytes();
-    if (mesh_s * measured.solve().integrated_meshes > std::max(kLongestTile_s, budget_s)) {
+    if (mesh_s * measured.integrated > std::max(kLongestTile_s, budget_s)) {
         result.integration_only = true;
         for (GroupCost& group : result.cost) {
             group.integrated.whole.integration = group.reused.whole.integration =
-                full_integration_s;
+                mesh_s * all.integrated;
         }
         result.memory.peak = peak_memory_bytes();
         result.memory.held = resident_memory_bytes();
-        result.memory.records = result.threads * all_records;
+        result.memory.records = result.threads * result.motion_bytes;
     } else {
-        measure(measured, plan, budget_s, result);
-        result.memory.records = result.threads * (all_records - motion_bytes(measured));
+        measure(part, batches, budget_s, result);
+        result.memory.records = result.threads * (result.motion_bytes - motion_bytes(part));
         for (GroupCost& group : result.cost) {
-            complete(group.integrated, measured, scene);
-            complete(group.reused, measured, scene);
+            complete(group.integrated, measured, all);
+            complete(group.reused, measured, all);
         }
     }
+    result.integrations = count_integrations(whole, batches, result.motion_bytes);
     return result;
 }
 

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "mc/ensemble/batch_workers.hpp"
+#include "mc/ensemble/gearbox/integration_cache.hpp"
 #include "mc/plan/scene.hpp"
 
 namespace gearpod::mc {
@@ -51,6 +52,10 @@ struct RunCost {
     // integrated and a tile would take too long. `cost` is that of all mesh periods.
     int recorded = 0, to_record = 0;
     long meshes = 0;  // total number integrated
+    std::size_t lanes = 0;
+    // Of a run: motion that a tile keeps, and tiles that are integrated.
+    double motion_bytes = 0.0;
+    IntegrationCounts integrations;
     MemoryUse memory;
     // True if even a tile with the fewest mesh periods takes too long. Then only one healthy mesh
     // period is computed, and `cost` contains only the time integration extrapolated from it.
@@ -65,6 +70,7 @@ inline constexpr double kLongestTile_s = 5.0;
 // they are slow), and more until `budget_s` seconds are over. If every mesh period is integrated
 // and a tile would take longer, it records fewer mesh periods, at least kFewestMeshes. The measured
 // time is then extrapolated to all mesh periods.
-RunCost measure_run_cost(const Scene& scene, const BatchPlan& plan, int threads, double budget_s);
+RunCost measure_run_cost(const Scene& whole, const BatchPlan& batches, int threads,
+                         double budget_s);
 
 }  // namespace gearpod::mc

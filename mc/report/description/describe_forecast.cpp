@@ -13,12 +13,10 @@
 #include "mc/numerics/forecast/forecast.hpp"
 #include "mc/numerics/forecast/memory.hpp"
 #include "mc/numerics/numerical_error.hpp"
-#include "mc/plan/scene_error.hpp"
 #include "mc/report/description/describe_lives.hpp"
 #include "mc/report/description/terminal_text.hpp"
 #include "mc/report/gearbox_values.hpp"
 #include "mc/results/result_rows.hpp"
-#include "mc/study/gears.hpp"
 
 namespace gearpod::mc {
 namespace {
@@ -27,13 +25,11 @@ namespace {
 constexpr double kFrame_bytes = 45e3;
 
 // Number of integrated tiles. Every rank caches only the solutions that it integrated itself.
-IntegrationCounts integrations_of_ranks(const Scene& scene, const BatchPlan& plan,
-                                        double motion_bytes, int ranks) {
-    IntegrationCounts counts = count_integrations(scene, plan, motion_bytes);
-    const auto lanes = static_cast<std::size_t>(scene.study().numerics.lanes);
+IntegrationCounts integrations_of_ranks(const RunCost& cost, const BatchPlan& plan, int ranks) {
+    IntegrationCounts counts = cost.integrations;
     const std::array<std::size_t, 2> gearboxes{plan.threshold_gearboxes(), plan.test_rows()};
     for (std::size_t g = 0; g < gearboxes.size(); ++g) {
-        const std::size_t tiles = (gearboxes[g] + lanes - 1) / lanes;
+        const std::size_t tiles = (gearboxes[g] + cost.lanes - 1) / cost.lanes;
         counts.integrated[g] =
             std::min(tiles, counts.integrated[g] * static_cast<std::size_t>(ranks));
     }
@@ -62,12 +58,11 @@ double leader_time_s(double batch_bytes) {
     return kBatch_s + kByte_s * batch_bytes;
 }
 
-RankForecast forecast_ranks(const Scene& scene, const BatchPlan& plan, const RunCost& calibration,
-                            const AnalysisTrial& analysis, const RunForecast& alone, int ranks) {
-    const auto lanes = static_cast<std::size_t>(scene.study().numerics.lanes);
-    const double motion = motion_bytes(scene);
-    const IntegrationCounts integrations = integrations_of_ranks(scene, plan, motion, ranks);
-    const RowShape& shape = scene.ensemble().shape;
+RankForecast forecast_ranks(const RunCost& calibration, const BatchPlan& plan,
+                            const RowShape& shape, const AnalysisTrial& analysis,
+                            const RunForecast& alone, int ranks) {
+    const IntegrationCounts integrations = integrations_of_ranks(calibration, plan, ranks);
+    const double motion = calibration.motion_bytes;
     const auto batches = static_cast<double>(plan.batches());
 
     RankForecast forecast;
@@ -78,7 +73,7 @@ RankForecast forecast_ranks(const Scene& scene, const BatchPlan& plan, const Run
     forecast.checkpoint_bytes = checkpoint_bytes(plan, shape);
     forecast.results_bytes = results_bytes(plan, shape);
 
-    const double computing_s = gearboxes_s(all, plan, lanes, integrations);
+    const double computing_s = gearboxes_s(all, plan, integrations);
     const double leading_s =
         batches * leader_time_s(forecast.checkpoint_bytes / std::max(1.0, batches));
     forecast.gearboxes_s = std::max(computing_s, leading_s);
@@ -87,8 +82,7 @@ RankForecast forecast_ranks(const Scene& scene, const BatchPlan& plan, const Run
     forecast.leader_share = leading_s / forecast.gearboxes_s;
     // Number of ranks that together finish a batch in the time that rank 0 needs to receive one.
     const double thread_s =
-        gearboxes_s(calibration, plan, lanes, count_integrations(scene, plan, motion)) *
-        calibration.threads;
+        gearboxes_s(calibration, plan, calibration.integrations) * calibration.threads;
     forecast.bounding_ranks = thread_s / leading_s / calibration.threads;
     forecast.rank_bytes = memory_bytes(calibration.memory, integrations, motion, 0.0);
     forecast.leader_bytes = memory_bytes(calibration.memory, integrations, motion, analysis.bytes);
@@ -107,8 +101,8 @@ std::string seconds_text(double seconds) {
                             : fmt::format("{:.0f} s", seconds);
 }
 
-std::string measured_text(const Study& study, const RunCost& calibration,
-                          const AnalysisTrial& trial) {
+std::string measured_text(const RunCost& calibration, const AnalysisTrial& trial,
+                          std::size_t levels) {
     if (calibration.integration_only) {
         return "the time of one mesh period and the number of mesh periods that the damping "
                "requires, because a batch of gearboxes takes too long";
@@ -123,7 +117,7 @@ std::string measured_text(const Study& study, const RunCost& calibration,
     }
     return text +
            fmt::format("; analysis of {} artificial gearboxes, {} of {} noise levels, in {:.1f} s",
-                       trial.rows, trial.levels, study.sensor.noise_levels.size(), trial.trial_s);
+                       trial.rows, trial.levels, levels, trial.trial_s);
 }
 
 // Rows of the gearboxes computed to calibrate the forecast.
@@ -190,43 +184,13 @@ void print_ranks(const EnsemblePlan& plan, const RankForecast& forecast, int thr
     print_entry("rank 0", leader_text(forecast));
 }
 
-// Prints the error of the time steps where teeth lose contact, if measuring it takes at most a
-// second.
-void print_step_error(const Scene& scene) {
-    if (scene.study().effects.quasi_static() || !teeth_can_separate(scene.study())) {
-        return;
-    }
-    constexpr double kMost_s = 1.0;
-    const auto error = find_step_error(
-        scene,
-        kMost_s / mesh_period_s(scene.draw(), scene.gearbox(), scene.solve(), scene.record()));
-    print_entry("time step error",
-                error ? step_error_text(*error)
-                      : "not measured, because it would take too long; contact loss lowers the "
-                        "order of the method");
-}
-
-// Prints the forecast of lives. Prints nothing and returns false for a study without lives, or
-// whose records cannot be superposed.
-bool print_lives(const Scene& scene, double setup_s) {
-    if (!scene.study().life.interval_h) {
-        return false;
-    }
-    try {
-        print_lives_forecast(scene, setup_s);
-    } catch (const SceneError&) {
-        return false;  // print_life() prints the reason
-    }
-    return true;
-}
-
 }  // namespace
 
 void print_step_forecast(const Scene& scene, const PeakMemory& memory) {
-    const Study& study = scene.study();
-    const BatchPlan plan = scene.ensemble().batches();
-    const auto threads = std::min(
-        static_cast<std::size_t>(std::max(1, thread_count(scene.ensemble()))), plan.batches());
+    const EnsemblePlan& ensemble = scene.ensemble();
+    const BatchPlan plan = ensemble.batches();
+    const auto threads =
+        std::min(static_cast<std::size_t>(std::max(1, thread_count(ensemble))), plan.batches());
     print_heading("forecast of a run");
     print_entry(
         "based on",
@@ -235,39 +199,45 @@ void print_step_forecast(const Scene& scene, const PeakMemory& memory) {
                     "gearboxes instead",
                     scene.gearbox().stages.empty() ? "" : "neighbouring stages, "));
     print_entry("threads", std::to_string(threads));
-    if (study.effects.quasi_static()) {
+    if (scene.solve().settings.quasi_static) {
         print_entry("gearboxes", "not forecast: a quasi-static study integrates nothing");
     } else {
-        const auto lanes = static_cast<double>(scene.ensemble().lanes);
+        const auto lanes = static_cast<double>(ensemble.lanes);
         const double tiles = std::ceil(static_cast<double>(plan.threshold_gearboxes()) / lanes) +
                              std::ceil(static_cast<double>(plan.test_rows()) / lanes);
         const double meshes = scene.solve().integrated_meshes;
         print_entry(
             "time integration",
-            fmt::format("{}: {:.0f} tiles of {} gearboxes, about {:.0f} mesh periods of {} "
-                        "steps each",
-                        seconds_text(tiles * meshes *
-                                     mesh_period_s(scene.draw(), scene.gearbox(), scene.solve(),
-                                                   scene.record()) /
-                                     static_cast<double>(threads)),
-                        tiles, scene.ensemble().lanes, meshes, scene.plan().grid.steps.size()));
+            fmt::format(
+                "{}: {:.0f} tiles of {} gearboxes, about {:.0f} mesh periods of {} steps each",
+                seconds_text(
+                    tiles * meshes *
+                    mesh_period_s(scene.draw(), scene.gearbox(), scene.solve(), scene.record()) /
+                    static_cast<double>(threads)),
+                tiles, ensemble.lanes, meshes, scene.plan().grid.steps.size()));
     }
     const double least_bytes =
-        std::max(memory.setup_bytes + least_memory_bytes(scene, plan, static_cast<int>(threads)),
+        std::max(memory.setup_bytes + least_memory_bytes(motion_bytes(scene), ensemble.shape, plan,
+                                                         static_cast<int>(threads)),
                  memory.computed_bytes);
     print_entry("memory", fmt::format("at least {:.0f} MB", least_bytes / 1e6));
 }
 
 void print_forecast(const Scene& scene, double setup_s, int ranks) {
-    if (ranks == 0 && print_lives(scene, setup_s)) {
-        return;
+    if (ranks == 0 && scene.life_problems().empty()) {
+        try {
+            return print_lives_forecast(scene, setup_s);
+        } catch (const SceneError&) {  // the records of some gearbox are too short
+        }
     }
     const EnsemblePlan& ensemble = scene.ensemble();
     const BatchPlan plan = ensemble.batches();
     const int threads = thread_count(ensemble);
     const RunCost calibration = measure_run_cost(scene, plan, threads, kBudget_s);
-    const AnalysisTrial trial = measure_analysis(scene, calibration, plan, threads, kBudget_s);
-    const RunForecast forecast = forecast_run(scene, plan, calibration, trial, setup_s);
+    const AnalysisTrial trial =
+        measure_analysis(scene.sampler(), ensemble, calibration, plan, threads, kBudget_s);
+    const RunForecast forecast =
+        forecast_run(calibration, plan, trial, verification_s(scene, calibration), setup_s);
     if (!ensemble.meshes.empty()) {
         print_heading("contact");
     }
@@ -279,9 +249,18 @@ void print_forecast(const Scene& scene, double setup_s, int ranks) {
                                 "gearboxes)",
                                 loss, calibration.rows.count()));
     }
-    print_step_error(scene);
+    if (!ensemble.meshes.empty() && !scene.solve().settings.quasi_static) {
+        constexpr double kMost_s = 1.0;
+        const auto error = find_step_error(
+            scene,
+            kMost_s / mesh_period_s(scene.draw(), scene.gearbox(), scene.solve(), scene.record()));
+        print_entry("time step error",
+                    error ? step_error_text(*error)
+                          : "not measured, because it would take too long; contact loss lowers "
+                            "the order of the method");
+    }
     print_heading("forecast of a run");
-    print_entry("based on", measured_text(scene.study(), calibration, trial));
+    print_entry("based on", measured_text(calibration, trial, ensemble.shape.levels));
     print_entry("threads", fmt::format("{}, {}", calibration.threads,
                                        machine::name(machine::active_instruction_set())));
     print_entry("set-up", seconds_text(forecast.setup_s));
@@ -294,7 +273,8 @@ void print_forecast(const Scene& scene, double setup_s, int ranks) {
                     (ensemble.until ? ", or less if ensemble.until stops the run" : ""));
     print_entry("estimated memory", fmt::format("{:.0f} MB", forecast.memory_bytes / 1e6));
     if (ranks > 0) {
-        print_ranks(ensemble, forecast_ranks(scene, plan, calibration, trial, forecast, ranks),
+        print_ranks(ensemble,
+                    forecast_ranks(calibration, plan, ensemble.shape, trial, forecast, ranks),
                     calibration.threads, ranks);
     }
 }

@@ -28,8 +28,9 @@ struct RankForecast {
     double bounding_ranks = 0.0;    // number of ranks from which rank 0 delays the others
 };
 
-RankForecast forecast_ranks(const Scene& scene, const BatchPlan& plan, const RunCost& calibration,
-                            const AnalysisTrial& analysis, const RunForecast& alone, int ranks);
+RankForecast forecast_ranks(const RunCost& calibration, const BatchPlan& plan,
+                            const RowShape& shape, const AnalysisTrial& analysis,
+                            const RunForecast& alone, int ranks);
 
 // Prints the forecast of a run's time and memory for `describe`.
 

@@ -26,6 +26,7 @@ constexpr std::size_t kLanes = 8;
 RunCost given_costs(int threads) {
     RunCost calibration;
     calibration.threads = threads;
+    calibration.lanes = kLanes;
     for (GroupCost& group : calibration.cost) {
         group.integrated.whole.integration = 1.0;
         group.integrated.row.features = group.reused.row.features = 1.0 / 16.0;
@@ -41,7 +42,7 @@ IntegrationCounts all_integrated(const BatchPlan& plan) {
 }
 
 double forecast_s(const RunCost& calibration, const BatchPlan& plan) {
-    return gearboxes_s(calibration, plan, kLanes, all_integrated(plan));
+    return gearboxes_s(calibration, plan, all_integrated(plan));
 }
 
 std::vector<std::uint64_t> bits_of(const BatchRows& rows) {
@@ -101,8 +102,7 @@ TEST_CASE("Cached responses are not integrated again") {
     }
     IntegrationCounts counts;
     counts.integrated = {1, 3};
-    CHECK(gearboxes_s(calibration, {160, 160}, kLanes, counts) ==
-          Approx(4 * 1.0 + 36 * 0.01 + 320 / 16.0));
+    CHECK(gearboxes_s(calibration, {160, 160}, counts) == Approx(4 * 1.0 + 36 * 0.01 + 320 / 16.0));
 }
 
 TEST_CASE("Integrations are counted as the cache keeps them") {
@@ -168,9 +168,11 @@ TEST_CASE("Every shipped study is measured with at most one tile per thread if t
         const RunCost calibration = measure_run_cost(scene, plan, 1, kNoBudget_s);
         // The analysis of thousands of gearboxes takes seconds for any study: one study suffices.
         const bool tried = plan.rows() < kTrialRows / 3 || name == "reference-10k.toml";
-        const AnalysisTrial trial =
-            tried ? measure_analysis(scene, calibration, plan, 1, kNoBudget_s) : AnalysisTrial{};
-        const RunForecast forecast = forecast_run(scene, plan, calibration, trial, 0.0);
+        const AnalysisTrial trial = tried ? measure_analysis(scene.sampler(), scene.ensemble(),
+                                                             calibration, plan, 1, kNoBudget_s)
+                                          : AnalysisTrial{};
+        const RunForecast forecast =
+            forecast_run(calibration, plan, trial, verification_s(scene, calibration), 0.0);
         ++studies;
         trials += tried ? 1 : 0;
         CHECK(calibration.to_record == scene.signal_meshes());
@@ -221,7 +223,8 @@ TEST_CASE("Synthetic results have the run's gearboxes and values similar to comp
     const BatchPlan plan(study.ensemble.threshold_instances, study.ensemble.instances);
     const RunCost calibration = measure_run_cost(scene, plan, 2, 0.5);
     const std::size_t rows = 1100, shown = 1;
-    const Results made = synthetic_results(scene, calibration, plan, rows, {1, 2});
+    const Results made =
+        synthetic_results(scene.sampler(), scene.ensemble(), calibration, plan, rows, {1, 2});
     REQUIRE(made.group.size() == rows);
     CHECK(std::count(made.group.begin(), made.group.end(), 0) == 400);
     CHECK(made.noise_levels == std::vector<double>{0.5, 1.0});

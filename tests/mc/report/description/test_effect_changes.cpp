@@ -13,8 +13,8 @@ TEST_CASE("describe names effects that change nothing and those that a study lac
     INFO(description.output);
     REQUIRE(description.code == 0);
     CHECK(description.mentions("what the effects change"));
-    // Constant forces on a stage whose stiffness varies in the mesh alone; the features are those of
-    // the vibration.
+    // Constant forces on a stage whose stiffness varies in the mesh alone; the features are those
+    // of the vibration.
     CHECK(description.mentions("omitted; would change no feature by more than 1 %"));
     CHECK(description.mentions("extended contact"));
     CHECK(description.mentions("omitted; would change"));

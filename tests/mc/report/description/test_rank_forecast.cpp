@@ -20,6 +20,7 @@ namespace {
 RunCost given_cost(int threads, double batch_s) {
     RunCost calibration;
     calibration.threads = threads;
+    calibration.lanes = 8;
     for (GroupCost& group : calibration.cost) {
         group.integrated.row.features = group.reused.row.features = batch_s / 16.0;
     }
@@ -35,7 +36,8 @@ RankForecast forecast_of(const BatchPlan& plan, double batch_s, int threads, int
     RunForecast alone;
     alone.setup_s = 2.0;
     alone.detection_s = 3.0;
-    return forecast_ranks(scene(), plan, given_cost(threads, batch_s), {}, alone, ranks);
+    return forecast_ranks(given_cost(threads, batch_s), plan, scene().ensemble().shape, {}, alone,
+                          ranks);
 }
 
 }  // namespace
