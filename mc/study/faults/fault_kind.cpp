@@ -22,11 +22,13 @@ std::vector<FaultKey> FaultKind::keys() const {
 }
 
 // Each is defined in the file of its name, the last two in fraction.cpp.
-const FaultKind &crack(), &spatial_crack(), &chip(), &pitting(), &wear(), &broken(), &reduction();
+const FaultKind &crack(), &spatial_crack(), &chip(), &breakage(), &pitting(), &wear(), &broken(),
+    &reduction();
 
 std::span<const FaultKind* const> all_faults() {
     static const FaultKind* const kinds[] = {
-        &crack(), &spatial_crack(), &chip(), &pitting(), &wear(), &broken(), &reduction(),
+        &crack(),   &spatial_crack(), &chip(),   &breakage(),
+        &pitting(), &wear(),          &broken(), &reduction(),
     };
     return kinds;
 }

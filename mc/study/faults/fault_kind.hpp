@@ -67,6 +67,8 @@ class FaultKind {
     // True if the fault changes the tooth's sections or its contact; false if only the pair's
     // stiffness.
     virtual bool shapes_tooth() const { return true; }
+    // False if a planet's tooth may have the fault on both flanks.
+    virtual bool on_one_flank() const { return shapes_tooth(); }
     // True if the fault is wear of all flanks of the gear; its size is then the depth in m.
     virtual bool wears_flanks() const { return false; }
     // Rejects values that the faulty tooth cannot have, of known gears and face width.

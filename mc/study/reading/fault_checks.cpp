@@ -41,7 +41,7 @@ void check_planet(StudyDraft& draft) {
             fmt::format("name a planet from 1 to {}", s.gearbox.planets));
     }
     if (draft.all_usable({"fault.side"}) && s.fault.side == FaultSide::both &&
-        s.fault.kind->shapes_tooth()) {
+        s.fault.kind->on_one_flank()) {
         draft.reject(
             "fault.side",
             fmt::format(

@@ -34,6 +34,7 @@ const Example kExamples[] = {
      "growth_length_mm = [20, 38.1]\ngrowth_height_mm = [0.5, 0.5]\n"
      "growth_end_height_mm = [1, 1]"},
     {"chip", "chip_mm = 8"},
+    {"breakage", "break_width_mm = 10\nbreak_height_mm = 3"},
     {"pitting",
      "pit_width_mm = 10\npit_length_mm = 1\npit_radius_mm = 30.5\npit_depth_mm = 0.2\nteeth = 2"},
     {"wear", "wear_um = 20\n[effects]\ncontact_onset = \"extended\""},
@@ -184,8 +185,20 @@ TEST_CASE("Text about a fault names its kind and its size") {
 
         const std::string both =
             problems_of(text, "member = \"sun\"", "member = \"planet\"\nside = \"both\"");
-        CHECK(holds(both, words + " is on one flank") == kind->shapes_tooth());
+        CHECK(holds(both, words + " is on one flank") == kind->on_one_flank());
     }
+}
+
+TEST_CASE("A partly broken planet tooth weakens the meshes of both its flanks") {
+    const std::string text = replaced(text_with(*find_fault("breakage")), "member = \"sun\"",
+                                      "member = \"planet\"\nside = \"both\"");
+    const StudyReading reading = read_study_text(text, "fault.toml");
+    INFO(format(reading.problems));
+    REQUIRE(reading.study);
+    CHECK(Scene(*reading.study).fault().curves() == 2);
+    const std::string wide = problems_of(text, "break_width_mm = 10", "break_width_mm = 40");
+    CHECK(holds(wide, "fault.break_width_mm"));
+    CHECK(holds(wide, "wider than the face"));
 }
 
 TEST_CASE("Wear needs extended contact, a depth within the tooth, and no life") {

@@ -315,11 +315,15 @@ TEST_CASE("Size groups are the levels in ascending order, or lie between the edg
 }
 
 TEST_CASE("Each kind of fault has one size, with its unit") {
-    const std::pair<const char*, const char*> columns[] = {
-        {"none", "fault_depth_m"},        {"crack", "fault_depth_m"},
-        {"spatial-crack", "fault_stage"}, {"chip", "fault_chip_m"},
-        {"pitting", "fault_pit_width_m"}, {"wear", "fault_wear_m"},
-        {"broken", "fault_broken"},       {"reduction", "fault_reduction"}};
+    const std::pair<const char*, const char*> columns[] = {{"none", "fault_depth_m"},
+                                                           {"crack", "fault_depth_m"},
+                                                           {"spatial-crack", "fault_stage"},
+                                                           {"chip", "fault_chip_m"},
+                                                           {"breakage", "fault_break_width_m"},
+                                                           {"pitting", "fault_pit_width_m"},
+                                                           {"wear", "fault_wear_m"},
+                                                           {"broken", "fault_broken"},
+                                                           {"reduction", "fault_reduction"}};
     CHECK(std::size(columns) == all_faults().size() + 1);
     for (const auto& [kind, column] : columns) {
         Study study;
