@@ -44,7 +44,7 @@ struct Planner::Plans {
     std::shared_ptr<const Scene> last;  // with uniform steps; may be null
     std::vector<std::shared_ptr<const Scene>> graded;
 
-    const Scene& with(const Numerics& numerics) {
+    std::shared_ptr<const Scene> with(const Numerics& numerics) {
         const auto shares = [&](const std::shared_ptr<const Scene>& plan) {
             return share_steps(plan->study().numerics, numerics);
         };
@@ -58,7 +58,7 @@ struct Planner::Plans {
         if (numerics.grid == StepGrid::uniform || !last) {
             last = made;
         }
-        return *made;
+        return made;
     }
 };
 
@@ -78,17 +78,17 @@ const SolverFacts& Planner::facts() const {
 }
 
 Scene Planner::plan(const Numerics& numerics) const {
-    return plans_->with(numerics);
+    return *plans_->with(numerics);
 }
 
 PlannedSteps Planner::steps(const Numerics& numerics) const {
-    const Scene& plan = plans_->with(numerics);
-    return {plan.plan().integrator,
-            plan.samples_per_mesh(),
-            static_cast<int>(plan.plan().grid.steps.size()),
-            plan.least_steps(),
-            plan.longest_step(),
-            plan.calibration() ? std::optional(plan.calibration()->grading.first) : std::nullopt};
+    const std::shared_ptr<const Scene> plan = plans_->with(numerics);
+    return {plan->plan().integrator,
+            plan->samples_per_mesh(),
+            static_cast<int>(plan->plan().grid.steps.size()),
+            plan->least_steps(),
+            plan->longest_step(),
+            plan->calibration() ? std::optional(plan->calibration()->grading.first) : std::nullopt};
 }
 
 void Planner::check(const Numerics& numerics, std::span<const std::string_view> keys) const {
@@ -116,7 +116,7 @@ void Planner::check_choice() const {
 }
 
 double Planner::fastest_mode_Hz(const Numerics& numerics) const {
-    const Scene& plan = plans_->with(numerics);
+    const Scene plan = this->plan(numerics);
     return dynamics::natural_frequencies_Hz(
                dynamics::assemble(plan.plan().layout, plan.inputs(nominal_inputs(plans_->study)),
                                   plan.mean_pairs()))

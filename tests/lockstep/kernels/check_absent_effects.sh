@@ -9,7 +9,7 @@ trap 'rm -rf "$work"' EXIT
 cp -r "$2/src" "$work/src"
 
 cat > "$work/plain.cpp" <<'END'
-#include "dynamics/torsional_motion.hpp"
+#include "dynamics/planetary_motion.hpp"
 #include "lockstep/integrators/runge_kutta.hpp"
 #include "lockstep/integrators/sdirk3.hpp"
 namespace gearpod::lockstep {
