@@ -31,7 +31,7 @@ struct CompareOptions {
     bool force = false;                // replaces outputs of another kind
 };
 
-// Results file with its own results.
+// Results file with its smallest faults.
 struct Side : ComparedSide {
     std::size_t gearboxes = 0;
     std::vector<std::optional<analysis::SmallestFault>> smallest;

@@ -13,10 +13,6 @@
 #include "mc/commands/study_results.hpp"
 #include "mc/ensemble/rare_event_rates.hpp"
 #include "mc/files/input/terminal_text.hpp"
-#include "mc/study/noise.hpp"
-#include "mc/study/other_sources.hpp"
-#include "mc/study/schema/schema.hpp"
-#include "mc/study/schema/sizes.hpp"
 #include "signals/windowing/noise_importance_sampler.hpp"
 
 namespace gearpod::mc {
@@ -64,24 +60,11 @@ void find_threshold(const StudyResults& results, const MissesOptions& options, P
     require_threshold(*requested, problems);
 }
 
-void check_numbers(const Study& study, const MissesOptions& options, Problems& problems) {
+void check_numbers(const RareEventSource& source, const MissesOptions& options,
+                   Problems& problems) {
     constexpr auto kKinds = static_cast<int>(signals::NoiseImportanceSampler::kKinds);
-    if (noise_by_density(study)) {
-        problems.push_back(
-            {.file = options.results,
-             .what = "its study gives the noise by density, which is not white after the "
-                     "low-pass; `misses` needs white noise (sensor.noise_m_s2)"});
-    }
-    if (has_range(study)) {
-        problems.push_back({.file = options.results,
-                            .what = "its study clips the samples, so that their noise is not "
-                                    "Gaussian (sensor.range_m_s2); `misses` needs white noise"});
-    }
-    if (has_other_sources(study)) {
-        problems.push_back({.file = options.results,
-                            .what = "its study has faulty bearings or neighbouring stages, whose "
-                                    "vibration all records of a gearbox would share "
-                                    "(sensor.bearings, sensor.stages)"});
+    for (const std::string& problem : source.noise_problems) {
+        problems.push_back({.file = options.results, .what = problem});
     }
     if (options.records < kKinds || options.records % kKinds != 0 ||
         options.records > kMostRecords) {
@@ -106,21 +89,20 @@ struct Prepared {
 
 Prepared prepare(const MissesOptions& options) {
     const StudyResults results = read_study_results(options.results);
-    const Study& study = results.study;
-    if (study.fault.kind == nullptr) {
+    if (!results.source.fault.given()) {
         throw std::runtime_error(options.results + ": its study has no fault");
     }
     Problems problems;
     Prepared prepared;
-    check_numbers(study, options, problems);
-    prepared.size = read_requested_size(study, options.size, problems);
+    check_numbers(results.source, options, problems);
+    prepared.size = read_requested_size(results.source.fault, options.size, problems);
     find_threshold(results, options, problems, prepared.question);
     require_none(problems);
-    prepared.confidence = study.detection.confidence;
+    prepared.confidence = results.frame.request.confidence;
     prepared.question.size = prepared.size.si;
     prepared.question.gearboxes = options.gearboxes;
     prepared.question.records = options.records;
-    prepared.made = scene_for_results(results, study_for_miss_rate(study, prepared.question));
+    prepared.made = scene_for_results(results, miss_rate_text(results.source, prepared.question));
     return prepared;
 }
 

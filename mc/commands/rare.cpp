@@ -11,7 +11,6 @@
 #include "mc/commands/study_results.hpp"
 #include "mc/ensemble/rare_event_rates.hpp"
 #include "mc/files/input/terminal_text.hpp"
-#include "mc/study/schema/sizes.hpp"
 
 namespace gearpod::mc {
 namespace {
@@ -40,11 +39,11 @@ struct PreparedRare {
 
 void request_misses(const StudyResults& results, const RareOptions& options,
                     const FeatureAtLevel& requested, Problems& problems, PreparedRare& prepared) {
-    if (results.study.fault.kind == nullptr) {
+    if (!results.source.fault.given()) {
         problems.push_back({.file = options.results, .what = "its study has no fault"});
         return;
     }
-    prepared.size = read_requested_size(results.study, *options.size, problems);
+    prepared.size = read_requested_size(results.source.fault, *options.size, problems);
     require_threshold(requested, problems);
     prepared.question.size = prepared.size.si;
     prepared.question.threshold = requested.detection->threshold;
@@ -81,8 +80,8 @@ PreparedRare prepare_rare(const RareOptions& options) {
     question.feature = options.feature;
     question.rate = options.rate;
     question.gearboxes = options.gearboxes;
-    prepared.confidence = results.study.detection.confidence;
-    prepared.made = scene_for_results(results, study_for_rare_rate(results.study, question));
+    prepared.confidence = results.frame.request.confidence;
+    prepared.made = scene_for_results(results, rare_rate_text(results.source, question));
     return prepared;
 }
 
@@ -180,13 +179,6 @@ std::string rare_text(const PreparedRare& prepared, const RareRateResult& result
 nlohmann::json rare_json(const RareOptions& options, const PreparedRare& prepared,
                          const RareRateResult& result) {
     const RareRateRequest& q = prepared.question;
-    nlohmann::json shifted = nlohmann::json::array();
-    for (const ShiftedInput& input : result.shifted) {
-        shifted.push_back({{"name", input.name},
-                           {"unit", input.unit},
-                           {"mean_of_all", input.all},
-                           {"mean", input.rare}});
-    }
     nlohmann::json json{{"kind", q.rate ? "rare-false-alarms" : "rare-misses"},
                         {"results", options.results},
                         {"feature", q.feature},
@@ -198,7 +190,7 @@ nlohmann::json rare_json(const RareOptions& options, const PreparedRare& prepare
                         {"levels", result.levels},
                         {"last_rate", result.last_rate},
                         {"least_kept", result.least_kept},
-                        {"shifted_inputs", shifted},
+                        {"shifted_inputs", analysis::json_of(result.shifted)},
                         {"threshold", nullptr},
                         {"rate", nullptr},
                         {"lower", nullptr},

@@ -31,11 +31,11 @@ StudyResults read_study_results(const std::string& path) {
     StudyResults requested{path, read_frame(path), {}};
     const FileRows rows(path, requested.frame);
     check_results(path, requested.frame, rows);
-    StudyReading reading = read_study_text(requested.frame.provenance_value("study"), path);
-    if (!reading.study) {
+    auto source = rare_event_source(requested.frame.provenance_value("study"), path);
+    if (!source) {
         throw std::runtime_error(path + ": the study in the file cannot be read");
     }
-    requested.study = std::move(*reading.study);
+    requested.source = std::move(*source);
     requested.frame.detection = detect_all(requested.frame, rows);
     return requested;
 }
@@ -82,12 +82,12 @@ void require_threshold(const FeatureAtLevel& requested, Problems& problems) {
     }
 }
 
-RequestedSize read_requested_size(const Study& study, double size, Problems& problems) {
+RequestedSize read_requested_size(const FaultPlan& fault, double size, Problems& problems) {
     if (!(size > 0.0) || std::isinf(size)) {
         problems.push_back(
             {.file = "--size", .what = fmt::format("must be > 0 and finite, but is {:g}", size)});
     }
-    const Unit& unit = fault_size_key(study).unit;
+    const Unit& unit = fault.unit();
     return {size * unit.to_si, size, unit.suffix.empty() ? "" : std::string(unit.name)};
 }
 
@@ -103,10 +103,10 @@ std::string miss_probability_text(const RequestedSize& size, const std::string& 
         alarm_symbol_of(feature), threshold);
 }
 
-StudyScene scene_for_results(const StudyResults& results, const Study& study) {
-    StudyScene made = make_scene(results.path, read_study_text(resolved_text(study), results.path));
+StudyScene scene_for_results(const StudyResults& results, const std::string& study) {
+    StudyScene made = make_scene(results.path, read_study_text(study, results.path));
     if (!made) {
-        const std::string size = fault_size_key(study).path();
+        const std::string size = results.source.fault.size_key->path();
         for (Problem& problem : made.problems) {
             const bool of_size = problem.key == size;
             problem.file = of_size ? "--size" : results.path;
@@ -131,10 +131,10 @@ bool prepare_together(const Ranks& ranks, const std::string& results, const File
             problem = exception_text(error);
         }
     }
-    for (const std::string& one : ranks.gather(problem)) {
-        if (!one.empty()) {
-            if (ranks.leads() && one != "-") {
-                fmt::print(stderr, "{}\n", one);
+    for (const std::string& found : ranks.gather(problem)) {
+        if (!found.empty()) {
+            if (ranks.leads() && found != "-") {
+                fmt::print(stderr, "{}\n", found);
             }
             return false;
         }

@@ -15,6 +15,7 @@
 #include "mc/files/input/problems.hpp"
 #include "mc/library/run/command_files.hpp"
 #include "mc/numerics/study_scene.hpp"
+#include "mc/plan/rare_event_studies.hpp"
 #include "mc/results/results_file.hpp"
 
 namespace gearpod::mc {
@@ -25,7 +26,7 @@ void require_none(const Problems& problems);
 struct StudyResults {
     std::string path;
     Results frame;  // includes the detection results
-    Study study;
+    RareEventSource source;
 };
 // Reads a results file of `run`. Throws std::runtime_error naming the file if it is not one.
 StudyResults read_study_results(const std::string& path);
@@ -50,16 +51,16 @@ struct RequestedSize {
     std::string unit;  // of the study's key; "": a pure number
 };
 // Reads --size and reports a wrong value to `problems`. The study must have a fault.
-RequestedSize read_requested_size(const Study& study, double size, Problems& problems);
+RequestedSize read_requested_size(const FaultPlan& fault, double size, Problems& problems);
 // Alarm direction of a feature: ">" or "<".
 const char* alarm_symbol_of(const std::string& feature);
 // "probability that fm4 misses a fault of 2 mm at noise x 1 (alarm if > 3.1): "
 std::string miss_probability_text(const RequestedSize& size, const std::string& feature,
                                   double noise_level, double threshold);
 
-// Builds the scene of a study derived from the file's study. Throws std::runtime_error with every
-// problem. A problem with the fault size names --size, every other one names the file.
-StudyScene scene_for_results(const StudyResults& results, const Study& study);
+// Builds the scene of the text of a study derived from the file's study. Throws std::runtime_error
+// with every problem. A problem with the fault size names --size, every other one names the file.
+StudyScene scene_for_results(const StudyResults& results, const std::string& study);
 
 // Calls `prepare`, which may throw, in every rank. Returns false in all ranks if one of them
 // failed, or if the JSON cannot be written; rank 0 has then printed the problem. `force`: the JSON

@@ -10,6 +10,7 @@
 
 #include "analysis/detection/importance_sample.hpp"
 #include "analysis/detection/splitting.hpp"
+#include "machine/fields.hpp"
 #include "mc/ensemble/ensemble.hpp"
 #include "mc/plan/rare_event_studies.hpp"
 #include "mc/plan/scene.hpp"
@@ -45,6 +46,7 @@ struct ShiftedInput {
     std::string name, unit;        // as in the column of the results
     double all = 0.0, rare = 0.0;  // means
 };
+GEARPOD_FIELDS(ShiftedInput, name, unit, mean_of_all, mean)
 
 struct RareRateResult {
     // Empty if too few families reach the rare event.

@@ -413,6 +413,8 @@ ResolvedNumerics resolve_numerics(const Planner& planner, const Numerics& numeri
         resolved.choice = Search(planner, numerics).run();
     }
     if (resolved.choice) {
+        resolved.choice->tolerance =
+            resolved.choice->of_scatter ? numerics.scatter_tolerance : numerics.tolerance;
         resolved.numerics = resolved.choice->setting.numerics;
         resolved.numerics.tolerance = numerics.tolerance;
         resolved.numerics.scatter_tolerance = numerics.scatter_tolerance;

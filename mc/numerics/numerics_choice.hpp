@@ -13,6 +13,7 @@ struct NumericsChoice {
     // Relative error of the pilot's worst feature, or its error over the feature's scatter.
     double error = 0.0;
     bool of_scatter = false;    // true for the latter
+    double tolerance = 0.0;     // of that error
     std::string worst_feature;  // name of that feature
     double cost = 0.0;  // of integrating the pilot by the cost model, in rk4 steps per gearbox
     int gearboxes = 0;  // number of pilot gearboxes

@@ -1,5 +1,7 @@
 #include "mc/plan/rare_event_studies.hpp"
 
+#include "mc/study/noise.hpp"
+#include "mc/study/other_sources.hpp"
 #include "mc/study/schema/sizes.hpp"
 
 namespace gearpod::mc {
@@ -51,6 +53,38 @@ Study study_for_rare_rate(const Study& study, const RareRateRequest& request) {
     restricted.ensemble.importance_sampling.reset();
     restricted.ensemble.sampling = SamplingKind::plain;
     return restricted;
+}
+
+std::optional<RareEventSource> rare_event_source(const std::string& text, const std::string& name) {
+    const auto study = read_study_text(text, name).study;
+    if (!study) {
+        return std::nullopt;
+    }
+    RareEventSource source{text, make_fault_plan(*study), {}};
+    if (noise_by_density(*study)) {
+        source.noise_problems.emplace_back(
+            "its study gives the noise by density, which is not white after the low-pass; "
+            "`misses` needs white noise (sensor.noise_m_s2)");
+    }
+    if (has_range(*study)) {
+        source.noise_problems.emplace_back(
+            "its study clips the samples, so that their noise is not Gaussian "
+            "(sensor.range_m_s2); `misses` needs white noise");
+    }
+    if (has_other_sources(*study)) {
+        source.noise_problems.emplace_back(
+            "its study has faulty bearings or neighbouring stages, whose vibration all records of "
+            "a gearbox would share (sensor.bearings, sensor.stages)");
+    }
+    return source;
+}
+
+std::string miss_rate_text(const RareEventSource& source, const MissRateRequest& request) {
+    return resolved_text(study_for_miss_rate(*read_study_text(source.text, "").study, request));
+}
+
+std::string rare_rate_text(const RareEventSource& source, const RareRateRequest& request) {
+    return resolved_text(study_for_rare_rate(*read_study_text(source.text, "").study, request));
 }
 
 }  // namespace gearpod::mc

@@ -4,8 +4,10 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "features/feature.hpp"
+#include "mc/plan/fault_plan.hpp"
 #include "mc/study/study.hpp"
 
 namespace gearpod::mc {
@@ -39,5 +41,18 @@ struct RareRateRequest {
 // Study for multilevel splitting. Healthy gearboxes are those of its threshold group, faulty ones
 // are as for a miss rate.
 Study study_for_rare_rate(const Study& study, const RareRateRequest& request);
+
+// Study of stored results, as far as rare events need it.
+struct RareEventSource {
+    std::string text;  // of the study
+    FaultPlan fault;
+    // Reasons why its noise cannot be tilted, as sentences that follow the name of its file.
+    std::vector<std::string> noise_problems;
+};
+// Empty if the text is no study. `name` stands for it in messages.
+std::optional<RareEventSource> rare_event_source(const std::string& text, const std::string& name);
+// Texts of the studies for the requests.
+std::string miss_rate_text(const RareEventSource& source, const MissRateRequest& request);
+std::string rare_rate_text(const RareEventSource& source, const RareRateRequest& request);
 
 }  // namespace gearpod::mc

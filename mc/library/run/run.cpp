@@ -62,10 +62,7 @@ class Run {
         if (!options_.quiet) {
             fmt::print(stderr, "running {}: {}\n", options_.study.path, ensemble_.title);
             if (choice_) {
-                fmt::print(stderr, "tolerance {:g}: {}\n",
-                           choice_->of_scatter ? scene_.study().numerics.scatter_tolerance
-                                               : scene_.study().numerics.tolerance,
-                           choice_->text());
+                fmt::print(stderr, "tolerance {:g}: {}\n", choice_->tolerance, choice_->text());
             }
         }
         Progress progress(static_cast<long>(plan_.rows()), options_.quiet, checkpoint_->rows_done(),
