@@ -321,8 +321,8 @@ class LifeTiles::Lane {
 
     RealizationSignals signals_with(features::SignalSet needs) const {
         const Scene& plan = tiles_.scene_;
-        return {plan.record(),    plan.features(), plan.sensors().front(),
-                plan.draw().seed, needs,           span_.turns * span_.recordings};
+        return {plan.record(), plan.features(), plan.sensors().front(), needs,
+                span_.turns * span_.recordings};
     }
     const NoiseStage& noise_stage() const { return tiles_.scene_.sensors().front().noise(); }
 

@@ -243,6 +243,7 @@ RecordPlan make_record_plan(const Study& study, const GearboxPlan& gearbox,
     plan.computed_baselines =
         same_baselines(study) ? std::min<std::size_t>(1, plan.baselines) : plan.baselines;
     plan.noise_levels = study.sensor.noise_levels;
+    plan.seed = static_cast<std::uint64_t>(study.ensemble.seed);
     plan.drivetrain = gearbox.drivetrain;
     return plan;
 }

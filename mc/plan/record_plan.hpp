@@ -73,6 +73,7 @@ struct RecordPlan {
     // of those that are computed: one if their motion is the same.
     std::size_t baselines = 0, computed_baselines = 0;
     std::vector<double> noise_levels;
+    std::uint64_t seed = 0;  // of the random windows and the noise
     std::shared_ptr<const Drivetrain> drivetrain;
 
     // Number of mesh periods after which the transmission path repeats; 1 if the carrier is fixed.

@@ -384,15 +384,15 @@ class Examples {
 
     Signals record_of(const SensorPlan& sensor, const Realization& realization,
                       const RealizationFeatures& features, LaneSignals whole) const {
-        Signals signals{drawn_record(scene_, std::move(whole), realization), {}, scene_.span()};
+        Signals signals{
+            drawn_record(scene_.record(), std::move(whole), realization), {}, scene_.span()};
         if (signals.record.turns > 0) {
             signals.layout.ring_teeth = signals.record.turns;
         }
         signals.noisy = signals.record.sensor;
-        add_noise(
-            sample_noise(scene_.record(), sensor.noise(), scene_.draw().seed, realization,
-                         signals.record.sensor, features.noise().sensor, signals.layout.ring_teeth),
-            noise_level() * realization.inputs.noise_m_s2, signals.noisy);
+        add_noise(sample_noise(scene_.record(), sensor.noise(), realization, signals.record.sensor,
+                               features.noise().sensor, signals.layout.ring_teeth),
+                  noise_level() * realization.inputs.noise_m_s2, signals.noisy);
         if (const auto* range = sensor.find<RangeStage>()) {
             range->clip(signals.noisy);
             range->clip(signals.record.sensor);

@@ -23,10 +23,10 @@ std::size_t shared_records(const RecordPlan& record, std::span<const GearboxId> 
     return count;
 }
 
-std::vector<lockstep::SpanPart> parts_of_records(const Scene& scene,
+std::vector<lockstep::SpanPart> parts_of_records(const RecordPlan& plan,
+                                                 const FeaturePlan& features,
                                                  std::span<const Realization> records) {
-    const RecordPlan& plan = scene.record();
-    const bool compares = !scene.features().needs.change.empty();
+    const bool compares = !features.needs.change.empty();
     // A motion that all baseline records have is cut at the window of each.
     const std::size_t copies = plan.computed_baselines == 1 ? plan.baselines : 1;
     std::vector<lockstep::SpanPart> all;
@@ -34,7 +34,7 @@ std::vector<lockstep::SpanPart> parts_of_records(const Scene& scene,
         const int turns = plan.turns(record.inputs);
         const int meshes = std::min(turns * plan.span.planet_teeth, plan.recorded_meshes);
         const auto add = [&](const GearboxId& id) {
-            const int first = record_window(scene, id, turns).first_mesh;
+            const int first = record_window(plan, id, turns).first_mesh;
             all.push_back({first, first + meshes});
         };
         add(record.id);
@@ -64,15 +64,14 @@ std::vector<lockstep::SpanPart> parts_of_records(const Scene& scene,
     return parts;
 }
 
-RecordWindow record_window(const Scene& scene, const GearboxId& id, int turns) {
-    const RecordPlan& plan = scene.record();
+RecordWindow record_window(const RecordPlan& plan, const GearboxId& id, int turns) {
     GearboxId shared = id;
     if (plan.same_window > 1) {
         shared.index -= id.index % plan.same_window;
         shared.exchanged = {};
         shared.noise_sampling = NoiseSampling::plain;
     }
-    Philox engine = noise_stream(scene.draw().seed, shared, StreamPurpose::record_start);
+    Philox engine = noise_stream(plan.seed, shared, StreamPurpose::record_start);
     boost::random::uniform_int_distribution<int> first(
         0, plan.signal_meshes - turns * plan.span.planet_teeth);
     return {turns, first(engine)};

@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "lockstep/tile/tile.hpp"
+#include "mc/plan/record_plan.hpp"
 #include "mc/plan/sampling.hpp"
-#include "mc/plan/scene.hpp"
 
 namespace gearpod::mc {
 
@@ -20,7 +20,7 @@ struct RecordWindow {
 // Random window of a record with this many turns. Every first mesh period of the signal that leaves
 // room for the record is equally likely. Records of RecordPlan::same_window gearboxes have the same
 // one.
-RecordWindow record_window(const Scene& scene, const GearboxId& id, int turns);
+RecordWindow record_window(const RecordPlan& plan, const GearboxId& id, int turns);
 
 // True for the same record of gearboxes that are in the same group of `together`.
 bool share_positions(const GearboxId& a, const GearboxId& b, std::uint64_t together);
@@ -31,7 +31,8 @@ std::size_t shared_records(const RecordPlan& record, std::span<const GearboxId> 
 
 // Mesh periods of the signals that these records need, each part after a run-in of its own. Those
 // of a baseline record include the window of the test record if features compare both there.
-std::vector<lockstep::SpanPart> parts_of_records(const Scene& scene,
+std::vector<lockstep::SpanPart> parts_of_records(const RecordPlan& plan,
+                                                 const FeaturePlan& features,
                                                  std::span<const Realization> records);
 
 }  // namespace gearpod::mc

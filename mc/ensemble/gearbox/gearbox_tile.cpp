@@ -343,7 +343,7 @@ GearboxTile run_records(const Scene& scene, std::span<const GearboxId> ids, int 
         scene.sampler(), ids, lockstep::lanes_for(scene.solve().integration().precision, fewest));
     const auto* every_mesh = std::get_if<EveryMeshPeriod>(&scene.solve().strategy);
     if (every_mesh != nullptr && every_mesh->records_only) {
-        tile.parts = parts_of_records(scene, tile.realizations);
+        tile.parts = parts_of_records(scene.record(), scene.features(), tile.realizations);
     }
     run_tile(scene, options, tile);
     return tile;

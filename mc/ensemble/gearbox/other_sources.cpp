@@ -24,12 +24,12 @@ using Bearings = std::vector<OtherSourcesStage::NumberedBearing>;
 
 // Adds the vibration of faulty bearings to the samples of a record.
 void add_bearings(const GearboxPlan& gearbox, const RecordPlan& plan, const Bearings& bearings,
-                  double low_pass_Hz, std::uint64_t seed, const Realization& realization,
+                  double low_pass_Hz, const Realization& realization,
                   std::vector<double>& samples) {
     for (const auto& [number, bearing] : bearings) {
         machine::throw_if_cancelled();
         Philox engine =
-            record_stream(seed, realization.id,
+            record_stream(plan.seed, realization.id,
                           with_suffix(StreamPurpose::bearing_impulses, std::to_string(number)));
         signals::add_bearing_vibration(bearing_impulses(gearbox, realization.inputs, bearing),
                                        low_pass_Hz, plan.sample_s(realization.inputs), engine,
@@ -57,33 +57,18 @@ void add_vibration(const std::vector<double>& vibration, double factor, double s
     }
 }
 
-// Adds `factor` times the steady vibration of a stage's gearbox, from a random position on, to the
-// samples of a record.
-void add_stage_vibration(const Scene& scene, std::size_t stage, const Realization& realization,
-                         const Realization& gearbox, const std::vector<double>& vibration,
-                         double factor, std::vector<double>& samples) {
-    Philox engine =
-        record_stream(scene.draw().seed, realization.id,
-                      with_suffix(StreamPurpose::stage_start, scene.gearbox().stages[stage].name));
-    const double start =
-        boost::random::uniform_01<double>()(engine) * static_cast<double>(vibration.size());
-    const double step = scene.record().sample_s(realization.inputs) /
-                        scene.stages()[stage].record().sample_s(gearbox.inputs);
-    add_vibration(vibration, factor, start, step, samples);
-}
-
 // Adds the vibration of the coupled stages of a record to its samples.
-void add_coupled_stages(const Scene& scene, const CoupledSpan& span, const LaneSignals& record,
+void add_coupled_stages(const RecordPlan& plan, std::span<const StagePlan> stages,
+                        const CoupledSpan& span, const LaneSignals& record,
                         std::vector<double>& samples) {
     for (std::size_t i = 0; i < record.coupled.size(); ++i) {
         const StageSpan& stage = span.stages[i];
-        const StagePlan& source = scene.gearbox().stages[stage.stage];
-        const double per_mesh = scene.stages()[stage.stage].samples_per_mesh();
         std::vector<double> vibration = record.coupled[i];
         if (!std::ranges::all_of(vibration, [](double value) { return std::isfinite(value); })) {
             std::ranges::fill(samples, kNan);
             return;  // a gearbox of the train has failed
         }
+        const int per_mesh = static_cast<int>(vibration.size()) / stage.meshes;
         // Both ends lie outside of the record. They fade out, so that the vibration can be
         // continued periodically.
         const auto fade = static_cast<std::size_t>(per_mesh);
@@ -93,8 +78,8 @@ void add_coupled_stages(const Scene& scene, const CoupledSpan& span, const LaneS
             vibration[k] *= weight;
             vibration[vibration.size() - 1 - k] *= weight;
         }
-        add_vibration(vibration, source.gain, -stage.start / stage.period * per_mesh,
-                      per_mesh / stage.period / scene.samples_per_mesh(), samples);
+        add_vibration(vibration, stages[stage.stage].gain, -stage.start / stage.period * per_mesh,
+                      per_mesh / stage.period / plan.samples, samples);
     }
 }
 
@@ -126,26 +111,33 @@ struct StageRecord {
     std::vector<double>* samples;
 };
 
-// Samples become NaN if the stage's gearbox fails.
-void add_stage(const Scene& scene, std::size_t stage, std::span<const StageRecord> records) {
-    const Scene& plan = scene.stages()[stage];
-    const auto lanes = static_cast<std::size_t>(plan.solve().settings.lanes);
+// Adds the steady vibration of the gearboxes of a stage, each from a random position on. `record`:
+// plan of the records to which it is added. Samples become NaN if the stage's gearbox fails.
+void add_stage(const RecordPlan& record, const std::string& name, const Scene& stage,
+               std::span<const StageRecord> records) {
+    const auto lanes = static_cast<std::size_t>(stage.solve().settings.lanes);
     for (std::size_t first = 0; first < records.size(); first += lanes) {
         const auto part = records.subspan(first, std::min(lanes, records.size() - first));
         std::vector<Realization> gearboxes;
         std::ranges::transform(part, std::back_inserter(gearboxes), &StageRecord::gearbox);
         const GearboxTile tile =
-            run_realizations(plan, gearboxes, static_cast<int>(part.size() > 1 ? lanes : 1));
+            run_realizations(stage, gearboxes, static_cast<int>(part.size() > 1 ? lanes : 1));
         const std::vector<LaneSignals> signals =
-            all_lane_signals(plan, tile, plan.record().span.meshes());
+            all_lane_signals(stage, tile, stage.record().span.meshes());
         for (std::size_t i = 0; i < part.size(); ++i) {
             machine::throw_if_cancelled();
-            if (tile.status[i] == Status::ok) {
-                add_stage_vibration(scene, stage, *part[i].record, part[i].gearbox,
-                                    signals[i].sensor, part[i].factor, *part[i].samples);
-            } else {
+            if (tile.status[i] != Status::ok) {
                 std::ranges::fill(*part[i].samples, kNan);
+                continue;
             }
+            const std::vector<double>& vibration = signals[i].sensor;
+            Philox engine = record_stream(record.seed, part[i].record->id,
+                                          with_suffix(StreamPurpose::stage_start, name));
+            const double start =
+                boost::random::uniform_01<double>()(engine) * static_cast<double>(vibration.size());
+            const double step = record.sample_s(part[i].record->inputs) /
+                                stage.record().sample_s(part[i].gearbox.inputs);
+            add_vibration(vibration, part[i].factor, start, step, *part[i].samples);
         }
     }
 }
@@ -173,8 +165,8 @@ std::vector<std::vector<double>> background_vibration(const Scene& scene,
         samples.emplace_back(
             static_cast<std::size_t>(meshes) * static_cast<std::size_t>(plan.samples), 0.0);
         add_bearings(scene.gearbox(), plan, sources->background, sources->low_pass_Hz,
-                     scene.draw().seed, realizations[i], samples[i]);
-        add_coupled_stages(scene, span, records[i], samples[i]);
+                     realizations[i], samples[i]);
+        add_coupled_stages(plan, stages, span, records[i], samples[i]);
     }
     for (std::size_t stage = 0; stage < stages.size(); ++stage) {
         if (stages[stage].shaft) {
@@ -186,7 +178,7 @@ std::vector<std::vector<double>> background_vibration(const Scene& scene,
                             stage_gearbox(scene.gearbox(), stages[stage], realizations[i]),
                             stages[stage].gain, &samples[i]});
         }
-        add_stage(scene, stage, next);
+        add_stage(plan, stages[stage].name, scene.stages()[stage], next);
     }
     return samples;
 }
@@ -204,7 +196,7 @@ std::vector<LaneSignals> with_other_fault(const Scene& scene,
     for (std::size_t i = 0; i < records.size(); ++i) {
         samples.emplace_back(records[i].sensor.size(), 0.0);
         add_bearings(scene.gearbox(), plan, sources.other_fault, sources.low_pass_Hz,
-                     scene.draw().seed, realizations[i], samples[i]);
+                     realizations[i], samples[i]);
     }
     const std::vector<StagePlan>& stages = scene.gearbox().stages;
     for (std::size_t stage = 0; stage < stages.size(); ++stage) {
@@ -225,7 +217,7 @@ std::vector<LaneSignals> with_other_fault(const Scene& scene,
                             stage_gearbox(scene.gearbox(), stages[stage], realizations[i]), -gain,
                             &samples[i]});
         }
-        add_stage(scene, stage, next);
+        add_stage(plan, stages[stage].name, scene.stages()[stage], next);
     }
     for (std::size_t i = 0; i < records.size(); ++i) {
         std::vector<double>& sensor = other[i].sensor;

@@ -185,7 +185,7 @@ namespace {
 
 HealthyReference reference_of(const Scene& scene, const SensorPlan& sensor) {
     const int lanes = scene.solve().settings.lanes;
-    RealizationSignals records(scene.record(), scene.features(), sensor, scene.draw().seed,
+    RealizationSignals records(scene.record(), scene.features(), sensor,
                                features::SignalSet::of<features::SensorTurn>());
     const std::size_t levels = scene.record().noise_levels.size();
     HealthyRecordsMean mean(levels);
@@ -205,7 +205,7 @@ HealthyReference reference_of(const Scene& scene, const SensorPlan& sensor) {
                     signals[lane] = signals_of_sensor(sensor, signals[lane]).record;
                 }
                 const LaneSignals record =
-                    drawn_record(scene, std::move(signals[lane]), realization);
+                    drawn_record(scene.record(), std::move(signals[lane]), realization);
                 records.load(record, realization);
                 for (std::size_t level = 0; level < levels; ++level) {
                     mean.add(level, records.at(level));
@@ -241,7 +241,7 @@ const LaneSignals& baseline_of(const LaneSignals& gearbox, std::size_t k) {
 RealizationFeatures::RealizationFeatures(const Scene& scene, const HealthyReference* healthy,
                                          bool python, std::uint64_t sensor)
     : RealizationSignals(scene.record(), scene.features(), scene.sensors()[sensor],
-                         scene.draw().seed, scene.features().needs.record),
+                         scene.features().needs.record),
       scene_(scene),
       features_(scene.features().used),
       python_(scene.record(), scene.features(),
@@ -251,7 +251,7 @@ RealizationFeatures::RealizationFeatures(const Scene& scene, const HealthyRefere
     const ComparedNeeds& needs = scene.features().needs;
     const auto signals_with = [&](features::SignalSet with_needs) {
         return RealizationSignals(scene.record(), scene.features(), scene.sensors()[sensor],
-                                  scene.draw().seed, with_needs);
+                                  with_needs);
     };
     for (int k = 0; k < scene.features().baselines; ++k) {
         baselines_.push_back({signals_with(needs.baseline), {}, {}});
@@ -264,7 +264,8 @@ RealizationFeatures::RealizationFeatures(const Scene& scene, const HealthyRefere
 void RealizationFeatures::load(const LaneSignals& gearbox, const Realization& realization) {
     RecordWindow window;
     if (scene_.record().length) {
-        window = record_window(scene_, realization.id, scene_.record().turns(realization.inputs));
+        window = record_window(scene_.record(), realization.id,
+                               scene_.record().turns(realization.inputs));
         record_ = cut_record(scene_.record(), gearbox, window, keeps_samples());
         RealizationSignals::load(record_, realization);
     } else {
@@ -293,8 +294,9 @@ void RealizationFeatures::load_baselines(const LaneSignals& gearbox, const Reali
             continue;
         }
         const bool samples = baseline.signals.keeps_samples();
-        baseline.cut = cut_record(scene_.record(), signals,
-                                  record_window(scene_, earlier.id, window.turns), samples);
+        baseline.cut =
+            cut_record(scene_.record(), signals,
+                       record_window(scene_.record(), earlier.id, window.turns), samples);
         baseline.signals.load(baseline.cut, earlier);
         if (change_) {
             baseline.aligned = cut_record(scene_.record(), signals, window, samples);

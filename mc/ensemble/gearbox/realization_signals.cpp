@@ -30,11 +30,10 @@ class Stopwatch {
 }  // namespace
 
 std::vector<double> sample_noise(const RecordPlan& plan, const NoiseStage& stage,
-                                 std::uint64_t seed, const Realization& realization,
-                                 std::span<const double> clean, const signals::NoiseVariates& draw,
-                                 int turns) {
+                                 const Realization& realization, std::span<const double> clean,
+                                 const signals::NoiseVariates& draw, int turns) {
     const auto normals = [&](StreamPurpose purpose) {
-        return Normals::of_noise(seed, realization.id, purpose);
+        return Normals::of_noise(plan.seed, realization.id, purpose);
     };
     if (stage.by_samples()) {
         Normals filtered = normals(StreamPurpose::sensor_noise),
@@ -73,13 +72,12 @@ void add_noise(std::span<const double> unit, double sigma, std::span<double> sam
 }
 
 RealizationSignals::RealizationSignals(const RecordPlan& plan, const FeaturePlan& features,
-                                       const SensorPlan& sensor, std::uint64_t seed,
-                                       features::SignalSet needs, int turns)
+                                       const SensorPlan& sensor, features::SignalSet needs,
+                                       int turns)
     : plan_(plan),
       feature_plan_(features),
       noise_stage_(sensor.noise()),
       range_(sensor.find<RangeStage>()),
-      seed_(seed),
       default_turns_(turns > 0 ? turns : plan.span.ring_teeth),
       span_{plan.span.planet_teeth, default_turns_, plan.span.carrier_meshes},
       sensor_noise_(default_turns_),
@@ -115,7 +113,7 @@ void RealizationSignals::draw_sensor_noise(const LaneSignals& gearbox,
     const std::size_t bins = gearbox.folded.size();
     const bool by_samples = noise_stage_.by_samples();
     if (!by_samples) {
-        Normals engine = Normals::of_noise(seed_, id, StreamPurpose::sensor_noise);
+        Normals engine = Normals::of_noise(plan_.seed, id, StreamPurpose::sensor_noise);
         sensor_noise_.draw(engine, bins, noise_.sensor);
         if (id.noise_sampling != NoiseSampling::plain) {
             sample_sensor_noise(gearbox, realization);
@@ -123,7 +121,7 @@ void RealizationSignals::draw_sensor_noise(const LaneSignals& gearbox,
     }
     noise_.samples.clear();
     if (!gearbox.sensor.empty() && keeps_samples()) {
-        noise_.samples = sample_noise(plan_, noise_stage_, seed_, realization, gearbox.sensor,
+        noise_.samples = sample_noise(plan_, noise_stage_, realization, gearbox.sensor,
                                       noise_.sensor, span_.ring_teeth);
     }
     if (by_samples) {
@@ -153,7 +151,7 @@ void RealizationSignals::sample_sensor_noise(const LaneSignals& gearbox,
                            : signals::NoiseImportanceSampler::TargetTail::quiet);
         sampled_gearbox_ = id;
     }
-    Philox engine = noise_stream(seed_, id, StreamPurpose::sensor_noise_kind);
+    Philox engine = noise_stream(plan_.seed, id, StreamPurpose::sensor_noise_kind);
     const double pick = boost::random::uniform_01<double>()(engine);
     sampler_->sample(id.repeat % signals::NoiseImportanceSampler::kKinds, pick, noise_.sensor);
     importance_sampled_ = true;
@@ -177,7 +175,8 @@ void RealizationSignals::draw_noise(const LaneSignals& gearbox, const Realizatio
     }
     noise_.encoder.assign(gearbox.te_turn.size(), 0.0);
     if (highest_level_ * inputs.encoder_noise_rad > 0.0) {
-        Normals encoder = Normals::of_noise(seed_, realization.id, StreamPurpose::encoder_noise);
+        Normals encoder =
+            Normals::of_noise(plan_.seed, realization.id, StreamPurpose::encoder_noise);
         signals::draw_encoder_noise(encoder, span_.ring_teeth, noise_.encoder);
     }
 }

@@ -72,9 +72,8 @@ void add_noise(std::span<const double> unit, double sigma, std::span<double> sam
 // each sample is independent. Noise that is drawn sample by sample throughout
 // (NoiseStage::by_samples) does not use `draw`, which follows from it.
 std::vector<double> sample_noise(const RecordPlan& plan, const NoiseStage& stage,
-                                 std::uint64_t seed, const Realization& realization,
-                                 std::span<const double> clean, const signals::NoiseVariates& draw,
-                                 int turns);
+                                 const Realization& realization, std::span<const double> clean,
+                                 const signals::NoiseVariates& draw, int turns);
 
 // Noise of one gearbox, common to all noise levels.
 struct RealizationNoise {
@@ -93,8 +92,7 @@ class RealizationSignals {
     // need samples. Signals with LaneSignals::turns have their own number of turns. The plans must
     // outlive the object.
     RealizationSignals(const RecordPlan& plan, const FeaturePlan& features,
-                       const SensorPlan& sensor, std::uint64_t seed, features::SignalSet needs,
-                       int turns = 0);
+                       const SensorPlan& sensor, features::SignalSet needs, int turns = 0);
 
     // Number of mesh periods of sensor signal that LaneSignals must hold; may be 0.
     int meshes() const { return meshes_; }
@@ -134,7 +132,6 @@ class RealizationSignals {
     const FeaturePlan& feature_plan_;
     const NoiseStage& noise_stage_;
     const RangeStage* const range_;  // null if samples are not clipped
-    const std::uint64_t seed_;
     const int default_turns_;
     signals::SpanLayout span_;
     signals::SensorNoise sensor_noise_;

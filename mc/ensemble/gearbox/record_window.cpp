@@ -53,13 +53,13 @@ LaneSignals cut_record(const RecordPlan& plan, const LaneSignals& signals,
     return record;
 }
 
-LaneSignals drawn_record(const Scene& scene, LaneSignals signals, const Realization& realization) {
-    if (!scene.record().length) {
+LaneSignals drawn_record(const RecordPlan& plan, LaneSignals signals,
+                         const Realization& realization) {
+    if (!plan.length) {
         return signals;
     }
-    const RecordPlan& plan = scene.record();
     const int turns = plan.turns(realization.inputs);
-    return cut_record(plan, signals, record_window(scene, realization.id, turns), true);
+    return cut_record(plan, signals, record_window(plan, realization.id, turns), true);
 }
 
 void rotate_to_first_tooth(const LaneSignals& record, int per_mesh, std::vector<double>& turn) {

@@ -7,7 +7,7 @@
 
 #include "mc/ensemble/coupling/record_positions.hpp"
 #include "mc/ensemble/gearbox/gearbox_tile.hpp"
-#include "mc/plan/scene.hpp"
+#include "mc/plan/record_plan.hpp"
 
 namespace gearpod::mc {
 
@@ -29,7 +29,8 @@ LaneSignals cut_record(const RecordPlan& plan, const LaneSignals& signals,
 
 // The record of a gearbox with its samples: cut at random if records have a length, or else the
 // whole signals.
-LaneSignals drawn_record(const Scene& scene, LaneSignals signals, const Realization& realization);
+LaneSignals drawn_record(const RecordPlan& plan, LaneSignals signals,
+                         const Realization& realization);
 
 // Rotates values of a turn, `per_mesh` for each mesh period, so that they begin with tooth 0.
 void rotate_to_first_tooth(const LaneSignals& record, int per_mesh, std::vector<double>& turn);

@@ -67,11 +67,11 @@ void add_motion(const Scene& scene, const GearboxTile& tile, MeshRange meshes, S
 void add_sensor(const Scene& scene, const SensorPlan& sensor, const Realization& realization,
                 LaneSignals signals, const RealizationFeatures& features, const std::string& name,
                 std::size_t rows, Simulation& out) {
-    const LaneSignals record = drawn_record(scene, std::move(signals), realization);
+    const LaneSignals record = drawn_record(scene.record(), std::move(signals), realization);
     const std::vector<double>& clean = record.sensor;
-    const auto noise = sample_noise(
-        scene.record(), sensor.noise(), scene.draw().seed, realization, clean,
-        features.noise().sensor, record.turns > 0 ? record.turns : scene.record().span.ring_teeth);
+    const auto noise =
+        sample_noise(scene.record(), sensor.noise(), realization, clean, features.noise().sensor,
+                     record.turns > 0 ? record.turns : scene.record().span.ring_teeth);
     const auto add_column = [&](std::string column, std::vector<double> samples) {
         if (const auto* range = sensor.find<RangeStage>()) {
             range->clip(samples);
@@ -97,7 +97,8 @@ void add_sensors(const Scene& scene, const GearboxTile& tile, const RealizationF
         LaneSignals other =
             with_other_fault(scene, std::span(&realization, 1), std::span(&all, 1)).front();
         std::ranges::transform(other.sensor, all.sensor, other.sensor.begin(), std::minus<>());
-        std::vector<double> samples = drawn_record(scene, std::move(other), realization).sensor;
+        std::vector<double> samples =
+            drawn_record(scene.record(), std::move(other), realization).sensor;
         samples.resize(rows);
         out.columns.push_back({kOtherFault, "m/s^2", std::move(samples)});
     }
@@ -156,12 +157,12 @@ std::vector<double> sample_times(const Scene& scene, const Realization& realizat
 }  // namespace
 
 Simulation simulate(const Scene& scene, const GearboxId& id, long meshes) {
-    const MeshRange range{
-        scene.record().length
-            ? record_window(scene, id, scene.record().turns(scene.sampler().draw(id).inputs))
-                  .first_mesh
-            : 0,
-        meshes};
+    const MeshRange range{scene.record().length
+                              ? record_window(scene.record(), id,
+                                              scene.record().turns(scene.sampler().draw(id).inputs))
+                                    .first_mesh
+                              : 0,
+                          meshes};
     const GearboxTile tile =
         run_gearboxes(scene, std::span(&id, 1), 1,
                       {.records = lockstep::RecordOptions{

@@ -47,7 +47,7 @@ class Computed {
     double noise_m_s2() const { return tile_.realizations[0].inputs.noise_m_s2; }
     RecordWindow window() const {
         const Realization& one = tile_.realizations[0];
-        return record_window(scene_, one.id, scene_.record().turns(one.inputs));
+        return record_window(scene_.record(), one.id, scene_.record().turns(one.inputs));
     }
 
   private:
@@ -129,7 +129,7 @@ TEST_CASE(
     std::vector<int> count(kBins);
     std::set<int> distinct;
     for (std::uint64_t i = 0; i < kRecords; ++i) {
-        const RecordWindow window = record_window(scene, {Group::test, i}, 10);
+        const RecordWindow window = record_window(scene.record(), {Group::test, i}, 10);
         REQUIRE(window.first_mesh >= 0);
         REQUIRE(window.first_mesh <= scene.span_meshes());
         distinct.insert(window.first_mesh);
@@ -143,7 +143,9 @@ TEST_CASE(
     CHECK(chi_squared < 24.3);  // 7 degrees of freedom, p = 0.001
     CHECK(distinct.size() > 2000);
     // Each record of a gearbox has its own start.
-    const auto first = [&](GearboxId id) { return record_window(scene, id, 10).first_mesh; };
+    const auto first = [&](GearboxId id) {
+        return record_window(scene.record(), id, 10).first_mesh;
+    };
     CHECK(first({Group::test, 1}) != first({Group::test, 1, Record::baseline}));
     CHECK(first({Group::threshold, 1}) != first({Group::threshold, 1, Record::test, 1}));
 }
@@ -193,9 +195,9 @@ TEST_CASE("Records that are integrated alone are those of the whole signal") {
 TEST_CASE("Parts of a baseline record include the windows of the test record and of its copies") {
     const Scene scene(real_teeth({"features.baseline_torque_scatter=0"}));
     const Realization one = scene.sampler().draw({Group::threshold, 3, Record::baseline});
-    const auto parts = parts_of_records(scene, std::span(&one, 1));
+    const auto parts = parts_of_records(scene.record(), scene.features(), std::span(&one, 1));
     const auto within = [&](const GearboxId& id) {
-        const int first = record_window(scene, id, 3).first_mesh;
+        const int first = record_window(scene.record(), id, 3).first_mesh;
         return std::ranges::any_of(parts, [&](const lockstep::SpanPart& part) {
             return part.first <= first && first + 93 <= part.end;
         });
