@@ -420,6 +420,10 @@ class Describer {
         }
         add_if(study_.sensor.gain != 1.0 || is_random("sensor.gain"), "sensor gain",
                "{:g} times the gearbox vibration", study_.sensor.gain);
+        if (study_.sensor.cross_axis_percent) {
+            add("cross-axis sensitivity", "{:g} % of the acceleration at right angles to the axis",
+                *study_.sensor.cross_axis_percent);
+        }
         add("sensor low-pass", "{:g} Hz, 4th-order Butterworth", study_.sensor.low_pass_Hz);
         if (study_.sensor.range_m_s2) {
             add("sensor range", "samples are clipped at {:g} m/s^2 of either sign",

@@ -102,6 +102,7 @@ class SensorPlanner {
         if (additional_ != nullptr) {
             position = {additional_->angle_deg, additional_->tangential, additional_->gain};
         }
+        position.cross_axis = first_.cross_axis_percent.value_or(0.0) / 100.0;
         const auto sense = planetary->carrier_turns_backwards() ? signals::CarrierSense::negative
                                                                 : signals::CarrierSense::positive;
         const auto add = [&](const auto& kind) {

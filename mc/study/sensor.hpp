@@ -124,8 +124,10 @@ struct Sensor {
     // Response at these frequencies to the forces in the bearings of sun and carrier, (m/s^2)/N.
     std::vector<double> sun_response_gain, sun_response_phase_rad;
     std::vector<double> carrier_response_gain, carrier_response_phase_rad;
-    double gain = 1.0;        // factor on the gearbox's vibration, before tones and noise are added
-    double noise_m_s2 = 0.0;  // rms, white
+    double gain = 1.0;  // factor on the gearbox's vibration, before tones and noise are added
+    // Part of the acceleration at right angles to their axes that the sensors pick up, percent.
+    std::optional<double> cross_axis_percent;
+    double noise_m_s2 = 0.0;                               // rms, white
     std::optional<double> noise_density_m_s2_per_sqrt_Hz;  // in addition; low-pass filtered
     // Background of the machine by its density at given frequencies, in addition; may be empty.
     std::vector<double> background_Hz, background_density_m_s2_per_sqrt_Hz;

@@ -55,6 +55,14 @@ gears::PlanetPlaces equally_spaced(int planets) {
     return gears::planet_places({.planets = planets});
 }
 
+// Components along the axis of a sensor, plus this part of those at right angles to it.
+std::pair<double, double> with_cross_axis(std::pair<double, double> along,
+                                          std::pair<double, double> across, double part) {
+    return part == 0.0
+               ? along
+               : std::pair(along.first + part * across.first, along.second + part * across.second);
+}
+
 }  // namespace
 
 PathGrid::PathGrid(const PathWindow& window, int planets, int phases, const SpanLayout& layout)
@@ -90,7 +98,9 @@ PathGrid::PathGrid(const PathWindow& window, const gears::PlanetPlaces& planets,
     tabulate(planets, sense, turn, weight, [&](double angle) {
         const double sine = sense == CarrierSense::negative ? -std::sin(angle) : std::sin(angle),
                      cosine = std::cos(angle);
-        return sensor.tangential ? std::pair(cosine, -sine) : std::pair(sine, cosine);
+        const std::pair radial(sine, cosine), tangential(cosine, -sine);
+        return sensor.tangential ? with_cross_axis(tangential, radial, sensor.cross_axis)
+                                 : with_cross_axis(radial, tangential, sensor.cross_axis);
     });
 }
 
@@ -105,8 +115,12 @@ PathGrid::PathGrid(const RingLoad& load, const gears::PlanetPlaces& planets, int
         const double mirrored = turn.step_rad * static_cast<double>(position) - std::numbers::pi;
         const double angle = n * (sense == CarrierSense::negative ? -mirrored : mirrored);
         const double sine = std::sin(angle), cosine = std::cos(angle);
-        const double radial = sensor.tangential ? share * sine : cosine,
-                     tangential = sensor.tangential ? share * share * cosine : -share * sine;
+        // Weights of radial and tangential load at a radial and at a tangential sensor.
+        const std::pair at_radial(cosine, -share * sine),
+            at_tangential(share * sine, share * share * cosine);
+        const auto [radial, tangential] =
+            sensor.tangential ? with_cross_axis(at_tangential, at_radial, sensor.cross_axis)
+                              : with_cross_axis(at_radial, at_tangential, sensor.cross_axis);
         const double psi = gears::planet_angle(planets, planet);
         return sensor.gain * (along_x ? radial * std::cos(psi) - tangential * std::sin(psi)
                                       : radial * std::sin(psi) + tangential * std::cos(psi));

@@ -51,6 +51,9 @@ struct SensorPlace {
     double angle_deg = 0.0;   // around the axis from that place, in the positive sense
     bool tangential = false;  // measures across the line to the centre
     double gain = 1.0;
+    // Part of the acceleration at right angles to its axis, radial for a tangential sensor, that it
+    // adds to that along its axis.
+    double cross_axis = 0.0;
 };
 
 // One axis of the load that planets put on an elastic ring with a mode of n nodal diameters. With
@@ -82,7 +85,8 @@ struct BearingSource {
 // at -psi_n: g(x) = g(2 pi - x), and sin theta changes its sign.
 //
 // A sensor at the angle beta has theta - beta instead of theta, rounded to 0.01 degree. One that
-// measures along the tangent has cos and -sin instead of sin and cos.
+// measures along the tangent has cos and -sin instead of sin and cos. The cross-axis part adds to
+// these two the other pair times its factor, and likewise for the load on an elastic ring.
 //
 // Only exp(alpha (x - pi)^2) differs between lanes. At a given phase the planet angles are
 // equidistant in c: x - pi = h (m + f) with h = 2 pi / M_c, integer m and a fraction f. Hence

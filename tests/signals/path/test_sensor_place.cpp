@@ -89,6 +89,36 @@ TEST_CASE("A tangential sensor measures at a right angle, and a gain scales its 
     }
 }
 
+TEST_CASE("Cross-axis sensitivity adds its part of the path at right angles") {
+    constexpr double kPart = 0.05;
+    const gears::PlanetPlaces planets = gears::planet_places({.planets = kPlanets});
+    for (const auto sense : {CarrierSense::positive, CarrierSense::negative}) {
+        for (const bool tangential : {false, true}) {
+            const SensorPlace along{.angle_deg = 50.0, .tangential = tangential},
+                across{.angle_deg = 50.0, .tangential = !tangential},
+                both{.angle_deg = 50.0, .tangential = tangential, .cross_axis = kPart};
+            const PathGrid a = grid_of(along, sense), b = grid_of(across, sense),
+                           sum = grid_of(both, sense);
+            for (int c = 0; c < kPositions; ++c) {
+                CHECK(sine_at(sum, 1, c) == sine_at(a, 1, c) + kPart * sine_at(b, 1, c));
+                CHECK(cosine_at(sum, 1, c) == cosine_at(a, 1, c) + kPart * cosine_at(b, 1, c));
+                CHECK(window_at(sum, 1, c, 2) == window_at(a, 1, c, 2));
+            }
+            // The modal load of an elastic ring.
+            const auto ring = [&](const SensorPlace& sensor) {
+                return PathGrid(RingLoad{2, RingLoad::Axis::y}, planets, kPhases, kLayout, sense,
+                                sensor);
+            };
+            const PathGrid ring_a = ring(along), ring_b = ring(across), ring_sum = ring(both);
+            for (int c = 0; c < kPositions; ++c) {
+                CHECK(window_at(ring_sum, 1, c, 2) ==
+                      Approx(window_at(ring_a, 1, c, 2) + kPart * window_at(ring_b, 1, c, 2))
+                          .margin(1e-15));
+            }
+        }
+    }
+}
+
 TEST_CASE("A sensor at the first one's place has the same bits") {
     const PathGrid first(path_window("hamming"), kPlanets, kPhases, kLayout),
         other = grid_of({.gain = 1.0});

@@ -105,6 +105,21 @@ TEST_CASE("Sensors recorded during integration equal those of the kept motion") 
     }
 }
 
+TEST_CASE("Cross-axis sensitivity adds that part of the acceleration at right angles") {
+    const Folder folder;
+    const std::string options = " --set sensor.noise_levels=[0] " +
+                                sensors("{name=\"side\", angle_deg=0, direction=\"tangential\"}");
+    const auto pure = test::signals_of_small(folder, options),
+               mixed =
+                   test::signals_of_small(folder, options + "--set sensor.cross_axis_percent=5 ");
+    const std::vector<double>&radial = pure.at("sensor"), &tangential = pure.at("sensor_side");
+    for (std::size_t i = 0; i < radial.size(); ++i) {
+        REQUIRE(mixed.at("sensor")[i] == Approx(radial[i] + 0.05 * tangential[i]).margin(1e-5));
+        REQUIRE(mixed.at("sensor_side")[i] ==
+                Approx(tangential[i] + 0.05 * radial[i]).margin(1e-5));
+    }
+}
+
 TEST_CASE("Exported samples of an additional sensor have the features of the run") {
     const Folder folder;
     const std::string side = sensors("{name=\"side\", angle_deg=77, noise=3}");
