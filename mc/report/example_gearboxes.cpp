@@ -20,7 +20,6 @@
 #include "mc/numerics/study_scene.hpp"
 #include "mc/plan/scene.hpp"
 #include "mc/results/reliability_of_results.hpp"
-#include "mc/study/fluctuations.hpp"
 #include "signals/noise/sensor_noise.hpp"
 #include "signals/sensor/sensor_signal.hpp"
 #include "signals/spectra/fourier_transform.hpp"
@@ -266,17 +265,17 @@ bool same_bits(std::span<const double> a, std::span<const double> b) {
 }
 
 // Intervals of a planet turn, in mesh periods, in which the faulty tooth is engaged.
-Json engagements(const Scene& scene, double size) {
+Json engagements(const GearboxPlan& gearbox, double size) {
     Json json = Json::array();
-    const lockstep::FaultPattern& pattern = scene.pattern();
-    const int turn = scene.span().planet_teeth;
+    const lockstep::FaultPattern& pattern = gearbox.fault().pattern();
+    const int turn = gearbox.drivetrain->span().planet_teeth;
     for (const lockstep::FaultPassage& passage : pattern.passages) {
-        const auto mesh = scene.fault().mesh(passage.curve, size);
+        const auto mesh = gearbox.fault().mesh(passage.curve, size);
         if (!mesh) {
             continue;
         }
         for (double start = passage.start; start < turn; start += pattern.length) {
-            json.push_back({{"pair", scene.drivetrain().pair_name(passage.pair)},
+            json.push_back({{"pair", gearbox.drivetrain->pair_name(passage.pair)},
                             {"from", start},
                             {"to", start + mesh->duration()}});
         }
@@ -323,8 +322,11 @@ class Examples {
                                              shape.features * shape.levels);
         // Features in Python keep their stored values.
         for (std::size_t f = 0; f < shape.features; ++f) {
-            const features::Feature* known = find_feature(scene_.study(), frame_.features[f].name);
-            if (known != nullptr && known->external) {
+            const bool external =
+                std::ranges::any_of(scene_.features().used, [&](const features::Feature* feature) {
+                    return feature->external && feature->name == frame_.features[f].name;
+                });
+            if (external) {
                 std::copy_n(stored.begin() + static_cast<std::ptrdiff_t>(f * shape.levels),
                             shape.levels,
                             values.begin() + static_cast<std::ptrdiff_t>(f * shape.levels));
@@ -335,7 +337,7 @@ class Examples {
                   {"size", row.size},
                   {"mesh_period_s", period_s},
                   {"same_bits", same_bits(values, stored)},
-                  {"engagements", engagements(scene_, row.size)},
+                  {"engagements", engagements(scene_.gearbox(), row.size)},
                   {"te",
                    {{"clean", time_json(te_turn, scene_.te_samples_per_mesh())},
                     {"noisy", time_json(levels[level_].te_turn, scene_.te_samples_per_mesh())}}},
@@ -359,7 +361,7 @@ class Examples {
             json.update(sensor_json(scene_.sensors().front(), signals, features_,
                                     levels[level_].tooth_rms, period_s));
             json["additional_sensors"] = additional_sensors(tile, period_s);
-            if (speed_fluctuates(scene_.study())) {
+            if (scene_.gearbox().excitation && scene_.gearbox().excitation->speed) {
                 json["spectrogram"] = spectrogram(id);
             }
         }
@@ -440,7 +442,7 @@ class Examples {
         };
         constexpr double kBeyondBand = 1.25;  // of the low-pass
         return spectrogram_json(column("time"), column("sensor"), scene_.samples_per_mesh(),
-                                kBeyondBand * scene_.study().sensor.low_pass_Hz);
+                                kBeyondBand * scene_.features().low_pass_Hz);
     }
 
     Json additional_sensors(const GearboxTile& tile, double period_s) const {
@@ -486,58 +488,59 @@ Json gearboxes_json(const Scene& scene, const Results& frame, const RowSource& r
     return json;
 }
 
-Json healthy_curves(const Scene& scene) {
+Json healthy_curves(const GearboxPlan& gearbox) {
     Json pairs = Json::array();
-    for (int pair = 0; pair < scene.pairs().pairs(); ++pair) {
+    for (int pair = 0; pair < gearbox.pairs().pairs(); ++pair) {
         Json values = Json::array();
         for (int i = 0; i < kStiffnessPoints; ++i) {
-            values.push_back(scene.pairs().total(pair, static_cast<double>(i) / kStiffnessPoints));
+            values.push_back(
+                gearbox.pairs().total(pair, static_cast<double>(i) / kStiffnessPoints));
         }
-        pairs.push_back({{"name", scene.drivetrain().pair_name(pair)}, {"stiffness", values}});
+        pairs.push_back({{"name", gearbox.drivetrain->pair_name(pair)}, {"stiffness", values}});
     }
     return pairs;
 }
 
 // Mesh stiffness from a quarter mesh period before the faulty tooth engages to a quarter after it
 // disengages.
-Json passage_json(const Scene& scene, int curve, int pair, std::vector<double> sizes) {
-    Json json{{"pair", scene.drivetrain().pair_name(pair)},
+Json passage_json(const GearboxPlan& gearbox, int curve, int pair, std::vector<double> sizes) {
+    Json json{{"pair", gearbox.drivetrain->pair_name(pair)},
               {"mesh", Json::array()},
               {"healthy", Json::array()},
               {"faulty", Json::array()}};
     double duration = 0.0;
     for (const double size : sizes) {
-        duration = std::max(duration, scene.fault().mesh(curve, size)->duration());
+        duration = std::max(duration, gearbox.fault().mesh(curve, size)->duration());
     }
-    const double start = scene.pairs().start[static_cast<std::size_t>(pair)];
+    const double start = gearbox.pairs().start[static_cast<std::size_t>(pair)];
     const int last = static_cast<int>(std::ceil((duration + 0.25) * kStiffnessPoints));
     const auto since = [](int i) { return static_cast<double>(i) / kStiffnessPoints; };
     for (int i = -kStiffnessPoints / 4; i <= last; ++i) {
         json["mesh"].push_back(since(i));
-        json["healthy"].push_back(scene.pairs().total(pair, start + since(i)));
+        json["healthy"].push_back(gearbox.pairs().total(pair, start + since(i)));
     }
     for (const double size : sizes) {
-        const auto mesh = scene.fault().mesh(curve, size);
+        const auto mesh = gearbox.fault().mesh(curve, size);
         Json values = Json::array();
         for (int i = -kStiffnessPoints / 4; i <= last; ++i) {
-            values.push_back(faulty_total(scene.pairs(), pair, *mesh, since(i)));
+            values.push_back(faulty_total(gearbox.pairs(), pair, *mesh, since(i)));
         }
         json["faulty"].push_back({{"size", size}, {"stiffness", values}});
     }
     return json;
 }
 
-Json stiffness_json(const Scene& scene) {
+Json stiffness_json(const GearboxPlan& gearbox) {
     Json json{{"refusal", nullptr}, {"mesh", Json::array()}, {"passages", Json::array()}};
     for (int i = 0; i < kStiffnessPoints; ++i) {
         json["mesh"].push_back(static_cast<double>(i) / kStiffnessPoints);
     }
-    json["pairs"] = healthy_curves(scene);
-    const std::vector<int> pairs = faulty_pairs(scene.fault());
-    const std::vector<double> sizes = scene.fault().plan().sizes;
-    for (int curve = 0; curve < scene.fault().curves() && !sizes.empty(); ++curve) {
+    json["pairs"] = healthy_curves(gearbox);
+    const std::vector<int> pairs = faulty_pairs(gearbox.fault());
+    const std::vector<double> sizes = gearbox.fault().plan().sizes;
+    for (int curve = 0; curve < gearbox.fault().curves() && !sizes.empty(); ++curve) {
         json["passages"].push_back(
-            passage_json(scene, curve, pairs[static_cast<std::size_t>(curve)], sizes));
+            passage_json(gearbox, curve, pairs[static_cast<std::size_t>(curve)], sizes));
     }
     return json;
 }
@@ -571,7 +574,7 @@ nlohmann::json examples_json(const Results& frame, const RowSource& rows) {
                             format(made.problems));
     }
     return {{"examples", or_refusal([&] { return gearboxes_json(*made.scene, frame, rows); })},
-            {"stiffness", or_refusal([&] { return stiffness_json(*made.scene); })}};
+            {"stiffness", or_refusal([&] { return stiffness_json(made.scene->gearbox()); })}};
 }
 
 }  // namespace gearpod::mc
