@@ -242,7 +242,8 @@ RealizationFeatures::RealizationFeatures(const Scene& scene, const HealthyRefere
                                          bool python, std::uint64_t sensor)
     : RealizationSignals(scene.record(), scene.features(), scene.sensors()[sensor],
                          scene.features().needs.record),
-      scene_(scene),
+      plan_(scene.record()),
+      rows_(scene.draw().rows),
       features_(scene.features().used),
       python_(scene.record(), scene.features(),
               python ? features_ : std::vector<const features::Feature*>()),
@@ -263,10 +264,9 @@ RealizationFeatures::RealizationFeatures(const Scene& scene, const HealthyRefere
 
 void RealizationFeatures::load(const LaneSignals& gearbox, const Realization& realization) {
     RecordWindow window;
-    if (scene_.record().length) {
-        window = record_window(scene_.record(), realization.id,
-                               scene_.record().turns(realization.inputs));
-        record_ = cut_record(scene_.record(), gearbox, window, keeps_samples());
+    if (plan_.length) {
+        window = record_window(plan_, realization.id, plan_.turns(realization.inputs));
+        record_ = cut_record(plan_, gearbox, window, keeps_samples());
         RealizationSignals::load(record_, realization);
     } else {
         RealizationSignals::load(gearbox, realization);
@@ -295,11 +295,10 @@ void RealizationFeatures::load_baselines(const LaneSignals& gearbox, const Reali
         }
         const bool samples = baseline.signals.keeps_samples();
         baseline.cut =
-            cut_record(scene_.record(), signals,
-                       record_window(scene_.record(), earlier.id, window.turns), samples);
+            cut_record(plan_, signals, record_window(plan_, earlier.id, window.turns), samples);
         baseline.signals.load(baseline.cut, earlier);
         if (change_) {
-            baseline.aligned = cut_record(scene_.record(), signals, window, samples);
+            baseline.aligned = cut_record(plan_, signals, window, samples);
         }
     }
 }
@@ -314,9 +313,8 @@ void RealizationFeatures::load_change(const LaneSignals& gearbox, const Realizat
         noises.push_back(
             {&baseline.signals.noise(), noise_m_s2 > 0.0 ? baseline.noise_m_s2 / noise_m_s2 : 1.0});
     }
-    changed_ = change_since_baseline(scene_.record(), record(), before);
-    change_->load(changed_, realization.inputs,
-                  noise_of_change(scene_.record(), changed_, noise(), noises));
+    changed_ = change_since_baseline(plan_, record(), before);
+    change_->load(changed_, realization.inputs, noise_of_change(plan_, changed_, noise(), noises));
 }
 
 std::vector<double> RealizationFeatures::compute(const LaneSignals& gearbox,
@@ -349,7 +347,7 @@ std::vector<double> RealizationFeatures::compute(const LaneSignals& gearbox,
                 return copy;
             };
             signals->push_back(
-                {from_first_tooth(input.get<features::TeTurn>().turn, scene_.te_samples_per_mesh()),
+                {from_first_tooth(input.get<features::TeTurn>().turn, plan_.te_samples),
                  from_first_tooth(input.get<features::ToothRms<Member::planet>>().rms, 1)});
         }
         for (std::size_t f = 0; f < features_.size(); ++f) {
@@ -358,7 +356,7 @@ std::vector<double> RealizationFeatures::compute(const LaneSignals& gearbox,
             }
         }
         if (!python_.empty()) {
-            python_.add(scene_.record().noise_levels[level], realization.inputs, input);
+            python_.add(plan_.noise_levels[level], realization.inputs, input);
         }
     }
     if (!python_.empty()) {
@@ -373,9 +371,9 @@ std::vector<double> RealizationFeatures::compute(const LaneSignals& gearbox,
 void RealizationFeatures::add_python_values(const Realization& realization,
                                             std::vector<double>& values) {
     const GearboxId& id = realization.id;
-    const std::string work = fmt::format("{} gearbox {}, row {} of the results",
-                                         id.group == Group::threshold ? "healthy" : "test",
-                                         id.index, scene_.draw().rows.row_of(id));
+    const std::string work =
+        fmt::format("{} gearbox {}, row {} of the results",
+                    id.group == Group::threshold ? "healthy" : "test", id.index, rows_.row_of(id));
     const std::vector<double> own = python_.compute(work);
     print_python_problems(python_.problems(), work);
     std::size_t next = 0;

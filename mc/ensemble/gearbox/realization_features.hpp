@@ -126,7 +126,8 @@ class RealizationFeatures : public RealizationSignals {
                         const RecordWindow& window);
     void load_change(const LaneSignals& gearbox, const Realization& realization);
 
-    const Scene& scene_;
+    const RecordPlan& plan_;
+    const RowOrder rows_;
     std::vector<const features::Feature*> features_;
     PythonFeatures python_;
     const HealthyReference* healthy_;

@@ -13,7 +13,6 @@
 #include "mc/ensemble/gearbox/realization_features.hpp"
 #include "mc/ensemble/gearbox/tile_random_inputs.hpp"
 #include "mc/results/layout.hpp"
-#include "mc/study/fluctuations.hpp"
 
 namespace gearpod::mc {
 namespace {
@@ -41,9 +40,10 @@ std::vector<double> unroll(const GearboxTile& tile, int samples, MeshRange meshe
     return all;
 }
 
-void add_motion(const Scene& scene, const GearboxTile& tile, MeshRange meshes, Simulation& out) {
-    const auto names = dynamics::motion_names(scene.plan().layout);
-    const int samples = scene.samples_per_mesh();
+void add_motion(const lockstep::IntegrationPlan& plan, const Drivetrain& drivetrain,
+                const GearboxTile& tile, MeshRange meshes, Simulation& out) {
+    const auto names = dynamics::motion_names(plan.layout);
+    const int samples = plan.grid.samples;
     const std::size_t lanes = tile.realizations.size();
     out.columns.push_back({"te", "rad", unroll(tile, samples, meshes, [&](const auto& r, auto p) {
                                return r.te[p * lanes];
@@ -54,9 +54,9 @@ void add_motion(const Scene& scene, const GearboxTile& tile, MeshRange meshes, S
                  return r.motion[(p * names.size() + d) * lanes];
              })});
     }
-    const auto pairs = static_cast<std::size_t>(scene.plan().nodes.pairs);
+    const auto pairs = static_cast<std::size_t>(plan.nodes.pairs);
     for (std::size_t pair = 0; pair < pairs; ++pair) {
-        out.columns.push_back({scene.drivetrain().pair_name(static_cast<int>(pair)) + "_force", "N",
+        out.columns.push_back({drivetrain.pair_name(static_cast<int>(pair)) + "_force", "N",
                                unroll(tile, samples, meshes, [&](const auto& r, auto p) {
                                    return r.mesh_force[(p * pairs + pair) * lanes];
                                })});
@@ -64,14 +64,14 @@ void add_motion(const Scene& scene, const GearboxTile& tile, MeshRange meshes, S
 }
 
 // Adds the samples of a record without and with noise. `signals` are those of the whole signal.
-void add_sensor(const Scene& scene, const SensorPlan& sensor, const Realization& realization,
+void add_sensor(const RecordPlan& plan, const SensorPlan& sensor, const Realization& realization,
                 LaneSignals signals, const RealizationFeatures& features, const std::string& name,
                 std::size_t rows, Simulation& out) {
-    const LaneSignals record = drawn_record(scene.record(), std::move(signals), realization);
+    const LaneSignals record = drawn_record(plan, std::move(signals), realization);
     const std::vector<double>& clean = record.sensor;
     const auto noise =
-        sample_noise(scene.record(), sensor.noise(), realization, clean, features.noise().sensor,
-                     record.turns > 0 ? record.turns : scene.record().span.ring_teeth);
+        sample_noise(plan, sensor.noise(), realization, clean, features.noise().sensor,
+                     record.turns > 0 ? record.turns : plan.span.ring_teeth);
     const auto add_column = [&](std::string column, std::vector<double> samples) {
         if (const auto* range = sensor.find<RangeStage>()) {
             range->clip(samples);
@@ -92,7 +92,8 @@ void add_sensors(const Scene& scene, const GearboxTile& tile, const RealizationF
                  std::size_t rows, Simulation& out) {
     const Realization& realization = tile.realizations[0];
     const LaneSignals all = lane_signals(scene, tile, 0, scene.record().signal_meshes);
-    add_sensor(scene, scene.sensors().front(), realization, all, features, "sensor", rows, out);
+    add_sensor(scene.record(), scene.sensors().front(), realization, all, features, "sensor", rows,
+               out);
     if (scene.ensemble().has_other_fault()) {
         LaneSignals other =
             with_other_fault(scene, std::span(&realization, 1), std::span(&all, 1)).front();
@@ -109,38 +110,36 @@ void add_sensors(const Scene& scene, const GearboxTile& tile, const RealizationF
         SensorSignals signals =
             signals_of_sensor(sensor, lane_signals(scene, tile, 0, sensor_features.meshes()));
         sensor_features.compute(signals.linked(), here);
-        add_sensor(scene, sensor, here, signals_of_sensor(sensor, all).record, sensor_features,
-                   kSensorVariant + sensor.name, rows, out);
+        add_sensor(scene.record(), sensor, here, signals_of_sensor(sensor, all).record,
+                   sensor_features, kSensorVariant + sensor.name, rows, out);
     }
 }
 
 // Time of every sample, s. A fluctuating speed makes the spacing uneven.
-std::vector<double> sample_times(const Scene& scene, const Realization& realization,
+std::vector<double> sample_times(const GearboxPlan& gearbox, const SolvePlan& solve,
+                                 const RecordPlan& record, const Realization& realization,
                                  MeshRange meshes) {
-    const auto& grid = scene.plan().grid;
-    const dynamics::GearboxInputs own = scene.inputs(realization.inputs);
     std::vector<double> times;
-    if (!speed_fluctuates(scene.study())) {
-        const double period_s = dynamics::mesh_period_s(own);
-        const int samples = scene.samples_per_mesh();
-        for (long i = 0; i < meshes.count * samples; ++i) {
-            times.push_back(static_cast<double>(i) / samples * period_s);
+    if (!gearbox.excitation || !gearbox.excitation->speed) {
+        const double period_s = record.mesh_period_s(realization.inputs);
+        for (long i = 0; i < meshes.count * record.samples; ++i) {
+            times.push_back(static_cast<double>(i) / record.samples * period_s);
         }
         return times;
     }
     // Not every program is built for one lane.
     const auto lanes =
         static_cast<std::size_t>(lockstep::lanes_for(Precision::double_precision, 1));
-    const std::vector<dynamics::GearboxInputs> inputs(lanes, own);
+    const std::vector<dynamics::GearboxInputs> inputs(lanes, gearbox.inputs(realization.inputs));
     const auto excitation =
-        draw_excitation(scene.gearbox(), scene.draw().seed,
-                        {scene.solve().longest_run_in(), scene.record().signal_meshes},
+        draw_excitation(gearbox, record.seed, {solve.longest_run_in(), record.signal_meshes},
                         std::vector<Realization>(lanes, realization));
-    lockstep::ExcitationRows rows(scene.plan(), *excitation, inputs, /*with_time=*/true);
+    const lockstep::IntegrationPlan& plan = solve.integration();
+    lockstep::ExcitationRows rows(plan, *excitation, inputs, /*with_time=*/true);
     for (long mesh = meshes.first; mesh < meshes.first + meshes.count; ++mesh) {
         rows.fill(static_cast<int>(mesh));
-        for (std::size_t step = 0; step < grid.steps.size(); ++step) {
-            if (grid.steps[step].sample >= 0) {
+        for (std::size_t step = 0; step < plan.grid.steps.size(); ++step) {
+            if (plan.grid.steps[step].sample >= 0) {
                 times.push_back(*rows.time(static_cast<int>(step)));
             }
         }
@@ -174,11 +173,13 @@ Simulation simulate(const Scene& scene, const GearboxId& id, long meshes) {
     RealizationFeatures features(scene, &healthy);
     Simulation out;
     out.noise_levels = scene.record().noise_levels;
-    out.feature_names = scene.study().features.use;
+    for (const features::Feature* feature : scene.features().used) {
+        out.feature_names.emplace_back(feature->name);
+    }
     out.features =
         features.compute(lane_signals(scene, tile, 0, features.meshes()), tile.realizations[0]);
 
-    const int samples = scene.samples_per_mesh();
+    const int samples = scene.record().samples;
     const auto inputs = scene.inputs(tile.realizations[0].inputs);
     const auto rows = static_cast<std::size_t>(meshes) * static_cast<std::size_t>(samples);
     Column time{"time", "s", {}}, phase{"mesh_phase", "mesh periods", {}},
@@ -189,17 +190,18 @@ Simulation simulate(const Scene& scene, const GearboxId& id, long meshes) {
         phase.values.push_back(mesh);
         angle.values.push_back(mesh * period_s * dynamics::frame_speed_rad_s(inputs));
     }
-    time.values = sample_times(scene, tile.realizations[0], range);
+    time.values =
+        sample_times(scene.gearbox(), scene.solve(), scene.record(), tile.realizations[0], range);
     out.columns = {time, phase};
-    if (scene.study().gearbox.kind == GearboxKind::planetary) {
+    if (scene.gearbox().kind == GearboxKind::planetary) {
         out.columns.push_back(angle);
     }
-    if (!scene.study().effects.quasi_static()) {
+    if (scene.features().sensor) {
         add_sensors(scene, tile, features, rows, out);
     }
-    add_motion(scene, tile, range, out);
+    add_motion(scene.solve().integration(), scene.drivetrain(), tile, range, out);
     if (!tile.integration.contact_loss.empty()) {
-        const auto meshes_of_kind = meshes_of(scene.study().gearbox.kind);
+        const auto meshes_of_kind = scene.gearbox().meshes();
         const auto loss = contact_loss(tile, 0, meshes_of_kind.size());
         for (std::size_t m = 0; m < loss.size(); ++m) {
             out.contact_loss.push_back({mesh_name(meshes_of_kind[m]), {loss[m]}});
