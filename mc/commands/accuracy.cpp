@@ -53,7 +53,7 @@ int accuracy_command(const AccuracyOptions& options) {
         if (!terminal) {
             fmt::print("{}", accuracy_text(report));
         }
-        const std::string json = accuracy_json(report, made.scene->study());
+        const std::string json = accuracy_json(report, made.scene->ensemble());
         if (!options.json.empty() && !write_text_to(options.json, json)) {
             return kBadInput;
         }

@@ -7,7 +7,6 @@
 #include <numbers>
 #include <optional>
 
-#include "analysis/detection/false_alarm_rate.hpp"
 #include "analysis/report/false_alarm_text.hpp"
 #include "features/feature.hpp"
 #include "lockstep/integrators/facts.hpp"
@@ -30,7 +29,6 @@
 #include "mc/report/description/describe_forecast.hpp"
 #include "mc/report/description/describe_lives.hpp"
 #include "mc/report/description/terminal_text.hpp"
-#include "mc/study/false_alarm_target.hpp"
 #include "mc/study/gears.hpp"
 #include "mc/study/schema/schema.hpp"
 
@@ -46,23 +44,21 @@ struct DescribeOptions {
 };
 
 // Prints the lengths of graded time steps and where the short ones lie.
-void print_steps(const Scene& scene) {
-    const lockstep::PhaseGrid& grid = scene.plan().grid;
+void print_steps(const lockstep::PhaseGrid& grid, const Calibration& how,
+                 const std::vector<double>& transitions, double tolerance) {
     const auto [shortest, longest] = std::minmax_element(grid.lengths.begin(), grid.lengths.end());
     print_entry("step lengths", fmt::format("{:.3g} to {:.3g} mesh periods, {} different lengths",
                                             *shortest, *longest, grid.lengths.size()));
-    const Calibration& how = *scene.calibration();
     print_entry("calibrated by",
                 fmt::format("pilot run of {} gearboxes: signal error {:.2g} rms (allowed: {:g})",
-                            lockstep::kPilotLanes, how.signal_error,
-                            scene.study().numerics.grid_tolerance));
+                            lockstep::kPilotLanes, how.signal_error, tolerance));
     print_entry("graded steps",
                 fmt::format("{:.3g} after a transition, then up to {:g} of the phase since the "
                             "transition, never more than {:.3g}",
                             how.grading.first, how.grading.growth, how.grading.longest));
     std::vector<double> since;
     for (const lockstep::Step& step : grid.steps) {
-        since.push_back(lockstep::since_transition(scene.transitions(), step.phase));
+        since.push_back(lockstep::since_transition(transitions, step.phase));
     }
     std::sort(since.begin(), since.end());
     print_entry("short steps",
@@ -71,60 +67,35 @@ void print_steps(const Scene& scene) {
                             since[since.size() / 2]));
 }
 
-// Prints if the number of healthy gearboxes suffices for the false-alarm rate. This needs no
-// simulation.
-void print_false_alarms(const Study& study) {
-    const double rate = study.detection.false_alarm_rate, confidence = study.detection.confidence;
-    const long healthy = study.ensemble.threshold_instances,
-               records = study.ensemble.threshold_records;
-    print_heading("false alarms");
-    if (const std::string target = false_alarm_target_text(study); !target.empty()) {
-        print_entry("in time", target);
-    }
-    print_entry("methods", analysis::threshold_methods_text(rate, confidence));
-    if (const std::string shortage = shortage_of(EnsemblePlan(study)); !shortage.empty()) {
-        print_paragraph(shortage);
-        return;
-    }
-    const analysis::Interval found = analysis::threshold_rate_interval(
-        healthy * (study.ensemble.uses_importance_sampling() ? 1 : records), rate, confidence);
-    print_entry("rate",
-                fmt::format("{:g}; with {}{} healthy gearboxes the true rate is between {:.2g} and "
-                            "{:.2g} at {:g} % confidence{}",
-                            rate, records > 1 ? fmt::format("{} records of each of ", records) : "",
-                            healthy, found.lower, found.upper, 100.0 * confidence,
-                            records > 1 ? ", if the records differ mainly by their noise" : ""));
-}
-
-void print_python_features(const Study& study) {
-    if (study.features.python.empty()) {
+void print_python_features(const std::vector<PythonFeature>& all) {
+    if (all.empty()) {
         return;
     }
     print_heading("features in Python");
-    for (const PythonFeature& one : study.features.python) {
-        const features::Feature& feature = *one.feature;
+    for (const PythonFeature& python : all) {
+        const features::Feature& feature = *python.feature;
         print_entry(std::string(feature.name),
                     fmt::format("{}unit {}, {} values alarm; {}",
                                 feature.title.empty() ? "" : std::string(feature.title) + "; ",
-                                feature.unit, analysis::alarm_name(feature.alarm), one.file));
+                                feature.unit, analysis::alarm_name(feature.alarm), python.file));
     }
 }
 
-void print_cost(const Scene& scene, const std::optional<NumericsChoice>& choice) {
-    const Study& study = scene.study();
-    const auto& plan = scene.plan();
+void print_cost(const GearboxPlan& gearbox, const SolvePlan& solve, const RecordPlan& record,
+                const EnsemblePlan& ensemble, const Numerics& numerics,
+                const std::optional<NumericsChoice>& choice) {
+    const lockstep::IntegrationPlan& plan = solve.integration();
     print_heading("cost");
     print_entry("degrees of freedom", std::to_string(dynamics::degrees_of_freedom(plan.layout)));
     print_entry("samples per mesh period",
-                study.effects.quasi_static()
-                    ? fmt::format("{} (encoders)", scene.te_samples_per_mesh())
-                    : fmt::format("{} (sensor), {} (encoders)", scene.samples_per_mesh(),
-                                  scene.te_samples_per_mesh()));
-    print_entry("sampling rate", fmt::format("{:.1f} Hz", scene.samples_per_mesh() *
-                                                              scene.nominal_mesh_frequency_Hz()));
-    if (!study.effects.quasi_static()) {
+                solve.settings.quasi_static
+                    ? fmt::format("{} (encoders)", record.te_samples)
+                    : fmt::format("{} (sensor), {} (encoders)", record.samples, record.te_samples));
+    print_entry("sampling rate",
+                fmt::format("{:.1f} Hz", record.samples * record.mesh_frequency_Hz));
+    if (!solve.settings.quasi_static) {
         const std::string least =
-            scene.least_steps() > 1 ? fmt::format(" (at least {})", scene.least_steps()) : "";
+            solve.stepping().least > 1 ? fmt::format(" (at least {})", solve.stepping().least) : "";
         print_entry("steps per mesh period", fmt::format("{}{}, {}", plan.grid.steps.size(), least,
                                                          lockstep::name(plan.integrator)));
     }
@@ -134,49 +105,47 @@ void print_cost(const Scene& scene, const std::optional<NumericsChoice>& choice)
             fmt::format("{} natural modes of up to {:.0f} Hz have so much more inertia that "
                         "they lie at {:g} Hz",
                         inertia.modes, inertia.fastest_rad_s / (2.0 * std::numbers::pi),
-                        study.numerics.mass_scaling_Hz));
+                        numerics.mass_scaling_Hz));
     }
     if (choice) {
         print_entry("chosen for the tolerance", choice->text());
     }
-    if (const int pairs = study.numerics.paired_gearboxes; pairs > 0) {
+    if (const int pairs = numerics.paired_gearboxes; pairs > 0) {
         print_entry(
             "computed twice",
             fmt::format("up to {} healthy and {} faulty gearboxes after the run, to correct "
                         "for the error of the steps",
                         pairs, pairs));
     }
-    if (scene.calibration()) {
-        print_steps(scene);
+    if (const auto& calibration = solve.steps->calibration) {
+        print_steps(plan.grid, *calibration, gearbox.stiffness->transitions(),
+                    numerics.grid_tolerance);
     }
     if (plan.precision == lockstep::Precision::single_precision) {
         print_entry("precision", "single within a mesh period, double between mesh periods");
-        print_entry(
-            "convergence",
-            fmt::format("to the periodic orbit within {:g} (requested: {:g})",
-                        scene.solve().convergence.tolerance, study.numerics.convergence_tolerance));
+        print_entry("convergence",
+                    fmt::format("to the periodic orbit within {:g} (requested: {:g})",
+                                solve.convergence.tolerance, numerics.convergence_tolerance));
     }
-    print_entry("record", record_length_text(scene.record()));
-    print_entry(
-        "mesh periods integrated",
-        fmt::format("about {:.0f}; the signals span {}{}{}", scene.solve().integrated_meshes,
-                    scene.span_meshes(),
-                    std::holds_alternative<Superposed>(scene.solve().strategy)
-                        ? fmt::format("; {:.0f} without the fault", scene.solve().healthy_meshes)
-                        : "",
-                    compares_records(study) ? "; more for the baseline record" : ""));
+    print_entry("record", record_length_text(record));
+    print_entry("mesh periods integrated",
+                fmt::format("about {:.0f}; the signals span {}{}{}", solve.integrated_meshes,
+                            record.span.meshes(),
+                            std::holds_alternative<Superposed>(solve.strategy)
+                                ? fmt::format("; {:.0f} without the fault", solve.healthy_meshes)
+                                : "",
+                            record.baselines > 0 ? "; more for the baseline record" : ""));
     print_entry(
         "gearboxes",
         fmt::format(
-            "{} to test and {} for the thresholds{}, {} noise level{}", study.ensemble.instances,
-            study.ensemble.threshold_instances,
-            study.ensemble.threshold_records > 1
-                ? fmt::format(
-                      " ({} {}records of each)", study.ensemble.threshold_records,
-                      study.ensemble.uses_importance_sampling() ? "exponentially tilted " : "")
+            "{} to test and {} for the thresholds{}, {} noise level{}", ensemble.test_gearboxes,
+            ensemble.threshold_gearboxes,
+            ensemble.threshold_records > 1
+                ? fmt::format(" ({} {}records of each)", ensemble.threshold_records,
+                              ensemble.request.importance_sampling ? "exponentially tilted " : "")
                 : "",
-            study.sensor.noise_levels.size(), study.sensor.noise_levels.size() == 1 ? "" : "s"));
-    const std::optional<std::size_t> distinct = scene.solve().settings.distinct_integrations;
+            record.noise_levels.size(), record.noise_levels.size() == 1 ? "" : "s"));
+    const std::optional<std::size_t> distinct = solve.settings.distinct_integrations;
     print_entry("distinct solutions",
                 distinct ? fmt::format("{}; gearboxes that differ only in path exponent and noise "
                                        "share one time integration",
@@ -263,7 +232,7 @@ int describe_command(const DescribeOptions& options) {
         return kDone;
     }
     const Planner planner(*study);
-    print_false_alarms(*study);
+    print_section(false_alarm_description(*study));
     std::fflush(stdout);
     const auto start = WallClock::now();
     const char* missing =
@@ -281,13 +250,14 @@ int describe_command(const DescribeOptions& options) {
         const double setup_s = seconds_since(start);
         scene.emplace(*made.scene);
         memory.setup_bytes = peak_memory_bytes();
-        print_python_features(*study);
+        print_python_features(scene->features().python);
         for (const DescriptionSection& section : description_of(*scene)) {
             print_section(section);
         }
         print_life(*scene);
         missing = "cost";
-        print_cost(*scene, made.choice);
+        print_cost(scene->gearbox(), scene->solve(), scene->record(), scene->ensemble(),
+                   scene->study().numerics, made.choice);
         std::fflush(stdout);
         missing = "computing some gearboxes and their analysis for the forecast";
         before_bytes = peak_memory_bytes();

@@ -4,27 +4,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <variant>
 
 #include "lockstep/integrators/facts.hpp"
 #include "mc/study/keys/schema_line.hpp"
-#include "mc/study/schema/schema.hpp"
-#include "mc/study/study.hpp"
 
 namespace gearpod::mc {
-namespace {
-
-// "precision=single": an assignment as a study file has it, but without quotation marks.
-std::string option_text(const Numerics& numerics, std::string_view option) {
-    Study study;
-    study.numerics = numerics;
-    const auto* const number = std::get_if<NumberAccess>(&find_key("numerics", option)->access);
-    return number != nullptr ? fmt::format("{}={:g}", option, number->get(study).value())
-                             : fmt::format("{}={}", option, choice_text(study, "numerics", option));
-}
-
-}  // namespace
-
 bool SolverSetting::chooses(std::string_view option) const {
     return std::ranges::find(options, option) != options.end();
 }
@@ -45,7 +29,7 @@ std::vector<std::string> SolverSetting::overrides() const {
         fmt::format("numerics.steps_per_mesh={}", numerics.steps_per_mesh),
         fmt::format("numerics.settle_tolerance={:g}", numerics.convergence_tolerance)};
     for (const std::string_view option : options) {
-        all.push_back("numerics." + option_text(numerics, option));
+        all.push_back("numerics." + numerics_text(numerics, option));
     }
     return all;
 }
@@ -56,7 +40,7 @@ std::string SolverSetting::text() const {
                                    steps > 0 ? fmt::format("{} steps, ", steps) : "",
                                    numerics.convergence_tolerance);
     for (const std::string_view option : options) {
-        text += ", " + option_text(numerics, option);
+        text += ", " + numerics_text(numerics, option);
     }
     return text;
 }

@@ -1,5 +1,8 @@
 #include "mc/numerics/study_scene.hpp"
 
+#include <algorithm>
+#include <array>
+#include <iterator>
 #include <stdexcept>
 
 #include "lockstep/kernels/kernel_table.hpp"
@@ -27,18 +30,6 @@ void choose_numerics_of_stages(Study& study) {
         resolved.numerics = resolve_numerics(Planner(studies[i]), studies[i].numerics).numerics;
         stage.text = resolved_text(resolved);
         stage.study = std::make_shared<const Study>(std::move(resolved));
-    }
-}
-
-// An elastic shaft sets the torque of its stage, so that the loads are in balance.
-void add_torque_notices(const Study& study, const std::string& name, Problems& notices) {
-    for (const NeighbourStage& stage : study.sensor.stages) {
-        if (stage.coupled() && stage.study->find_random("operation.torque_N_m") != nullptr) {
-            notices.push_back({name, 0, "sensor.stages",
-                               "the random torque of stage \"" + stage.name +
-                                   "\" is not used: its shaft sets the torque",
-                               ""});
-        }
     }
 }
 
@@ -83,9 +74,9 @@ StudyScene make_scene(const std::string& name, StudyReading reading) {
                         {},
                         std::move(reading.notices)};
         check_stages(made.scene->study(), *made.scene);
-        add_torque_notices(*reading.study, name, made.notices);
-        for (Problem& warning : load_warnings(*reading.study, name)) {
-            made.notices.push_back(std::move(warning));
+        for (Problems& more :
+             std::array{stage_notices(*reading.study, name), load_warnings(*reading.study, name)}) {
+            std::ranges::move(more, std::back_inserter(made.notices));
         }
         return made;
     } catch (const SceneError& error) {

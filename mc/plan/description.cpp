@@ -8,8 +8,12 @@
 #include <numbers>
 #include <set>
 
+#include "analysis/detection/false_alarm_rate.hpp"
+#include "analysis/report/false_alarm_text.hpp"
+#include "mc/plan/ensemble_plan.hpp"
 #include "mc/plan/mesh_loads.hpp"
 #include "mc/plan/scene.hpp"
+#include "mc/study/false_alarm_target.hpp"
 #include "mc/study/fluctuations.hpp"
 #include "mc/study/gears.hpp"
 #include "mc/study/housing.hpp"
@@ -788,6 +792,31 @@ std::string contact_ratio_text(const stiffness::MeshStiffness& mesh) {
         text += fmt::format(", {:.4f} with corner contact", mesh.contact_ratio());
     }
     return text;
+}
+
+DescriptionSection false_alarm_description(const Study& study) {
+    const EnsemblePlan plan(study);
+    const double rate = plan.request.false_alarm_rate, confidence = plan.request.confidence;
+    const long healthy = plan.threshold_gearboxes, records = plan.threshold_records;
+    DescriptionSection section{"false alarms", {}};
+    if (const std::string target = false_alarm_target_text(study); !target.empty()) {
+        section.entries.push_back({"in time", target});
+    }
+    section.entries.push_back({"methods", analysis::threshold_methods_text(rate, confidence)});
+    if (const std::string shortage = plan.healthy_shortage(); !shortage.empty()) {
+        section.entries.push_back({"", shortage});
+        return section;
+    }
+    const analysis::Interval found = analysis::threshold_rate_interval(
+        healthy * (plan.request.importance_sampling ? 1 : records), rate, confidence);
+    section.entries.push_back(
+        {"rate",
+         fmt::format("{:g}; with {}{} healthy gearboxes the true rate is between {:.2g} and {:.2g} "
+                     "at {:g} % confidence{}",
+                     rate, records > 1 ? fmt::format("{} records of each of ", records) : "",
+                     healthy, found.lower, found.upper, 100.0 * confidence,
+                     records > 1 ? ", if the records differ mainly by their noise" : "")});
+    return section;
 }
 
 std::vector<DescriptionSection> description_of(const Scene& plan) {

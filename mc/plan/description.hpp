@@ -10,6 +10,7 @@
 namespace gearpod::mc {
 
 class Scene;
+struct Study;
 
 struct DescriptionEntry {
     std::string name, text;  // without a name: a paragraph
@@ -19,6 +20,10 @@ struct DescriptionSection {
     std::vector<DescriptionEntry> entries;
 };
 std::vector<DescriptionSection> description_of(const Scene& plan);
+
+// States whether the number of healthy gearboxes suffices for the false-alarm rate. This needs no
+// plan.
+DescriptionSection false_alarm_description(const Study& study);
 
 // Contact ratio on the nominal path, its parts for helical teeth, and the time that a tooth pair
 // may touch if corner contact extends the path.

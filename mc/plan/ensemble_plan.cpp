@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <charconv>
 
+#include "analysis/report/false_alarm_text.hpp"
 #include "mc/plan/record_plan.hpp"
 #include "mc/study/gears.hpp"
 #include "mc/study/other_sources.hpp"
@@ -191,6 +192,12 @@ EnsemblePlan::EnsemblePlan(const Study& study_)
     for (const analysis::SizeGroup& group : request.groups) {
         group_names.push_back(size_text(study_, group));
     }
+}
+
+std::string EnsemblePlan::healthy_shortage() const {
+    return analysis::sample_shortage(threshold_gearboxes, request.false_alarm_rate,
+                                     request.confidence, analysis::Subject::gearboxes,
+                                     threshold_records, request.importance_sampling);
 }
 
 void EnsemblePlan::append_inputs(std::span<const double> random_values, double noise_weight,

@@ -155,6 +155,9 @@ struct EnsemblePlan {
     void append_inputs(std::span<const double> random_values, double noise_weight,
                        std::vector<double>& row) const;
 
+    // States that there are too few healthy gearboxes for the false-alarm rate, or "".
+    std::string healthy_shortage() const;
+
     std::string title;
     std::string study;     // resolved text
     std::string identity;  // the same without settings that do not affect the rows

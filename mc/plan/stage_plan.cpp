@@ -514,4 +514,18 @@ void check_stages(const Study& study, const Scene& scene) {
     }
 }
 
+// An elastic shaft sets the torque of its stage, so that the loads are in balance.
+Problems stage_notices(const Study& study, const std::string& file) {
+    Problems notices;
+    for (const NeighbourStage& stage : study.sensor.stages) {
+        if (stage.coupled() && stage.study->find_random("operation.torque_N_m") != nullptr) {
+            notices.push_back({file, 0, "sensor.stages",
+                               "the random torque of stage \"" + stage.name +
+                                   "\" is not used: its shaft sets the torque",
+                               ""});
+        }
+    }
+    return notices;
+}
+
 }  // namespace gearpod::mc

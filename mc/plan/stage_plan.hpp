@@ -42,4 +42,7 @@ inline constexpr int kMarginMeshes = 2;
 // bears a part.
 void check_stages(const Study& study, const Scene& scene);
 
+// Statements of stages that have no effect, as notices about the study named `file`.
+Problems stage_notices(const Study& study, const std::string& file);
+
 }  // namespace gearpod::mc

@@ -506,5 +506,8 @@ std::string resolved_text(const Study& study);
 // Problems of the study's numerics that reading would report if the keys of [numerics] named in
 // `keys` were given with their present values.
 Problems numerics_problems(const Study& study, std::span<const std::string_view> keys);
+// "precision=single": an assignment of a key of [numerics] as a study file has it, but without
+// quotation marks.
+std::string numerics_text(const Numerics& numerics, std::string_view key);
 
 }  // namespace gearpod::mc

@@ -119,15 +119,8 @@ StudyScene load_scene(const StudyOptions& options) {
     return made;
 }
 
-std::string shortage_of(const EnsemblePlan& plan) {
-    const analysis::DetectionRequest& request = plan.request;
-    return analysis::sample_shortage(plan.threshold_gearboxes, request.false_alarm_rate,
-                                     request.confidence, analysis::Subject::gearboxes,
-                                     plan.threshold_records, request.importance_sampling);
-}
-
 void warn_of_shortage(const EnsemblePlan& plan, const std::string& path) {
-    if (const std::string shortage = shortage_of(plan); !shortage.empty()) {
+    if (const std::string shortage = plan.healthy_shortage(); !shortage.empty()) {
         fmt::print(stderr, "{}\n", wrapped_text(fmt::format("{}: warning: {}", path, shortage), 2));
     }
 }

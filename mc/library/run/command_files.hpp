@@ -51,10 +51,7 @@ StudyScene make_scene(const StudyOptions& options);
 // The same; prints the problems.
 StudyScene load_scene(const StudyOptions& options);
 
-// States that the study has too few healthy gearboxes for its false-alarm rate, or "".
-std::string shortage_of(const EnsemblePlan& plan);
-
-// Prints that as a warning.
+// Prints a warning if the ensemble has too few healthy gearboxes for its false-alarm rate.
 void warn_of_shortage(const EnsemblePlan& plan, const std::string& path);
 
 // File that a command reads or writes, and its role, for example "the study" or "--json".

@@ -465,12 +465,12 @@ Json peer_json(const PeerResult& p) {
 
 }  // namespace
 
-std::string accuracy_json(const AccuracyReport& report, const Study& study) {
+std::string accuracy_json(const AccuracyReport& report, const EnsemblePlan& plan) {
     const Reference& r = report.reference;
     const ExplicitLimit& e = report.explicit_limit;
     const int within = report.fastest_within(kShareOfScatter);
     Json all{{"kind", "accuracy"},
-             {"title", study.title},
+             {"title", plan.title},
              {"headline", accuracy_headline(report)},
              {"share_of_scatter", kShareOfScatter},
              {"change_of_feature", kChangeOfFeature},
@@ -520,7 +520,7 @@ std::string accuracy_json(const AccuracyReport& report, const Study& study) {
     for (const PeerResult& peer : report.peers) {
         all["peers"].push_back(peer_json(peer));
     }
-    for (const auto& [name, value] : provenance(EnsemblePlan(study), 1, 1)) {
+    for (const auto& [name, value] : provenance(plan, 1, 1)) {
         all["provenance"][name] = value;
     }
     return json_text(all, 2) + "\n";

@@ -115,7 +115,7 @@ AccuracyReport measure_accuracy(const Planner& planner, const AccuracyRequest& r
 // with the features' scatter. Sentences, separated by spaces.
 std::string accuracy_headline(const AccuracyReport& report);
 std::string accuracy_text(const AccuracyReport& report);
-std::string accuracy_json(const AccuracyReport& report, const Study& study);
+std::string accuracy_json(const AccuracyReport& report, const EnsemblePlan& plan);
 
 // Reads a table of other programs' results (CSV: name, command, integration_s, mesh_s, sensor, te,
 // then features by name; march_s is the former name of integration_s). Throws std::runtime_error

@@ -88,62 +88,23 @@ void print_life(const Scene& scene) {
 
 namespace {
 
-// Integrated mesh periods of a tile without a fault, and the additional ones of each crack depth.
-struct IntegratedMeshes {
-    double healthy, depth;
-};
-
-IntegratedMeshes meshes_of(const Scene& scene) {
-    const double all = scene.solve().integrated_meshes;
-    return {all, scene.solve().perturbation_only ? scene.solve().passage_meshes : all};
-}
-
-// Integration time of one tile of a batch, s.
-double tile_s(const LifeTiles& tiles, const IntegratedMeshes& meshes, double mesh_s, bool cracked,
-              bool tested) {
-    const auto loads = static_cast<double>(tiles.load_count());
-    double integrated = loads * meshes.healthy;
-    if (cracked) {
-        integrated += loads * tiles.plan().campaign.depth_steps * meshes.depth;
-    }
-    if (tested) {
-        integrated += 2.0 * meshes.depth + static_cast<double>(tiles.gap_count()) * meshes.healthy;
-    }
-    return integrated * mesh_s;
-}
-
-// Mean number of records until the end of life, over the first gearboxes with a crack.
-double mean_records(const LifeTiles& tiles) {
-    constexpr std::uint64_t kMost = 64;
-    const auto count = std::clamp<std::uint64_t>(
-        static_cast<std::uint64_t>(tiles.plan().campaign.ensemble.test_gearboxes), 1, kMost);
-    double sum = 0.0;
-    for (std::uint64_t i = 0; i < count; ++i) {
-        sum += static_cast<double>(tiles.history({Group::test, i}).records.size());
-    }
-    return sum / static_cast<double>(count);
-}
-
-// Memory of a tile, in bytes. For each load it holds the signals kept by the integration, and those
-// without a crack and at the depths below and above. If only the perturbation due to the fault is
-// integrated, the transmission errors of all meshes are added. A depth being integrated and tested
-// adds two more. One gearbox also holds the folded products of its records.
-double tile_bytes(const LifeTiles& tiles) {
-    const Scene& scene = tiles.scene();
-    const double samples = static_cast<double>(scene.span_meshes()) * scene.samples_per_mesh();
-    const auto lanes = static_cast<double>(tiles.lanes()),
-               loads = static_cast<double>(tiles.load_count());
-    const double signals = (scene.solve().perturbation_only ? 5.0 : 4.0) * loads + 2.0;
+// Memory of a tile with so many lanes and loads, in bytes. For each load it holds the signals kept
+// by the integration, and those without a crack and at the depths below and above. If only the
+// perturbation due to the fault is integrated, the transmission errors of all meshes are added. A
+// depth being integrated and tested adds two more. One gearbox also holds the folded products of
+// its records.
+double tile_bytes(const SolvePlan& solve, const RecordPlan& record, double lanes, double loads) {
+    const double samples = static_cast<double>(record.span.meshes()) * record.samples;
+    const double signals = (solve.perturbation_only ? 5.0 : 4.0) * loads + 2.0;
     const double basis = 3.0 * loads + 1.0;
-    const double bins = static_cast<double>(scene.span().planet_teeth) * scene.samples_per_mesh();
+    const double bins = static_cast<double>(record.span.planet_teeth) * record.samples;
     return 8.0 * (signals * lanes * samples + 0.5 * basis * (basis + 1.0) * bins) +
-           scene.solve().record_bytes;
+           solve.record_bytes;
 }
 
-double file_bytes(const LifeTiles& tiles) {
-    const RowShape shape = row_shape(lives_frame(tiles.plan().campaign));
-    return 8.0 * static_cast<double>(lives_plan(tiles.plan().campaign).rows()) *
-           static_cast<double>(shape.values() + 1);
+double file_bytes(const CampaignPlan& campaign) {
+    return 8.0 * static_cast<double>(lives_plan(campaign).rows()) *
+           static_cast<double>(row_shape(lives_frame(campaign)).values() + 1);
 }
 
 std::string time_text(double seconds) {
@@ -168,19 +129,40 @@ LifePlan with_most_loads(LifePlan plan) {
 }  // namespace
 
 LivesForecast forecast_lives(const LifeTiles& tiles, int threads, double setup_s, int pilot_loads) {
-    const Scene& scene = tiles.scene();
+    const SolvePlan& solve = tiles.scene().solve();
+    const RecordPlan& record = tiles.scene().record();
     const CampaignPlan& campaign = tiles.plan().campaign;
     const BatchPlan plan = lives_plan(campaign);
+    const auto lanes = static_cast<double>(tiles.lanes()),
+               loads = static_cast<double>(tiles.load_count());
     LivesForecast all;
     all.threads = std::max(1, std::min(threads, static_cast<int>(plan.batches())));
     all.setup_s = setup_s;
-    const IntegratedMeshes meshes = meshes_of(scene);
+    // Mesh periods of a tile without a fault, and the additional ones of each crack depth.
+    const double healthy_meshes = solve.integrated_meshes,
+                 depth_meshes = solve.perturbation_only ? solve.passage_meshes : healthy_meshes;
     const double mesh_s =
-        scene.study().effects.quasi_static()
-            ? 0.0
-            : mesh_period_s(scene.draw(), scene.gearbox(), scene.solve(), scene.record());
+        mesh_period_s(tiles.scene().draw(), tiles.scene().gearbox(), solve, record);
+    const auto tile_s = [&](bool cracked, bool tested) {
+        double meshes = loads * healthy_meshes;
+        if (cracked) {
+            meshes += loads * campaign.depth_steps * depth_meshes;
+        }
+        if (tested) {
+            meshes += 2.0 * depth_meshes + static_cast<double>(tiles.gap_count()) * healthy_meshes;
+        }
+        return meshes * mesh_s;
+    };
+    // Mean number of records until the end of life, over the first gearboxes with a crack.
+    constexpr std::uint64_t kMostLives = 64;
+    const auto lives = std::clamp<std::uint64_t>(
+        static_cast<std::uint64_t>(campaign.ensemble.test_gearboxes), 1, kMostLives);
+    double cracked_records = 0.0;
+    for (std::uint64_t i = 0; i < lives; ++i) {
+        cracked_records += static_cast<double>(tiles.history({Group::test, i}).records.size());
+    }
+    cracked_records /= static_cast<double>(lives);
     const RecordTimes trial = tiles.time_records();
-    const double cracked_records = mean_records(tiles);
     std::vector<double> busy_s(static_cast<std::size_t>(all.threads), 0.0);
     double integrating_s = 0.0, records_s = 0.0, record_count = 0.0;
     for (std::size_t b = 0; b < plan.batches(); ++b) {
@@ -190,7 +172,7 @@ LivesForecast forecast_lives(const LifeTiles& tiles, int threads, double setup_s
         double batch_s = 0.0;
         for (std::size_t first = 0; first < batch.gearboxes; first += tiles.lanes()) {
             const bool tested = measures_interpolation({batch.group, batch.first_index + first});
-            batch_s += tile_s(tiles, meshes, mesh_s, cracked, tested);
+            batch_s += tile_s(cracked, tested);
         }
         integrating_s += batch_s;
         const double tile_records_s =
@@ -200,19 +182,19 @@ LivesForecast forecast_lives(const LifeTiles& tiles, int threads, double setup_s
         records_s += tile_records_s;
         *std::ranges::min_element(busy_s) += batch_s + tile_records_s;
     }
-    const double pilot_tiles =
-        std::ceil(static_cast<double>(kInterpolationPilots) / static_cast<double>(tiles.lanes()));
+    const double pilot_tiles = std::ceil(static_cast<double>(kInterpolationPilots) / lanes);
     all.pilots_s = pilot_loads == 0
                        ? 0.0
-                       : mesh_s * pilot_tiles * (pilot_loads * meshes.healthy + meshes.depth);
+                       : mesh_s * pilot_tiles * (pilot_loads * healthy_meshes + depth_meshes);
     all.processor_s = all.pilots_s + integrating_s + records_s;
     all.gearboxes = static_cast<long>(plan.rows());
     all.records = std::lround(record_count);
     all.gearbox_s = integrating_s / static_cast<double>(std::max<std::size_t>(1, plan.rows()));
     all.record_s = records_s / std::max(1.0, record_count);
     all.integration_s = std::ranges::max(busy_s);
-    all.file_bytes = file_bytes(tiles);
-    all.memory_bytes = peak_memory_bytes() + all.threads * tile_bytes(tiles) + all.file_bytes;
+    all.file_bytes = file_bytes(campaign);
+    all.memory_bytes = peak_memory_bytes() + all.threads * tile_bytes(solve, record, lanes, loads) +
+                       all.file_bytes;
     return all;
 }
 
@@ -220,8 +202,8 @@ void print_lives_forecast(const Scene& scene, double setup_s) {
     constexpr double kMostPilots_s = 5.0;
     const LifePlan& plan = scene.life();
     // Torques and speeds that pilots examine.
-    const auto interpolated = [](const RecordDistribution& one) {
-        return one.varies() && one.distinct_factors().empty() ? 1 : 0;
+    const auto interpolated = [](const RecordDistribution& quantity) {
+        return quantity.varies() && quantity.distinct_factors().empty() ? 1 : 0;
     };
     const int axes =
         interpolated(plan.distributions.torque) + interpolated(plan.distributions.speed);

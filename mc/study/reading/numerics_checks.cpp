@@ -131,6 +131,14 @@ void check_numerics(StudyDraft& draft) {
     check_horizon(draft);
 }
 
+std::string numerics_text(const Numerics& numerics, std::string_view key) {
+    Study study;
+    study.numerics = numerics;
+    const auto* const number = std::get_if<NumberAccess>(&find_key("numerics", key)->access);
+    return number != nullptr ? fmt::format("{}={:g}", key, number->get(study).value())
+                             : fmt::format("{}={}", key, choice_text(study, "numerics", key));
+}
+
 Problems numerics_problems(const Study& study, std::span<const std::string_view> keys) {
     StudyDraft draft;
     draft.study = study;
