@@ -131,8 +131,8 @@ FalseAlarmCurve false_alarm_curve(const TestValues& values, std::span<const PodF
         bool fitted = false;
         for (std::size_t i = 0; i < floored.size(); ++i) {
             if (middle[i] && least[i] && most[i]) {
-                const SizeBounds own{*middle[i], *least[i], *most[i]};
-                point.a90 = fitted ? widest(point.a90, own) : own;
+                const SizeBounds a90{*middle[i], *least[i], *most[i]};
+                point.a90 = fitted ? widest(point.a90, a90) : a90;
                 fitted = true;
             }
         }

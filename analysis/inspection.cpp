@@ -185,9 +185,9 @@ std::vector<double> thresholds(const std::vector<double>& responses, const Noise
         if (noise != nullptr) {
             all.push_back(threshold_of(*noise, 0.5 * std::pow(2e-4, share), request.alarm));
         } else {
-            const auto at = static_cast<std::size_t>(
+            const auto index = static_cast<std::size_t>(
                 std::lround((0.02 + 0.78 * share) * static_cast<double>(responses.size() - 1)));
-            all.push_back(responses[at]);
+            all.push_back(responses[index]);
         }
     }
     std::sort(all.begin(), all.end());

@@ -1,6 +1,6 @@
 // Evaluates a table of inspections by the same statistics as a study's detection: POD by size from
 // hits and misses or from responses, false calls, the trade-off over thresholds, and the number of
-// specimens that a bound needs.
+// specimens that a bound needs. The measured coverage of its bounds is tabulated.
 #pragma once
 
 #include <cmath>
@@ -93,7 +93,6 @@ InspectionResult inspect(const Inspections& data, const InspectionRequest& reque
 // Coverage of the default bounds of `pod`, measured on tables of known truth by
 // tests/analysis/pod/test_pod_coverage.cpp. Printed next to the bounds, and in
 // docs/validation/coverage.md.
-
 struct MeasuredCoverage {
     const char* kind;                       // one of the kinds below
     int specimens;                          // of a table

@@ -240,17 +240,17 @@ namespace {
 using Where = SizeEstimate::Where;
 
 std::optional<SmallestFault> single_feature_fault(const std::string& feature,
-                                                  const LevelReliability& at) {
-    const HitMissPod& pod = at.hit_miss;
-    const SmallestFault::Source source{feature, at.noise_level};
+                                                  const LevelReliability& reliability) {
+    const HitMissPod& pod = reliability.hit_miss;
+    const SmallestFault::Source source{feature, reliability.noise_level};
     if (pod.refusal.empty() && !pod.doubtful && pod.a90.upper.where != Where::not_reached) {
         const bool inside = pod.a90.upper.where == Where::reached;
         return SmallestFault{feature, inside ? pod.a90.upper.size : pod.smallest, true, source};
     }
-    if (std::isnan(at.demonstrated_size)) {
+    if (std::isnan(reliability.demonstrated_size)) {
         return std::nullopt;
     }
-    return SmallestFault{feature, at.demonstrated_size, false, source};
+    return SmallestFault{feature, reliability.demonstrated_size, false, source};
 }
 
 // True if `a` finds at least as many faults as `b` in every size group, and both tested the same
@@ -266,8 +266,8 @@ bool finds_no_less(const LevelReliability& a, const LevelReliability& b) {
     return any;
 }
 
-double found(const LevelReliability& at) {
-    return std::accumulate(at.pd.begin(), at.pd.end(), 0.0,
+double found(const LevelReliability& reliability) {
+    return std::accumulate(reliability.pd.begin(), reliability.pd.end(), 0.0,
                            [](double sum, double pd) { return sum + (std::isnan(pd) ? 0.0 : pd); });
 }
 
@@ -276,15 +276,16 @@ double found(const LevelReliability& at) {
 std::optional<SmallestFault> smallest_fault(const Reliability& reliability, std::size_t level,
                                             std::size_t feature) {
     const FeatureReliability& requested_feature = reliability.features[feature];
-    const LevelReliability& at = requested_feature.levels[level];
-    auto least = single_feature_fault(requested_feature.feature, at);
+    const LevelReliability& requested_level = requested_feature.levels[level];
+    auto least = single_feature_fault(requested_feature.feature, requested_level);
     for (const FeatureReliability& other : reliability.features) {
         for (const LevelReliability& there : other.levels) {
             const auto bound = single_feature_fault(other.feature, there);
-            if (bound && (!least || bound->size < least->size) && finds_no_less(at, there)) {
+            if (bound && (!least || bound->size < least->size) &&
+                finds_no_less(requested_level, there)) {
                 least = bound;
                 least->feature = requested_feature.feature;
-                least->own = false;
+                least->from_itself = false;
             }
         }
     }
@@ -311,16 +312,16 @@ std::optional<SmallestFault> smallest_fault(std::span<const FeatureDetection> de
     std::optional<SmallestFault> least;
     double most = 0.0;
     for (const FeatureDetection& feature : detection) {
-        const LevelDetection& at = feature.levels[level];
-        const auto size = reliable_size(at, kReliablePd);
+        const LevelDetection& rates = feature.levels[level];
+        const auto size = reliable_size(rates, kReliablePd);
         double finds = 0.0;
-        for (const DetectionCell& cell : at.cells) {
+        for (const DetectionCell& cell : rates.cells) {
             finds += std::isnan(cell.pd) ? 0.0 : cell.pd;
         }
         if (size &&
             (!least || size->high < least->size || (size->high == least->size && finds > most))) {
             least = SmallestFault{
-                feature.feature, size->high, false, {feature.feature, at.noise_level}, true};
+                feature.feature, size->high, false, {feature.feature, rates.noise_level}, true};
             most = finds;
         }
     }

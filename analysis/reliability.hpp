@@ -125,7 +125,6 @@ Reliability assess_reliability(const ReliabilityData& data,
 // curve. A size demonstrated by one feature at one noise level therefore also holds for every
 // feature and level that finds at least as many faults in every size group. As a result the size
 // never grows where no rate falls, and no feature ranks below one that finds fewer faults.
-
 struct SmallestFault {
     // Feature and noise level whose bound is used: the requested ones, or ones that find no more
     // faults.
@@ -138,9 +137,9 @@ struct SmallestFault {
     double size = 0.0;
     bool from_curve = false;  // the bound is a90's, otherwise a demonstrated size
     Source source;
-    bool own = true;  // the source is the feature itself at this noise level
+    bool from_itself = true;  // the source is the feature itself at this noise level
 };
-GEARPOD_FIELDS(SmallestFault, feature, size, from_curve, source_, own_)
+GEARPOD_FIELDS(SmallestFault, feature, size, from_curve, source_, from_itself_)
 GEARPOD_FIELDS(SmallestFault::Source, feature, noise_level)
 
 // Smallest fault of one feature (index in `reliability.features`) at a noise level.

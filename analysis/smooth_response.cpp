@@ -72,10 +72,10 @@ SizeEstimate last_rise(const std::vector<double>& sizes, const std::vector<doubl
 double quantile_of(std::vector<double> values, double share) {
     std::sort(values.begin(), values.end());
     const auto n = static_cast<double>(values.size());
-    const double at = std::clamp(share * (n + 1.0) - 1.0, 0.0, n - 1.0);
-    const auto low = static_cast<std::size_t>(at);
+    const double position = std::clamp(share * (n + 1.0) - 1.0, 0.0, n - 1.0);
+    const auto low = static_cast<std::size_t>(position);
     return std::lerp(values[low], values[std::min(low + 1, values.size() - 1)],
-                     at - static_cast<double>(low));
+                     position - static_cast<double>(low));
 }
 
 }  // namespace
@@ -110,15 +110,15 @@ SmoothResponse::SmoothResponse(const ResponseRows& rows, double threshold, Alarm
 
 // Integrals of the hat functions of the nodes, each relative to the range of the sizes.
 SmoothResponse::Slopes SmoothResponse::basis(double size) const {
-    Slopes at{1.0};
+    Slopes slopes{1.0};
     const double range = nodes_.back() - nodes_.front();
     for (std::size_t k = 0; k + 1 < kNodes; ++k) {
         const double width = nodes_[k + 1] - nodes_[k];
         const double along = std::clamp((size - nodes_[k]) / width, 0.0, 1.0);
-        at[k + 1] += width / range * along * (1.0 - 0.5 * along);
-        at[k + 2] += width / range * 0.5 * along * along;
+        slopes[k + 1] += width / range * along * (1.0 - 0.5 * along);
+        slopes[k + 2] += width / range * 0.5 * along * along;
     }
-    return at;
+    return slopes;
 }
 
 double SmoothResponse::at(const Slopes& basis) const {
@@ -296,8 +296,8 @@ void SmoothResponse::add_bounds(const ResponseRows& rows, double threshold, doub
         for (std::size_t p = 0; p < 2; ++p) {
             const double u = link_quantile(Link::probit, shares[p]);
             for (std::size_t i = 0; i < kSizes; ++i) {
-                const double at = mean(sizes[i]) - side * u * truth.scatter(sizes[i]);
-                const double error = again.distance(sizes[i], at, side) - u;
+                const double x = mean(sizes[i]) - side * u * truth.scatter(sizes[i]);
+                const double error = again.distance(sizes[i], x, side) - u;
                 if (std::isfinite(error)) {
                     errors[p][i].push_back(error);
                 }

@@ -72,8 +72,8 @@ Means conditional_means(const AbcSamples& samples, const Matrix& unit, const Mat
     constexpr std::size_t kSamplesPerCoefficient = 5;
     const bool squares =
         std::min(groups, samples.size()) > kSamplesPerCoefficient * (2 * samples.summaries + 1);
-    const Vector at = scaling.row(observed, squares);
-    Matrix design(summaries.rows(), at.size());
+    const Vector centre = scaling.row(observed, squares);
+    Matrix design(summaries.rows(), centre.size());
     for (Eigen::Index i = 0; i < summaries.rows(); ++i) {
         design.row(i) = scaling.row(summaries.row(i).transpose(), squares).transpose();
     }
@@ -82,9 +82,9 @@ Means conditional_means(const AbcSamples& samples, const Matrix& unit, const Mat
     for (int fold = 0; fold < kFolds; ++fold) {
         Vector weight(unit.rows());
         for (Eigen::Index i = 0; i < unit.rows(); ++i) {
-            const bool own = samples.group[static_cast<std::size_t>(i)] % kFolds ==
-                             static_cast<std::size_t>(fold);
-            weight(i) = own ? 0.0 : 1.0;
+            const bool held_out = samples.group[static_cast<std::size_t>(i)] % kFolds ==
+                                  static_cast<std::size_t>(fold);
+            weight(i) = held_out ? 0.0 : 1.0;
         }
         const Matrix fit = ridge_fit(design, unit, weight, kRidge);
         for (Eigen::Index i = 0; i < unit.rows(); ++i) {
@@ -92,7 +92,7 @@ Means conditional_means(const AbcSamples& samples, const Matrix& unit, const Mat
                 means.samples.row(i) = design.row(i) * fit;
             }
         }
-        means.observed += fit.transpose() * at / kFolds;
+        means.observed += fit.transpose() * centre / kFolds;
     }
     return means;
 }
@@ -183,9 +183,9 @@ void correlate(const Matrix& unit, const Matrix& summaries, AbcPosterior& poster
         of_summary.push_back(ranks(summaries, k));
     }
     for (Eigen::Index p = 0; p < unit.cols(); ++p) {
-        const Vector own = ranks(unit, p);
+        const Vector ranked = ranks(unit, p);
         for (const Vector& summary : of_summary) {
-            posterior.correlation.push_back(own.dot(summary));
+            posterior.correlation.push_back(ranked.dot(summary));
         }
     }
 }

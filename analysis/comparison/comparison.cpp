@@ -131,9 +131,11 @@ double Resampling::threshold(const std::vector<int>& counts) const {
 double Resampling::beyond(const std::vector<int>& counts, long sample) const {
     const auto needed = static_cast<std::size_t>(exceedances_of(sample)) + 1;
     std::vector<double> largest;
-    for (auto at = healthy_.rbegin(); at != healthy_.rend() && largest.size() < needed; ++at) {
+    for (auto entry = healthy_.rbegin(); entry != healthy_.rend() && largest.size() < needed;
+         ++entry) {
         const auto left = needed - largest.size();
-        largest.insert(largest.end(), std::min<std::size_t>(left, counts[at->second]), at->first);
+        largest.insert(largest.end(), std::min<std::size_t>(left, counts[entry->second]),
+                       entry->first);
     }
     std::reverse(largest.begin(), largest.end());
     const TailFit tail(largest, sample);
@@ -216,16 +218,16 @@ Resampled resample(const ComparedSample& a, const ComparedSample& b, const Detec
         std::mt19937_64 engine(r);
         const auto healthy = bootstrap_counts(a.healthy.size(), engine);
         const auto test = bootstrap_counts(a.test.size(), engine);
-        const auto one =
+        const auto first_rates =
             first.detect(healthy, test, curves ? &of_a.pod.chosen.curve.form : nullptr);
-        const auto two =
+        const auto second_rates =
             second.detect(request.paired ? healthy : bootstrap_counts(b.healthy.size(), engine),
                           request.paired ? test : bootstrap_counts(b.test.size(), engine),
                           curves ? &of_b.pod.chosen.curve.form : nullptr);
         for (std::size_t g = 0; g < request.groups.size(); ++g) {
-            result.rates[g][r] = two.pd[g] - one.pd[g];
+            result.rates[g][r] = second_rates.pd[g] - first_rates.pd[g];
         }
-        result.a90[r] = two.a90 - one.a90;
+        result.a90[r] = second_rates.a90 - first_rates.a90;
     });
     return result;
 }
@@ -321,21 +323,22 @@ struct Areas {
     std::vector<double> healthy, faulty;  // larger on the alarm side
 };
 
-Areas areas_of(const ComparedSample& own, const ComparedSample& other, bool paired) {
-    const double sign = alarm_sign(own.alarm);
+Areas areas_of(const ComparedSample& sample, const ComparedSample& other, bool paired) {
+    const double sign = alarm_sign(sample.alarm);
     Areas areas;
     const auto usable = [&](std::span<const double> mine, std::span<const double> others,
                             std::size_t i) {
         return std::isfinite(mine[i]) && (!paired || std::isfinite(others[i]));
     };
-    for (std::size_t i = 0; i < own.healthy.size(); ++i) {
-        if (usable(own.healthy, other.healthy, i)) {
-            areas.healthy.push_back(sign * own.healthy[i]);
+    for (std::size_t i = 0; i < sample.healthy.size(); ++i) {
+        if (usable(sample.healthy, other.healthy, i)) {
+            areas.healthy.push_back(sign * sample.healthy[i]);
         }
     }
-    for (std::size_t i = 0; i < own.test.size(); ++i) {
-        if (usable(own.test, other.test, i)) {
-            (own.test_size[i] > 0.0 ? areas.faulty : areas.healthy).push_back(sign * own.test[i]);
+    for (std::size_t i = 0; i < sample.test.size(); ++i) {
+        if (usable(sample.test, other.test, i)) {
+            (sample.test_size[i] > 0.0 ? areas.faulty : areas.healthy)
+                .push_back(sign * sample.test[i]);
         }
     }
     return areas;
@@ -351,23 +354,23 @@ NumberDifference auc_difference(const ComparedSample& a, const ComparedSample& b
             return result;
         }
     }
-    const AucComponents one = auc_components(of_a.healthy, of_a.faulty);
-    const AucComponents two = auc_components(of_b.healthy, of_b.faulty);
-    const double var_a = auc_covariance(one, one), var_b = auc_covariance(two, two);
-    const double both = request.paired ? auc_covariance(one, two) : 0.0;
+    const AucComponents first = auc_components(of_a.healthy, of_a.faulty);
+    const AucComponents second = auc_components(of_b.healthy, of_b.faulty);
+    const double var_a = auc_covariance(first, first), var_b = auc_covariance(second, second);
+    const double both = request.paired ? auc_covariance(first, second) : 0.0;
     const auto interval = [&](const Areas& areas, double area, double variance) {
         const auto pairs = static_cast<long>(std::min(areas.healthy.size(), areas.faulty.size()));
         const Interval known = auc_interval(area, variance, pairs, request.confidence);
         // The area of constant values is known.
         return std::isnan(known.lower) ? Interval{area, area} : known;
     };
-    result.a = one.auc;
-    result.b = two.auc;
+    result.a = first.auc;
+    result.b = second.auc;
     const double scatter = std::sqrt(var_a * var_b);
-    result.bounds =
-        difference_interval(one.auc, interval(of_a, one.auc, var_a), two.auc,
-                            interval(of_b, two.auc, var_b), scatter > 0.0 ? both / scatter : 0.0);
-    const double variance = var_a + var_b - 2.0 * both, distance = std::abs(two.auc - one.auc);
+    result.bounds = difference_interval(first.auc, interval(of_a, first.auc, var_a), second.auc,
+                                        interval(of_b, second.auc, var_b),
+                                        scatter > 0.0 ? both / scatter : 0.0);
+    const double variance = var_a + var_b - 2.0 * both, distance = std::abs(second.auc - first.auc);
     result.p_value = distance == 0.0 ? 1.0
                      : variance > 0.0
                          ? 2.0 * link_probability(Link::probit, -distance / std::sqrt(variance))

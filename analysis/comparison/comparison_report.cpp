@@ -231,10 +231,11 @@ void add_details(Section& section, const ComparedResults& results, std::size_t f
                  true};
     const ValueText area, size{false, results.size.per_unit()};
     for (const ComparedFeature& feature : file.features) {
-        const Comparison& at = feature.comparison;
+        const Comparison& comparison = feature.comparison;
         levels.rows.push_back({feature.feature, "x " + number_text(feature.noise_level),
-                               difference_text(at.a90, size), difference_text(at.auc, area),
-                               p_text(at.auc.p_value)});
+                               difference_text(comparison.a90, size),
+                               difference_text(comparison.auc, area),
+                               p_text(comparison.auc.p_value)});
     }
     section.add(std::move(levels));
 }
@@ -244,16 +245,16 @@ void add_details(Section& section, const ComparedResults& results, std::size_t f
 Report comparison_report(const ComparedResults& results) {
     Report report;
     report.add(headline(results));
-    const std::string at = " at " + noise_text(results.noise_level);
+    const std::string at_noise = " at " + noise_text(results.noise_level);
     Section differences{"differences", "", {}};
-    add_differences(differences, results, "a90", "Difference of a90" + at, &Comparison::a90,
+    add_differences(differences, results, "a90", "Difference of a90" + at_noise, &Comparison::a90,
                     {false, results.size.per_unit()});
-    add_differences(differences, results, "auc", "Difference of the area under the ROC" + at,
+    add_differences(differences, results, "auc", "Difference of the area under the ROC" + at_noise,
                     &Comparison::auc, {});
     report.add(std::move(differences));
     for (std::size_t f = 1; f < results.files.size(); ++f) {
         Section section{
-            fmt::format("against.{}", f), fmt::format("{} against A{}", letter(f), at), {}};
+            fmt::format("against.{}", f), fmt::format("{} against A{}", letter(f), at_noise), {}};
         state_facts(section, results, f);
         section.add(main_table(results, f));
         state_refusals(section, results, f);

@@ -96,14 +96,14 @@ ConditionDetection detect_by_condition(const std::string& feature, Alarm alarm,
             if (group[i] == kNoGroup) {
                 continue;
             }
-            const auto own = std::find_if(
+            const auto known = std::find_if(
                 level.thresholds.begin(), level.thresholds.end(),
                 [&](const ConditionThreshold& t) { return t.condition == column.test[i]; });
-            if (own == level.thresholds.end() || std::isnan(own->threshold)) {
+            if (known == level.thresholds.end() || std::isnan(known->threshold)) {
                 ++level.without;
                 continue;
             }
-            count(level.cells[group[i]], test.values[i * levels + n], own->threshold, alarm);
+            count(level.cells[group[i]], test.values[i * levels + n], known->threshold, alarm);
         }
         for (DetectionCell& cell : level.cells) {
             rate(cell, true, request.confidence);

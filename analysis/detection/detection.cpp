@@ -346,14 +346,14 @@ FeatureDetection detect_clustered(const std::string& feature, Alarm alarm,
             std::erase_if(result.warnings,
                           [&](const std::string& warning) { return warning.starts_with(tie); });
         }
-        const Interval own = level.threshold_rate;
+        const Interval independent = level.threshold_rate;
         const Interval clustered =
             level.tail ? Interval{kNan, kNan}
                        : clustered_rate_interval(values, gearbox, alarm, level.threshold,
                                                  request.false_alarm_rate, request.confidence);
         // Never narrower than the interval of independent values.
-        level.threshold_rate = {std::min(own.lower, clustered.lower),
-                                std::max(own.upper, clustered.upper)};
+        level.threshold_rate = {std::min(independent.lower, clustered.lower),
+                                std::max(independent.upper, clustered.upper)};
         const bool tested = !level.cells.empty() && level.cells.front().size.high == 0.0 &&
                             level.cells.front().tested > 0;
         if (level.tail) {

@@ -1,4 +1,5 @@
-// Assignment of gearboxes to size groups, and the counts of a group.
+// Detection rates by size group from healthy and test values at an alarm threshold, and the size
+// from which a fault is found reliably.
 #pragma once
 
 #include <cstddef>
@@ -11,6 +12,7 @@
 
 namespace gearpod::analysis {
 
+// Assignment of gearboxes to size groups, and the counts of a group.
 inline constexpr std::size_t kNoGroup = static_cast<std::size_t>(-1);
 
 // Group of a size. A fixed level holds its own size up to the rounding of a unit conversion. A

@@ -1,4 +1,4 @@
-// Side of the threshold that raises the alarm.
+// Alarm sides, size groups, and the tables of thresholds and detection rates of a feature.
 #pragma once
 
 #include <optional>
@@ -11,6 +11,7 @@
 
 namespace gearpod::analysis {
 
+// Side of the threshold that raises the alarm.
 using Alarm = features::AlarmSide;
 
 // Side on which a fault is missed.

@@ -75,16 +75,16 @@ double share_of_gearboxes(const Gearboxes& gearboxes) {
     const std::vector<double> ranks = midranks(values);
     const auto n = static_cast<double>(values.size()), g = static_cast<double>(gearboxes.size());
     double between = 0.0, within = 0.0, squares = 0.0;
-    std::size_t at = 0;
+    std::size_t index = 0;
     for (const auto& [number, gearbox] : gearboxes) {
-        const std::size_t own = std::min(kMost, gearbox.values.size());
+        const std::size_t records = std::min(kMost, gearbox.values.size());
         double sum = 0.0, sum2 = 0.0;
-        for (std::size_t i = 0; i < own; ++i, ++at) {
-            const double score = -normal_upper_quantile((ranks[at] - 0.5) / n);
+        for (std::size_t i = 0; i < records; ++i, ++index) {
+            const double score = -normal_upper_quantile((ranks[index] - 0.5) / n);
             sum += score;
             sum2 += score * score;
         }
-        const auto count = static_cast<double>(own);
+        const auto count = static_cast<double>(records);
         between += sum * sum / count;  // the mean of the scores is 0
         within += sum2 - sum * sum / count;
         squares += count * count;
@@ -137,9 +137,9 @@ Interval clustered_rate_interval(std::span<const double> values,
     Gearboxes gearboxes;
     for (std::size_t i = 0; i < values.size(); ++i) {
         if (std::isfinite(values[i])) {
-            Gearbox& own = gearboxes[gearbox[i]];
-            own.values.push_back(values[i]);
-            own.alarms += is_alarm(values[i], threshold, alarm) ? 1.0 : 0.0;
+            Gearbox& of_row = gearboxes[gearbox[i]];
+            of_row.values.push_back(values[i]);
+            of_row.alarms += is_alarm(values[i], threshold, alarm) ? 1.0 : 0.0;
         }
     }
     const Totals all = totals(gearboxes);
@@ -241,13 +241,15 @@ Interval HealthyThresholds::value_bounds(const Threshold& threshold, double fals
 
 Interval HealthyThresholds::rate_bounds(const Threshold& threshold, double false_alarm_rate,
                                         double confidence) const {
-    const Interval own = rate_of(threshold, alarm_, false_alarm_rate, 0, 0, confidence).bounds;
+    const Interval independent =
+        rate_of(threshold, alarm_, false_alarm_rate, 0, 0, confidence).bounds;
     if (threshold.importance_sampled || gearbox_.empty() || std::isnan(threshold.value)) {
-        return own;
+        return independent;
     }
     const Interval clustered = clustered_rate_interval(plain_, gearbox_, alarm_, threshold.value,
                                                        false_alarm_rate, confidence);
-    return {std::min(own.lower, clustered.lower), std::max(own.upper, clustered.upper)};
+    return {std::min(independent.lower, clustered.lower),
+            std::max(independent.upper, clustered.upper)};
 }
 
 }  // namespace gearpod::analysis

@@ -1,7 +1,5 @@
-// False-alarm rate of a two-level healthy sample: several recordings of each of fewer gearboxes.
-// Recordings of one gearbox are correlated, so they determine a false-alarm rate less well than as
-// many gearboxes do. Treated as independent, 95 % intervals may cover the rate of fewer than half
-// of the thresholds.
+// Alarm thresholds and false-alarm rates from healthy records, also from several records of each
+// gearbox or from importance sampling.
 #pragma once
 
 #include <optional>
@@ -13,6 +11,11 @@
 #include "analysis/statistics/interval.hpp"
 
 namespace gearpod::analysis {
+
+// False-alarm rate of a two-level healthy sample: several recordings of each of fewer gearboxes.
+// Recordings of one gearbox are correlated, so they determine a false-alarm rate less well than as
+// many gearboxes do. Treated as independent, 95 % intervals may cover the rate of fewer than half
+// of the thresholds.
 
 // Counterpart of threshold_rate_interval() for values grouped by gearbox. Three cases:
 //
@@ -27,8 +30,6 @@ namespace gearpod::analysis {
 Interval clustered_rate_interval(std::span<const double> values,
                                  std::span<const std::size_t> gearbox, Alarm alarm,
                                  double threshold, double false_alarm_rate, double confidence);
-
-// Thresholds at any false-alarm rate from a healthy sample of any kind.
 
 // Values of a healthy sample. Without `gearbox`, each value belongs to a gearbox of its own.
 struct HealthyValues {

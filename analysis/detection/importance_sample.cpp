@@ -153,9 +153,9 @@ std::optional<ImportanceSample::Estimate> ImportanceSample::estimate(std::size_t
     const auto all = static_cast<double>(gearboxes_);
     const std::vector<double> rates = own_rates(count);
     double sum = 0.0, squares = 0.0;
-    for (const double own : rates) {
-        sum += own;
-        squares += own * own;
+    for (const double of_gearbox : rates) {
+        sum += of_gearbox;
+        squares += of_gearbox * of_gearbox;
     }
     const std::vector<double> scores = scores_of(rates);
     const double share = share_towards_alarms(scores);

@@ -72,7 +72,7 @@ void SplitTail::add_level(double rate, const std::vector<double>& values) {
     for (std::size_t i = 0; i < values.size(); ++i) {
         level.falling.push_back({values[i], members_[i].index});
     }
-    std::ranges::stable_sort(level.falling, std::greater<>(), &Place::value);
+    std::ranges::stable_sort(level.falling, std::greater<>(), &LevelMember::value);
     levels_.push_back(std::move(level));
 }
 
@@ -95,11 +95,11 @@ std::vector<double> SplitTail::split(double limit, const std::vector<double>& va
         }
     }
     std::vector<SplitMember> members;
-    std::vector<double> own;
+    std::vector<double> found_values;
     for (std::size_t i = 0; i < values.size(); ++i) {
         const std::size_t parent = parents[i * parents.size() / values.size()];
         members.push_back(members_[parent]);
-        own.push_back(values[parent]);
+        found_values.push_back(values[parent]);
     }
     std::size_t all_kept = 0;
     for (int exchange = 0; exchange < kExchanges; ++exchange) {
@@ -113,24 +113,25 @@ std::vector<double> SplitTail::split(double limit, const std::vector<double>& va
         for (std::size_t i = 0; i < tried.size(); ++i) {
             if (found[i] > limit) {
                 members[i] = std::move(tried[i]);
-                own[i] = found[i];
+                found_values[i] = found[i];
                 ++kept;
             }
         }
-        share_ = next_share(share_, static_cast<double>(kept) / static_cast<double>(own.size()));
+        share_ = next_share(share_,
+                            static_cast<double>(kept) / static_cast<double>(found_values.size()));
         all_kept += kept;
     }
-    least_kept_ = std::min(
-        least_kept_, static_cast<double>(all_kept) / static_cast<double>(kExchanges * own.size()));
+    least_kept_ = std::min(least_kept_, static_cast<double>(all_kept) /
+                                            static_cast<double>(kExchanges * found_values.size()));
     members_ = std::move(members);
-    return own;
+    return found_values;
 }
 
 // Sum of the squared shares of the families among the members.
-double SplitTail::squared_shares(std::span<const Place> places) {
+double SplitTail::squared_shares(std::span<const LevelMember> members) {
     std::map<std::uint64_t, double> shares;
-    for (const Place& place : places) {
-        shares[place.family] += 1.0 / static_cast<double>(places.size());
+    for (const LevelMember& member : members) {
+        shares[member.family] += 1.0 / static_cast<double>(members.size());
     }
     double squares = 0.0;
     for (const auto& [family, share] : shares) {
@@ -144,7 +145,7 @@ SplitTail::Beyond SplitTail::beyond_rate(double rate) const {
     while (level > 0 && levels_[level].rate < rate) {
         --level;
     }
-    const std::vector<Place>& falling = levels_[level].falling;
+    const std::vector<LevelMember>& falling = levels_[level].falling;
     const auto all = static_cast<double>(falling.size());
     auto count = static_cast<std::size_t>(rate / levels_[level].rate * all * (1.0 + 1e-12));
     count = std::min(count, falling.size() - 1);
@@ -200,9 +201,9 @@ std::optional<SplitTail::Estimate> SplitTail::at(double threshold, double confid
     const double limit = alarm_sign(settings_.alarm) * threshold;
     // If all members of a level lie beyond the value, an earlier level determines the rate.
     for (std::size_t level = levels_.size(); level-- > 0;) {
-        const std::vector<Place>& falling = levels_[level].falling;
+        const std::vector<LevelMember>& falling = levels_[level].falling;
         const auto count = static_cast<std::size_t>(
-            std::ranges::count_if(falling, [&](const Place& p) { return p.value > limit; }));
+            std::ranges::count_if(falling, [&](const LevelMember& p) { return p.value > limit; }));
         if (count < falling.size() || level == 0) {
             return estimate({level, count}, threshold, confidence);
         }

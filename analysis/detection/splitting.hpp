@@ -1,4 +1,5 @@
-// Exchange of random inputs between gearboxes in multilevel splitting (splitting.hpp).
+// Multilevel splitting (subset simulation): rare false-alarm rates from gearboxes that exchange
+// random inputs.
 #pragma once
 
 #include <cstdint>
@@ -88,13 +89,13 @@ class SplitTail {
 
   private:
     static constexpr double kFirstShare = 0.1;
-    struct Place {
+    struct LevelMember {
         double value;  // times alarm_sign()
         std::uint64_t family;
     };
     struct Level {
-        double rate;                 // probability of gearboxes beyond the level's limit
-        std::vector<Place> falling;  // by falling value
+        double rate;                       // probability of gearboxes beyond the level's limit
+        std::vector<LevelMember> falling;  // by falling value
     };
     // Number of a level's members beyond a rate or a value.
     struct Beyond {
@@ -112,7 +113,7 @@ class SplitTail {
                               const SplitValues& of);
     std::vector<double> signed_values(const SplitValues& of, std::span<const SplitMember> members);
 
-    static double squared_shares(std::span<const Place> places);
+    static double squared_shares(std::span<const LevelMember> members);
     Beyond beyond_rate(double rate) const;
     // Threshold exceeded by that many members, times alarm_sign().
     double value_before(const Beyond& beyond) const;

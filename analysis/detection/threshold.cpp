@@ -60,15 +60,15 @@ struct Weighted {
 // total.
 double quantile(const std::vector<Weighted>& ascending, double share) {
     double sum = 0.0, before = 0.0, last = ascending.front().value;
-    for (const Weighted& at : ascending) {
-        const double here = sum + 0.5 * at.weight;
+    for (const Weighted& member : ascending) {
+        const double here = sum + 0.5 * member.weight;
         if (here >= share) {
             const double part = here > before ? (share - before) / (here - before) : 1.0;
-            return last + std::clamp(part, 0.0, 1.0) * (at.value - last);
+            return last + std::clamp(part, 0.0, 1.0) * (member.value - last);
         }
-        sum += at.weight;
+        sum += member.weight;
         before = here;
-        last = at.value;
+        last = member.value;
     }
     return ascending.back().value;
 }
@@ -202,10 +202,11 @@ HealthyRate TailFit::rate(double value, long alarms, long tested, double confide
     const std::vector<double> shares = this->shares();
     const auto hits = static_cast<double>(alarms), misses = static_cast<double>(tested - alarms);
     // Likelihood relative to its maximum, at the count's own rate.
-    const double own = tested > 0 ? hits / static_cast<double>(tested) : 0.0;
+    const double observed = tested > 0 ? hits / static_cast<double>(tested) : 0.0;
     const auto likelihood = [&](double p) {
-        const double of_hits = hits > 0.0 ? hits * std::log(p / own) : 0.0;
-        const double of_misses = misses > 0.0 ? misses * std::log1p((own - p) / (1.0 - own)) : 0.0;
+        const double of_hits = hits > 0.0 ? hits * std::log(p / observed) : 0.0;
+        const double of_misses =
+            misses > 0.0 ? misses * std::log1p((observed - p) / (1.0 - observed)) : 0.0;
         return std::exp(of_hits + of_misses);
     };
     const double x = (value - above_) / unit_;

@@ -1,14 +1,5 @@
-// Alarm thresholds beyond a healthy sample by peaks over threshold. Values above a high order
-// statistic approximately follow a generalised Pareto distribution, whatever the feature's
-// distribution: J. Pickands, Ann. Stat. 3 (1975), 119-131; A. C. Davison, R. L. Smith, J. R. Stat.
-// Soc. B 52 (1990), 393-442.
-//
-// Shape and scale have their posterior under Jeffreys' prior, 1 / (scale (1 + shape) sqrt(1 + 2
-// shape)), shape > -1/2: M. E. Castellanos, S. Cabras, J. Stat. Plan. Inference 137 (2007),
-// 473-483. The share above the order statistic is Beta(k + 1, n - k) distributed with k of n values
-// above (false_alarm_rate.hpp). If the distribution holds, the *expected* rate of a threshold is
-// the requested one, as with an order statistic, and the interval is that of the given threshold.
-// Both are integrals over a grid, without random numbers.
+// Alarm threshold at a stated false-alarm rate: an order statistic of a healthy sample, or a
+// quantile of its fitted tail.
 #pragma once
 
 #include <optional>
@@ -22,6 +13,18 @@
 #include "analysis/statistics/interval.hpp"
 
 namespace gearpod::analysis {
+
+// Alarm thresholds beyond a healthy sample by peaks over threshold. Values above a high order
+// statistic approximately follow a generalised Pareto distribution, whatever the feature's
+// distribution: J. Pickands, Ann. Stat. 3 (1975), 119-131; A. C. Davison, R. L. Smith, J. R. Stat.
+// Soc. B 52 (1990), 393-442.
+//
+// Shape and scale have their posterior under Jeffreys' prior, 1 / (scale (1 + shape) sqrt(1 + 2
+// shape)), shape > -1/2: M. E. Castellanos, S. Cabras, J. Stat. Plan. Inference 137 (2007),
+// 473-483. The share above the order statistic is Beta(k + 1, n - k) distributed with k of n values
+// above (false_alarm_rate.hpp). If the distribution holds, the *expected* rate of a threshold is
+// the requested one, as with an order statistic, and the interval is that of the given threshold.
+// Both are integrals over a grid, without random numbers.
 
 // Limits of the fit. The distribution is fitted to the largest tenth of a sample, at most
 // kMostExceedances values; more would add bias faster than they reduce variance. Fewer than
@@ -77,7 +80,6 @@ class TailFit {
 };
 
 // Alarm threshold from a healthy sample at a stated false-alarm rate.
-
 struct Threshold {
     double value = 0.0;  // NaN if the sample is too small for the rate
     long sample = 0;     // number of finite healthy values

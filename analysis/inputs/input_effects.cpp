@@ -200,9 +200,9 @@ std::vector<double> quantiles_of(const std::vector<double>& ascending) {
     }
     std::vector<double> out;
     for (const double share : kInputQuantiles) {
-        const double place = share * static_cast<double>(ascending.size() - 1);
-        const auto below = static_cast<std::size_t>(place);
-        const double rest = place - static_cast<double>(below);
+        const double position = share * static_cast<double>(ascending.size() - 1);
+        const auto below = static_cast<std::size_t>(position);
+        const double rest = position - static_cast<double>(below);
         const std::size_t above = std::min(below + 1, ascending.size() - 1);
         out.push_back((1.0 - rest) * ascending[below] + rest * ascending[above]);
     }

@@ -1,4 +1,5 @@
-// Division of an input's values into bins of equal counts.
+// Dependence of detection on each random input: rates in bins of the input, and POD curves with it
+// as a covariate.
 #pragma once
 
 #include <span>

@@ -88,9 +88,9 @@ double widening(const Variances& v, std::span<const double> y) {
     const double noise = std::pow(v.noise() / variance, 2);
     // Variance from bins without influence.
     const double chance = 2.0 * (v.bins - 1.0) * noise / (n * n);
-    const double own = std::max(0.0, square / (n * n) - 2.0 * chance) + chance;
+    const double measured = std::max(0.0, square / (n * n) - 2.0 * chance) + chance;
     const double share = std::max(0.0, v.share());
-    return std::sqrt(std::max(1.0, own / (2.0 * noise * share * (2.0 - share) / n + chance)));
+    return std::sqrt(std::max(1.0, measured / (2.0 * noise * share * (2.0 - share) / n + chance)));
 }
 
 // Power of two near the largest value, by which division is exact, so that squares neither overflow
@@ -296,9 +296,9 @@ struct Dependence {
 Dependence strongest_dependence(const std::vector<std::vector<double>>& columns) {
     std::vector<Eigen::VectorXd> ranks;
     for (const std::vector<double>& column : columns) {
-        const std::vector<double> own = midranks(column);
-        const Eigen::VectorXd all =
-            Eigen::Map<const Eigen::VectorXd>(own.data(), static_cast<Eigen::Index>(own.size()));
+        const std::vector<double> of_column = midranks(column);
+        const Eigen::VectorXd all = Eigen::Map<const Eigen::VectorXd>(
+            of_column.data(), static_cast<Eigen::Index>(of_column.size()));
         ranks.push_back((all.array() - all.mean()).matrix().normalized());
     }
     Dependence most;

@@ -1,8 +1,5 @@
-// Share of an output's variance that one input explains alone, Var(E[Y | X]) / Var(Y): Pearson's
-// correlation ratio, the first-order index of I. M. Sobol, Math. Model. Comput. Exp. 1 (1993),
-// 407-414. Estimated from any sample (given-data estimator: E. Plischke, E. Borgonovo, C. L. Smith,
-// Eur. J. Oper. Res. 226 (2013), 536-550) in bins of equal counts, less the share that bins without
-// influence would explain by chance (T. L. Kelley, Proc. Natl. Acad. Sci. 21 (1935), 554-559).
+// Sobol indices of an output over the random inputs of gearboxes, from correlation ratios and a
+// polynomial surrogate.
 #pragma once
 
 #include <Eigen/Core>
@@ -17,6 +14,11 @@
 
 namespace gearpod::analysis {
 
+// Share of an output's variance that one input explains alone, Var(E[Y | X]) / Var(Y): Pearson's
+// correlation ratio, the first-order index of I. M. Sobol, Math. Model. Comput. Exp. 1 (1993),
+// 407-414. Estimated from any sample (given-data estimator: E. Plischke, E. Borgonovo, C. L. Smith,
+// Eur. J. Oper. Res. 226 (2013), 536-550) in bins of equal counts, less the share that bins without
+// influence would explain by chance (T. L. Kelley, Proc. Natl. Acad. Sci. 21 (1935), 554-559).
 struct CorrelationRatio {
     // May be slightly negative by chance without influence. NaN if y or x is constant, or with
     // fewer than 20 values.
@@ -39,7 +41,6 @@ CorrelationRatio correlation_ratio(std::span<const double> x, std::span<const do
 // Sudret, Reliab. Eng. Syst. Saf. 93 (2008), 964-979. Selection follows G. Blatman, B. Sudret, J.
 // Comput. Phys. 230 (2011), 2345-2367, with orthogonal matching pursuit. The unexplained part is
 // noise, higher interactions, or influence too small for the sample.
-
 struct SurrogateTerm {
     // Index of one or two inputs and the degree in each. `second` is -1 if the term has one input.
     int input = 0, degree = 0;
@@ -69,7 +70,6 @@ PolynomialSurrogate fit_surrogate(const std::vector<std::vector<double>>& inputs
 // others: T. Homma, A. Saltelli, Reliab. Eng. Syst. Saf. 52 (1996), 1-17) are computed from a
 // polynomial surrogate of the sample, so they include only what it
 // explains. For an output with noise of its own, the indices sum to less than 1.
-
 struct SobolIndex {
     std::string name;
     std::string unit;
@@ -101,7 +101,6 @@ SobolIndices sobol_indices(std::span<const double> output, const std::vector<Inp
 // Influence of the random inputs on whether a feature finds a fault: Sobol indices of its misses
 // and of its value over the faulty gearboxes of sizes at which detection is neither certain nor
 // impossible. The fault size is one of the inputs.
-
 struct LevelSensitivity {
     std::string feature;
     SizeGroup sizes;      // NaN if there are none

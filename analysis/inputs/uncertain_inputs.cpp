@@ -113,11 +113,11 @@ EpistemicBand epistemic_band(std::span<const double> sizes, std::span<const int>
             ? link_quantile(model.link, (kFound - model.floor) / (model.ceiling - model.floor))
             : std::numeric_limits<double>::infinity();
     std::vector<double> a90, pods(static_cast<std::size_t>(shift.size()));
-    for (const double own : shift) {
-        const double at = slope > 0.0 ? (target - intercept - own) / slope
-                                      : std::numeric_limits<double>::infinity();
-        a90.push_back(std::isfinite(at)
-                          ? form.size(size_scale.centre[0] + size_scale.spread[0] * at)
+    for (const double offset : shift) {
+        const double standardised = slope > 0.0 ? (target - intercept - offset) / slope
+                                                : std::numeric_limits<double>::infinity();
+        a90.push_back(std::isfinite(standardised)
+                          ? form.size(size_scale.centre[0] + size_scale.spread[0] * standardised)
                           : std::numeric_limits<double>::infinity());
     }
     const auto estimate = [&](double share) {

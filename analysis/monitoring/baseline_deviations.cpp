@@ -79,11 +79,11 @@ std::vector<double> residuals(std::span<const double> values, std::span<const do
     const Baseline baseline_fit = learn(values, condition, baseline);
     std::vector<double> all(values.size(), kNan);
     for (std::size_t i = 0; i < values.size() && std::isfinite(baseline_fit.sd); ++i) {
-        const double at = condition.empty() ? 0.0 : condition[i];
+        const double covariate = condition.empty() ? 0.0 : condition[i];
         // Baseline records use the scatter about the line, further ones the scatter of their
         // prediction.
-        const double sd = i < baseline ? baseline_fit.sd : baseline_fit.prediction_sd(at);
-        all[i] = alarm_sign(alarm) * (values[i] - baseline_fit.expected(at)) / sd;
+        const double sd = i < baseline ? baseline_fit.sd : baseline_fit.prediction_sd(covariate);
+        all[i] = alarm_sign(alarm) * (values[i] - baseline_fit.expected(covariate)) / sd;
     }
     return all;
 }
@@ -134,7 +134,8 @@ std::vector<double> fused_deviations(const std::vector<std::vector<double>>& val
             throw std::invalid_argument("baseline: needs as many values of every feature");
         }
         auto part = residuals(values[f], condition, baseline, alarms[f]);
-        if (std::any_of(part.begin(), part.end(), [](double one) { return !std::isnan(one); })) {
+        if (std::any_of(part.begin(), part.end(),
+                        [](double value) { return !std::isnan(value); })) {
             parts.push_back(std::move(part));
         }
     }

@@ -43,7 +43,7 @@ std::optional<DetectionRule> parse_rule(std::string_view text) {
 }
 
 double next_of(DetectionRule& rule, double value) {
-    return std::visit([&](auto& one) { return one.next(value); }, rule);
+    return std::visit([&](auto& alternative) { return alternative.next(value); }, rule);
 }
 
 }  // namespace

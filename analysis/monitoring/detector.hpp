@@ -36,9 +36,9 @@ struct MOfNRule {
             return -std::numeric_limits<double>::infinity();
         }
         std::vector<double> ordered(last.begin(), last.end());
-        const auto place = ordered.begin() + (m - 1);
-        std::nth_element(ordered.begin(), place, ordered.end(), std::greater<>());
-        return *place;
+        const auto nth = ordered.begin() + (m - 1);
+        std::nth_element(ordered.begin(), nth, ordered.end(), std::greater<>());
+        return *nth;
     }
 };
 
@@ -81,8 +81,8 @@ struct TrendRule {
             last.pop_back();
         }
         double level = 0.0, ramp = 0.0, largest = 0.0, j = 0.0;
-        for (const double one : last) {  // from the latest record back: every weight grows by one
-            level += one;
+        for (const double earlier : last) {  // from the latest record back; weights grow by one
+            level += earlier;
             ramp += level;
             j += 1.0;
             largest = std::max(largest, ramp / std::sqrt(j * (j + 1.0) * (2.0 * j + 1.0) / 6.0));
@@ -91,7 +91,7 @@ struct TrendRule {
     }
 };
 
-// Detector: a rule (rules.hpp) with its parameters and its text form, and the alarms it raises.
+// Detector: a rule with its parameters and its text form, and the alarms it raises.
 
 using DetectionRule = std::variant<SingleRule, MOfNRule, EwmaRule, CusumRule, TrendRule>;
 

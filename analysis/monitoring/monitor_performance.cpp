@@ -16,10 +16,10 @@ namespace {
 
 // Order statistic; `values` is not empty and is reordered.
 double quantile_of(std::vector<double>& values, double share) {
-    const auto place = values.begin() +
-                       static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
-    std::nth_element(values.begin(), place, values.end());
-    return *place;
+    const auto middle = values.begin() +
+                        static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
+    std::nth_element(values.begin(), middle, values.end());
+    return *middle;
 }
 
 std::vector<std::pair<double, double>> sizes_and_values(std::span<const CrackedLife> cracked) {
@@ -86,9 +86,9 @@ double sample_quantile(std::vector<double> values, double quantile) {
     }
     const auto n = static_cast<double>(values.size());
     const auto rank = std::max<long>(1, std::lround(std::ceil(n * quantile - 1e-9)));
-    const auto place = values.begin() + (rank - 1);
-    std::nth_element(values.begin(), place, values.end());
-    return *place;
+    const auto nth = values.begin() + (rank - 1);
+    std::nth_element(values.begin(), nth, values.end());
+    return *nth;
 }
 
 // The same lives beginning at the first record whose crack has the size of its effect, which none
@@ -120,9 +120,9 @@ std::optional<std::size_t> detection(const Detector& detector, const CrackedLife
 double share_by_chance(const Detector& detector, std::span<const HealthyLife> healthy,
                        std::span<const CrackedLife> cracked, double threshold) {
     long pairs = 0, found = 0;
-    for (const HealthyLife& one : healthy) {
+    for (const HealthyLife& sound : healthy) {
         const std::vector<std::size_t> alarms =
-            detector_alarms(detector, one.values, threshold).alarms;
+            detector_alarms(detector, sound.values, threshold).alarms;
         for (const CrackedLife& life : cracked) {
             if (life.end_hours) {
                 const auto first = std::lower_bound(alarms.begin(), alarms.end(), life.first);
@@ -248,9 +248,10 @@ std::string why_unranked(const MonitorPerformance& performance, double per_1000_
 }
 
 bool ranks_before(const MonitorPerformance& a, const MonitorPerformance& b) {
-    const auto key = [](const MonitorPerformance& one) {
-        return std::tuple(or_last(-net_share(one)), or_last(one.size_90.value),
-                          or_last(one.size_50.value), or_last(one.false_alarms.per_1000_h));
+    const auto key = [](const MonitorPerformance& performance) {
+        return std::tuple(or_last(-net_share(performance)), or_last(performance.size_90.value),
+                          or_last(performance.size_50.value),
+                          or_last(performance.false_alarms.per_1000_h));
     };
     return key(a) < key(b);
 }

@@ -32,10 +32,10 @@ class NormalVariates {
 // Interpolated quantile of the sorted values, at the position share (n + 1).
 double sorted_quantile(const std::vector<double>& values, double share) {
     const auto n = static_cast<double>(values.size());
-    const double at = std::clamp(share * (n + 1.0) - 1.0, 0.0, n - 1.0);
-    const auto low = static_cast<std::size_t>(at);
+    const double position = std::clamp(share * (n + 1.0) - 1.0, 0.0, n - 1.0);
+    const auto low = static_cast<std::size_t>(position);
     const std::size_t high = std::min(low + 1, values.size() - 1);
-    return values[low] + (at - static_cast<double>(low)) * (values[high] - values[low]);
+    return values[low] + (position - static_cast<double>(low)) * (values[high] - values[low]);
 }
 
 }  // namespace
@@ -52,8 +52,8 @@ LineDistance line_distance(const SignalResponseFit& fit, double size, double thr
 
 double proportional_scatter(const ResponseRows& rows, double size) {
     double squares = 0.0;
-    for (const double at : rows.size) {
-        squares += at * at;
+    for (const double tested : rows.size) {
+        squares += tested * tested;
     }
     return size / std::sqrt(squares / static_cast<double>(rows.size.size()));
 }
@@ -114,7 +114,9 @@ SimulatedLimits::SimulatedLimits(const ResponseRows& rows, bool by_specimen,
     double size[kSizes], threshold[kSizes][kDistances];
     for (int i = 0; i < kSizes; ++i) {
         const double share = static_cast<double>(i) / (kSizes - 1);
-        const auto scaled = [&](double at) { return truth.scale.log_size ? std::log(at) : at; };
+        const auto scaled = [&](double value) {
+            return truth.scale.log_size ? std::log(value) : value;
+        };
         x_[i] = scaled(*smallest) + share * (scaled(*largest) - scaled(*smallest));
         size[i] = truth.scale.log_size ? std::exp(x_[i]) : x_[i];
         for (int j = 0; j < kDistances; ++j) {
@@ -189,7 +191,7 @@ class TestedBounds : public ResponseBounds {
 
     SizeBounds size(double pod, double smallest, double largest) const override {
         const double u = link_quantile(Link::probit, pod);
-        const auto at = [&](int bound) -> SizeEstimate {
+        const auto size_estimate = [&](int bound) -> SizeEstimate {
             const auto beyond = [&](double size) { return excess(size, u, bound); };
             if (!(beyond(largest) >= 0.0)) {
                 return {Where::not_reached, kNan};
@@ -200,13 +202,13 @@ class TestedBounds : public ResponseBounds {
             return {Where::reached, zero(beyond, smallest, largest)};
         };
         // The upper bound of the POD curve gives the lower bound of the size.
-        return {at(0), at(1), at(-1)};
+        return {size_estimate(0), size_estimate(1), size_estimate(-1)};
     }
 
     PodPoint point(double size) const override {
         const double u = distance(size).u;
         const auto pod = [&](int bound) {
-            const auto beyond = [&](double at) { return -excess(size, at, bound); };
+            const auto beyond = [&](double tried) { return -excess(size, tried, bound); };
             double step = 0.5;
             while (step < kFarthest && !(bound * beyond(u + bound * step) > 0.0)) {
                 step *= 2.0;

@@ -22,11 +22,11 @@ Eigen::Matrix2d curve_covariance(std::span<const ClusteredOutcome> outcomes, con
     std::map<long, Eigen::Vector2d> scores;
     for (const ClusteredOutcome& outcome : outcomes) {
         const double x = form.scaled(outcome.size);
-        const LinkValues at = link_values(form.link, curve.intercept + curve.slope * x);
+        const LinkValues link = link_values(form.link, curve.intercept + curve.slope * x);
         const double rise = curve.ceiling - form.floor;
-        const double hit = form.floor + rise * at.up;
-        const double miss = (1.0 - curve.ceiling) + rise * at.down;
-        const double by_eta = rise * at.density;
+        const double hit = form.floor + rise * link.up;
+        const double miss = (1.0 - curve.ceiling) + rise * link.down;
+        const double by_eta = rise * link.density;
         const double both = std::max(kTiny, hit * miss);
         const Eigen::Vector2d row(1.0, x);
         information += by_eta * by_eta / both * row * row.transpose();

@@ -1,7 +1,5 @@
-// Covariance of a hit/miss curve's intercept and slope from the curve's information. The robust
-// covariance is for clustered outcomes (one specimen inspected several times): the scores summed
-// over each cluster between two inverse informations, times clusters / (clusters - 1). K.-Y. Liang,
-// S. L. Zeger, Biometrika 73 (1986), 13-22.
+// Covariance of a POD curve's parameters, also from clustered outcomes, and Wald and likelihood-
+// ratio bounds from it.
 #pragma once
 
 #include <Eigen/Core>
@@ -13,6 +11,10 @@
 
 namespace gearpod::analysis {
 
+// Covariance of a hit/miss curve's intercept and slope from the curve's information. The robust
+// covariance is for clustered outcomes (one specimen inspected several times): the scores summed
+// over each cluster between two inverse informations, times clusters / (clusters - 1). K.-Y. Liang,
+// S. L. Zeger, Biometrika 73 (1986), 13-22.
 struct ClusteredOutcome {
     double size = 0.0;
     bool hit = false;
@@ -26,7 +28,6 @@ Eigen::Matrix2d curve_covariance(std::span<const ClusteredOutcome> outcomes, con
 
 // POD curve in terms of location and scale of the size, POD = F((x - location) / scale), with their
 // covariance and Wald bounds of derived quantities (MIL-HDBK-1823A, appendix G.2.5).
-
 struct LocationScale {
     double location = 0.0;  // x where eta is 0: the median for logit and probit, 63 % for cloglog
     double scale = 0.0;     // x per eta, > 0

@@ -1,5 +1,4 @@
-// Hits and misses by fault size, the data of a hit/miss analysis. Every distinct size has its own
-// row; there is no binning, only gearboxes of exactly equal size are counted together.
+// Hits and misses by fault size, the data of a hit/miss analysis, and their standardised sizes.
 #pragma once
 
 #include <Eigen/Core>
@@ -8,6 +7,8 @@
 
 namespace gearpod::analysis {
 
+// Hits and misses by fault size, the data of a hit/miss analysis. Every distinct size has its own
+// row; there is no binning, only gearboxes of exactly equal size are counted together.
 struct HitMissRow {
     double size = 0.0;  // > 0
     double hits = 0.0;

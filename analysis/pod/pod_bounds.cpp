@@ -95,7 +95,7 @@ SizeEstimate size_bound(const HitMissTable& table, const PodLikelihood& likeliho
         std::swap(inner, edge);
     }
     Profile profile(likelihood, maximum, rule);
-    const auto beyond = [&](double at) { return profile.beyond(at, pod); };
+    const auto beyond = [&](double tried) { return profile.beyond(tried, pod); };
     // An estimate outside the tested sizes may have its bound outside as well.
     if (estimate.where != Where::reached && beyond(inner) > 0.0) {
         return estimate;
@@ -114,16 +114,16 @@ SizeEstimate size_bound(const HitMissTable& table, const PodLikelihood& likeliho
     share = share > kShortestShare ? std::min(share, kLongestShare) : kLongestShare;
     double inside = u, at_inside = -profile.limit();
     for (;; share *= 2.0) {
-        const double at = share < 1.0 ? u + share * span : edge;
-        const double value = beyond(at);
+        const double tried = share < 1.0 ? u + share * span : edge;
+        const double value = beyond(tried);
         if (value > 0.0) {
             return {Where::reached,
-                    likelihood.size(crossing(beyond, inside, at, at_inside, value, kSizeBits))};
+                    likelihood.size(crossing(beyond, inside, tried, at_inside, value, kSizeBits))};
         }
         if (share >= 1.0) {
             return outside;
         }
-        inside = at;
+        inside = tried;
         at_inside = value;
     }
 }
@@ -183,7 +183,7 @@ std::vector<PodPoint> pod_band(const PodLikelihood& likelihood,
                 continue;
             }
             profile.restart();
-            const auto beyond = [&](double at) { return profile.beyond(u, pod_of(at)); };
+            const auto beyond = [&](double tried) { return profile.beyond(u, pod_of(tried)); };
             double inside = zeta, at_inside = -profile.limit();
             for (double step = first_step; std::isfinite(zeta); step *= 2.0) {
                 const double outside = zeta + sign * step;
@@ -206,8 +206,8 @@ std::vector<PodPoint> pod_band(const PodLikelihood& likelihood,
 
 double specimens_for_bound(const PodLikelihood& likelihood, const PodLikelihood::Maximum& maximum,
                            double pod, double size, const BoundRule& rule) {
-    const auto own = likelihood.curve(maximum.parameters).size_at(pod);
-    if (!own || !(*own < size)) {
+    const auto estimate = likelihood.curve(maximum.parameters).size_at(pod);
+    if (!estimate || !(*estimate < size)) {
         return std::numeric_limits<double>::infinity();
     }
     Profile profile(likelihood, maximum, rule);

@@ -1,4 +1,5 @@
-// Sizes and probabilities derived from a POD curve, each with its one-sided bounds.
+// POD curve as a function of size, its forms, and sizes and probabilities derived from it with
+// their bounds.
 #pragma once
 
 #include <limits>
@@ -84,7 +85,6 @@ std::string bound_text(const BoundRule& rule);
 // MIL-HDBK-1823A, appendix G.3.3, has floor 0 and ceiling 1. A detector with a false-alarm rate
 // does not fall below it for small faults. A detector that fails on some gearboxes does not reach
 // 1. For asymptotes in POD see Annis, Gandossi and Martin, Nucl. Eng. Des. 262 (2013), 98-105.
-
 struct PodForm {
     Link link = Link::logit;
     bool log_size = false;

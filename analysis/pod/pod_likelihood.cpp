@@ -71,8 +71,8 @@ PodLikelihood::Slopes PodLikelihood::evaluate(const Parameters& parameters,
     // from it.
     double ceiling_by_eta = 0.0;
     if (through && form_.free_ceiling) {
-        const LinkValues at = link_values(form_.link, parameters[0] + parameters[1] * through->u);
-        ceiling_by_eta = -(through->pod - floor) * at.density / (at.up * at.up);
+        const LinkValues link = link_values(form_.link, parameters[0] + parameters[1] * through->u);
+        ceiling_by_eta = -(through->pod - floor) * link.density / (link.up * link.up);
     }
     const OutcomeLine line{{form_.link, floor, ceiling},
                            parameters[0],
@@ -92,10 +92,10 @@ PodLikelihood::Slopes PodLikelihood::evaluate(const Parameters& parameters,
             std::lower_bound(begin + from, begin + last, std::max(low, high)) - begin;
         add_outcomes(line, detected, to - from, begin + from, nodes.weight.data() + from, sums);
         // Where the curve is flat, one size represents all.
-        const auto add_flat = [&](Eigen::Index start, Eigen::Index end, Eigen::Index at) {
+        const auto add_flat = [&](Eigen::Index start, Eigen::Index end, Eigen::Index term) {
             if (end > start) {
                 const double weight = nodes.weight.segment(start, end - start).sum();
-                add_outcomes(line, detected, 1, begin + at, &weight, sums);
+                add_outcomes(line, detected, 1, begin + term, &weight, sums);
             }
         };
         add_flat(first, from, from - 1);
@@ -123,14 +123,14 @@ PodLikelihood::Slopes PodLikelihood::evaluate(const Parameters& parameters,
 
 double PodLikelihood::penalise(const Parameters& parameters, const std::optional<Point>& through,
                                const SizeNodes& nodes, Slopes& slopes) const {
-    const auto half_log_determinant = [&](const Parameters& at) {
-        const Eigen::Matrix3d all = evaluate(at, std::nullopt, nodes).information;
+    const auto half_log_determinant = [&](const Parameters& point) {
+        const Eigen::Matrix3d all = evaluate(point, std::nullopt, nodes).information;
         return 0.5 * std::log(all(0, 0) * all(1, 1) - all(0, 1) * all(0, 1));
     };
     // With a point constraint, the intercept follows the slope.
     const Parameters turning{-(through ? through->u : 0.0), 1.0, 0.0};
-    const auto slope_along = [&](const Parameters& direction, double at) {
-        const double step = kPenaltyStep * std::max(1.0, std::abs(at));
+    const auto slope_along = [&](const Parameters& direction, double value) {
+        const double step = kPenaltyStep * std::max(1.0, std::abs(value));
         return (half_log_determinant(parameters + step * direction) -
                 half_log_determinant(parameters - step * direction)) /
                (2.0 * step);
@@ -288,15 +288,15 @@ std::optional<double> PodLikelihood::extreme_zeta(double u, double log_likelihoo
         }
         // Gradient of zeta, which is eta itself with a ceiling of 1.
         const double rise = parameters[2] - floor;
-        const LinkValues at = link_values(form_.link, parameters[0] + parameters[1] * u);
-        const double zeta = link_quantile(form_.link, rise * at.up / (1.0 - floor));
+        const LinkValues link = link_values(form_.link, parameters[0] + parameters[1] * u);
+        const double zeta = link_quantile(form_.link, rise * link.up / (1.0 - floor));
         const double scale = (1.0 - floor) * link_density(form_.link, zeta);
         if (std::isinf(zeta) && zeta * side > 0.0 && here.value >= log_likelihood) {
             start = parameters;  // nothing is more extreme
             return zeta;
         }
-        const double by_eta = form_.free_ceiling ? rise * at.density / scale : 1.0;
-        const double by_ceiling = form_.free_ceiling ? at.up / scale : 0.0;
+        const double by_eta = form_.free_ceiling ? rise * link.density / scale : 1.0;
+        const double by_ceiling = form_.free_ceiling ? link.up / scale : 0.0;
         const Parameters gradient{by_eta, by_eta * u, held ? 0.0 : by_ceiling};
         const Parameters score{here.score[0], here.score[1], held ? 0.0 : here.score[2]};
         Eigen::Matrix3d system = here.information;

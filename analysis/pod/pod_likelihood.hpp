@@ -1,9 +1,4 @@
-// Binomial likelihood of a POD curve, maximised by Fisher scoring with step halving, either freely
-// or with the curve constrained through one point (the profile likelihood used for likelihood-ratio
-// bounds). P. McCullagh, J. A. Nelder, Generalized Linear Models (1989), sections 2.5 and 4.4.
-// Firth's penalty, half the logarithm of the information's determinant, gives a maximum even where
-// hits and misses do not overlap: D. Firth, Biometrika 80 (1993), 27-38; G. Heinze, M. Schemper,
-// Stat. Med. 21 (2002), 2409-2419.
+// Likelihood of a POD curve, its maximum and profiles, and its goodness of fit.
 #pragma once
 
 #include <Eigen/Core>
@@ -16,6 +11,12 @@
 
 namespace gearpod::analysis {
 
+// Binomial likelihood of a POD curve, maximised by Fisher scoring with step halving, either freely
+// or with the curve constrained through one point (the profile likelihood used for likelihood-ratio
+// bounds). P. McCullagh, J. A. Nelder, Generalized Linear Models (1989), sections 2.5 and 4.4.
+// Firth's penalty, half the logarithm of the information's determinant, gives a maximum even where
+// hits and misses do not overlap: D. Firth, Biometrika 80 (1993), 27-38; G. Heinze, M. Schemper,
+// Stat. Med. 21 (2002), 2409-2419.
 class PodLikelihood {
   public:
     // (intercept, slope, ceiling) in the standardised size u.

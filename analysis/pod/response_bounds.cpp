@@ -149,15 +149,16 @@ class BoundsOfLikelihood : public ResponseBounds {
         const double from = curve_.at(eta, 0.0);
         const double low = form_.scaled(smallest), high = form_.scaled(largest);
         const auto beyond = [&](double x) { return deviance_root(x, eta) - limit_; };
-        return {place(from, low, high), place(bound(beyond, from, low, high, -1.0), low, high),
-                place(bound(beyond, from, low, high, 1.0), low, high)};
+        return {size_estimate(from, low, high),
+                size_estimate(bound(beyond, from, low, high, -1.0), low, high),
+                size_estimate(bound(beyond, from, low, high, 1.0), low, high)};
     }
 
     PodPoint point(double size) const override {
         const double x = form_.scaled(size);
         const double eta = curve_.eta_at(x, 0.0);
-        const auto beyond = [&](double at) { return deviance_root(x, at) - limit_; };
-        const auto pod = [&](double at) { return link_probability(Link::probit, at); };
+        const auto beyond = [&](double u) { return deviance_root(x, u) - limit_; };
+        const auto pod = [&](double u) { return link_probability(Link::probit, u); };
         constexpr double kEnd = 40.0;  // where Phi is 0 or 1
         return {size, pod(eta), pod(bound(beyond, eta, eta - kEnd, eta + kEnd, -1.0)),
                 pod(bound(beyond, eta, eta - kEnd, eta + kEnd, 1.0))};
@@ -184,15 +185,15 @@ class BoundsOfLikelihood : public ResponseBounds {
         const double end = way > 0.0 ? std::max(from, high) : std::min(from, low);
         double inside = from;
         for (double share = 1.0 / 64.0; share <= 1.0; share *= 2.0) {
-            const double at = from + share * (end - from);
-            if (beyond(at) > 0.0) {
-                return root(beyond, inside, at);
+            const double tried = from + share * (end - from);
+            if (beyond(tried) > 0.0) {
+                return root(beyond, inside, tried);
             }
-            inside = at;
+            inside = tried;
         }
         return way * std::numeric_limits<double>::infinity();
     }
-    SizeEstimate place(double x, double low, double high) const {
+    SizeEstimate size_estimate(double x, double low, double high) const {
         return x < low     ? SizeEstimate{Where::below_tested, kNan}
                : x <= high ? SizeEstimate{Where::reached, form_.size(x)}
                            : SizeEstimate{Where::not_reached, kNan};

@@ -1,5 +1,5 @@
-// Straight line through a feature's values over fault size on given scales, and checks of its
-// normal-theory assumptions.
+// POD from responses: a straight line through a feature's values over fault size on given scales,
+// and checks of its normal-theory assumptions.
 #pragma once
 
 #include <limits>
@@ -82,7 +82,6 @@ std::optional<double> box_cox_power(const ResponseRows& rows, bool log_size,
                                     bool coarse = false);
 
 // Fits of responses over size on all requested scales, and the choice of one.
-
 struct SignalResponseRequest {
     double threshold = 0.0;
     Alarm alarm = Alarm::high;

@@ -53,14 +53,15 @@ double way(const RocPoint& point) {
 // Corners nearest to `most` points that divide the path from (0, 0) to (1, 1) evenly.
 std::vector<RocPoint> thinned(const std::vector<RocPoint>& points, std::size_t most) {
     std::vector<RocPoint> kept;
-    std::size_t at = 0, last = points.size();
-    for (std::size_t place = 0; place < most; ++place) {
-        const double target = static_cast<double>(place) / static_cast<double>(most - 1);
-        while (at + 1 < points.size() && way(points[at]) < target) {
-            ++at;
+    std::size_t point = 0, last = points.size();
+    for (std::size_t corner = 0; corner < most; ++corner) {
+        const double target = static_cast<double>(corner) / static_cast<double>(most - 1);
+        while (point + 1 < points.size() && way(points[point]) < target) {
+            ++point;
         }
-        const bool before = at > 0 && target - way(points[at - 1]) < way(points[at]) - target;
-        const std::size_t nearest = before ? at - 1 : at;
+        const bool before =
+            point > 0 && target - way(points[point - 1]) < way(points[point]) - target;
+        const std::size_t nearest = before ? point - 1 : point;
         if (nearest != last) {
             kept.push_back(points[nearest]);
             last = nearest;

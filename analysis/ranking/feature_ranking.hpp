@@ -1,6 +1,4 @@
-// Receiver operating characteristic (ROC): detection rate of the faulty gearboxes against
-// false-alarm rate of the healthy ones, over all thresholds. T. Fawcett, Pattern Recognit. Lett. 27
-// (2006), 861-874.
+// ROC curves of features, and their ranking by the area under them.
 #pragma once
 
 #include <cstddef>
@@ -14,6 +12,9 @@
 
 namespace gearpod::analysis {
 
+// Receiver operating characteristic (ROC): detection rate of the faulty gearboxes against
+// false-alarm rate of the healthy ones, over all thresholds. T. Fawcett, Pattern Recognit. Lett. 27
+// (2006), 861-874.
 struct RocPoint {
     double false_alarm_rate = 0.0;
     double detection_rate = 0.0;

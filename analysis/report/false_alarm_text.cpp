@@ -220,7 +220,7 @@ std::string sample_shortage(long healthy, double false_alarm_rate, double confid
         return fmt::format(
             "Too few healthy {} for a false-alarm rate of {:g}: {} give no threshold, so detection "
             "is unknown. At least {} are needed, and {}.",
-            many(subject), false_alarm_rate, healthy,
+            plural(subject), false_alarm_rate, healthy,
             by_law < without_law
                 ? fmt::format("{} with extrapolation or {} without", by_law, without_law)
                 : fmt::format("{}", without_law),
@@ -233,7 +233,7 @@ std::string sample_shortage(long healthy, double false_alarm_rate, double confid
             "extreme values, and the true rate may be several times higher. Without extrapolation "
             "at least {} are needed, and {}.",
             false_alarm_rate, 1.0 / (false_alarm_rate * static_cast<double>(healthy)), healthy,
-            many(subject), exceedances_of(healthy), without_law, enough);
+            plural(subject), exceedances_of(healthy), without_law, enough);
     }
     const Interval rate = threshold_rate_interval(healthy, false_alarm_rate, confidence);
     if (rate.upper <= 2.0 * false_alarm_rate) {
@@ -242,7 +242,7 @@ std::string sample_shortage(long healthy, double false_alarm_rate, double confid
     return fmt::format(
         "Few healthy {} for a false-alarm rate of {:g}: {} determine it only to between {:.2g} and "
         "{:.2g} at {:g} % confidence. At least {} are needed for a rate of at most twice that.",
-        many(subject), false_alarm_rate, healthy, rate.lower, rate.upper, 100.0 * confidence,
+        plural(subject), false_alarm_rate, healthy, rate.lower, rate.upper, 100.0 * confidence,
         sample_for_rate(false_alarm_rate, confidence));
 }
 

@@ -227,7 +227,7 @@ void add_smooth(Section& section, const InspectionResult& result, const Inspecti
         return;
     }
     const SmoothResponse& smooth = *result.smooth;
-    const auto at = [&](double size) {
+    const auto pod_text = [&](double size) {
         return fmt::format("{} with scatter {} at {}", number_text(smooth.mean(size), kDigits),
                            number_text(smooth.scatter(size), kDigits),
                            with_unit(size, names.size, kDigits));
@@ -237,8 +237,8 @@ void add_smooth(Section& section, const InspectionResult& result, const Inspecti
         "smooth",
         fmt::format("Instead a monotone curve was fitted, with a scatter that is a power of the "
                     "size ({}): {}, {}. Its residuals are normal (Anderson-Darling: p = {:.2g}).",
-                    number_text(smooth.growth(), 3), at(smooth.smallest()), at(smooth.largest()),
-                    smooth.normality()));
+                    number_text(smooth.growth(), 3), pod_text(smooth.smallest()),
+                    pod_text(smooth.largest()), smooth.normality()));
     section.state("correlation",
                   result.repeats > 0
                       ? fmt::format("Two values of one specimen have a correlation of {}.",

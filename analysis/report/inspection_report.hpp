@@ -1,4 +1,4 @@
-// Findings of a table of inspections as a report.
+// Findings of a table of inspections as a report and as JSON.
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>

@@ -135,7 +135,7 @@ Json to_json(const EpistemicBand& uncertain) {
 
 Json to_json(const SmallestFault& smallest) {
     Json json = fields_json(smallest);
-    json["source"] = smallest.own ? Json(nullptr) : fields_json(smallest.source);
+    json["source"] = smallest.from_itself ? Json(nullptr) : fields_json(smallest.source);
     return json;
 }
 

@@ -1,3 +1,13 @@
+// POD curves, rankings and the dependence of detection on inputs and noise, as JSON.
+#pragma once
+
+#include <nlohmann/json_fwd.hpp>
+#include <span>
+
+#include "analysis/reliability.hpp"
+
+namespace gearpod::analysis {
+
 // Dependence of detection on every random input and on the noise, as JSON.
 //
 // robustness: {"<input>": {"unit", "features": [{"name", "levels": [{"noise_level", "size_low",
@@ -12,15 +22,6 @@
 // a90 has one entry per value; it is empty with a refusal.
 //
 // Sizes are in the request's unit; null where there is no number.
-#pragma once
-
-#include <nlohmann/json_fwd.hpp>
-#include <span>
-
-#include "analysis/reliability.hpp"
-
-namespace gearpod::analysis {
-
 nlohmann::json robustness_json(const Reliability& reliability, const DetectionRequest& request);
 nlohmann::json a90_maps_json(const Reliability& reliability, const DetectionRequest& request);
 

@@ -25,16 +25,16 @@ void set_text_width(std::size_t columns) {
 
 void add_wrapped(std::string& out, const std::string& text, std::size_t indent, std::size_t width) {
     std::string line;
-    for (std::size_t at = 0; at < text.size();) {
-        const std::size_t end = std::min(text.find(' ', at), text.size());
-        const std::string word = text.substr(at, end - at);
+    for (std::size_t begin = 0; begin < text.size();) {
+        const std::size_t end = std::min(text.find(' ', begin), text.size());
+        const std::string word = text.substr(begin, end - begin);
         if (!line.empty() && line.size() + 1 + word.size() > width) {
             out += line + '\n';
             line = std::string(indent, ' ') + word;
         } else {
-            line += (line.empty() || at == 0 ? "" : " ") + word;
+            line += (line.empty() || begin == 0 ? "" : " ") + word;
         }
-        at = end + 1;
+        begin = end + 1;
     }
     out += line + '\n';
 }

@@ -1,4 +1,4 @@
-// Lines of the terminal reports.
+// A report as statements and tables in sections, and its rendering as text and JSON.
 #pragma once
 
 #include <cstddef>

@@ -1,4 +1,4 @@
-// Kind of the rows of a report, and the words for them.
+// Numbers, rates and features in the words of reports.
 #pragma once
 
 #include <string>
@@ -9,13 +9,14 @@
 
 namespace gearpod::analysis {
 
+// Kind of the rows of a report, and the words for them.
 enum class Subject { gearboxes, recordings };
 
-inline std::string one(Subject subject) {
+inline std::string singular(Subject subject) {
     return subject == Subject::gearboxes ? "gearbox" : "recording";
 }
 
-inline std::string many(Subject subject) {
+inline std::string plural(Subject subject) {
     return subject == Subject::gearboxes ? "gearboxes" : "recordings";
 }
 
@@ -24,8 +25,6 @@ inline constexpr const char* kNoSize = "label";
 inline bool has_sizes(const DetectionRequest& request) {
     return request.size.name != kNoSize;
 }
-
-// Numbers, probabilities and names as a report shows them.
 
 // Significance level of the tests named in a report.
 inline constexpr double kTestLevel = 0.05;

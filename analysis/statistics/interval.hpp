@@ -1,11 +1,9 @@
-// Interval of an estimate, and the value that marks a missing estimate.
+// Confidence intervals of a proportion.
 #pragma once
 
 #include "machine/no_value.hpp"
 
 namespace gearpod::analysis {
-
-// Marks a quantity that could not be estimated.
 
 struct Interval {
     double lower = 0.0;

@@ -69,8 +69,9 @@ std::optional<std::vector<double>> learned_sum(const LearningSample& sample) {
     std::vector<double> sums;
     for (std::size_t i = 0; i < sample.faulty.size(); ++i) {
         const Eigen::VectorXd values = values_of(sample, i);
-        const Weights& own = *of[sample.half[i]];
-        sums.push_back(values.allFinite() ? own.weights.dot(values) - own.offset : kNan);
+        const Weights& half_weights = *of[sample.half[i]];
+        sums.push_back(values.allFinite() ? half_weights.weights.dot(values) - half_weights.offset
+                                          : kNan);
     }
     return sums;
 }

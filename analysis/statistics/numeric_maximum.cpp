@@ -11,22 +11,22 @@ using Function = std::function<double(const Eigen::VectorXd&)>;
 
 constexpr double kStep = 1e-4;  // step of the differences, for parameters of order 1
 
-Curvature differences(const Function& function, const Eigen::VectorXd& at, double value) {
-    const Eigen::Index n = at.size();
+Curvature differences(const Function& function, const Eigen::VectorXd& point, double value) {
+    const Eigen::Index n = point.size();
     Curvature curvature{Eigen::VectorXd(n), Eigen::MatrixXd(n, n)};
     const auto moved = [&](Eigen::Index i, double by_i, Eigen::Index j, double by_j) {
-        Eigen::VectorXd there = at;
+        Eigen::VectorXd there = point;
         there[i] += by_i;
         there[j] += by_j;
         return function(there);
     };
     for (Eigen::Index i = 0; i < n; ++i) {
-        const double h = kStep * std::max(1.0, std::abs(at[i]));
+        const double h = kStep * std::max(1.0, std::abs(point[i]));
         const double up = moved(i, h, i, 0.0), down = moved(i, -h, i, 0.0);
         curvature.score[i] = (up - down) / (2.0 * h);
         curvature.information(i, i) = (2.0 * value - up - down) / (h * h);
         for (Eigen::Index j = 0; j < i; ++j) {
-            const double k = kStep * std::max(1.0, std::abs(at[j]));
+            const double k = kStep * std::max(1.0, std::abs(point[j]));
             const double mixed =
                 moved(i, h, j, k) - moved(i, h, j, -k) - moved(i, -h, j, k) + moved(i, -h, j, -k);
             curvature.information(i, j) = curvature.information(j, i) = -mixed / (4.0 * h * k);
@@ -93,7 +93,9 @@ NumericMaximum climb(const Function& function, CurvatureAt curvature_at,
 NumericMaximum numeric_maximum(const Function& function, const Eigen::VectorXd& start) {
     return climb(
         function,
-        [&](const Eigen::VectorXd& at, double value) { return differences(function, at, value); },
+        [&](const Eigen::VectorXd& point, double value) {
+            return differences(function, point, value);
+        },
         start);
 }
 
@@ -101,7 +103,7 @@ NumericMaximum numeric_maximum(const Function& function,
                                const std::function<Curvature(const Eigen::VectorXd&)>& curvature,
                                const Eigen::VectorXd& start) {
     return climb(
-        function, [&](const Eigen::VectorXd& at, double) { return curvature(at); }, start);
+        function, [&](const Eigen::VectorXd& point, double) { return curvature(point); }, start);
 }
 
 }  // namespace gearpod::analysis

@@ -63,11 +63,11 @@ GEARPOD_INLINE LaneTerms lane_terms(double floor, double ceiling, double eta, bo
     const LinkValues link = lane_link<kLink>(eta);
     const double hit = std::fma(rise, link.up, floor);
     const double miss = std::fma(rise, link.down, 1.0 - ceiling);
-    const double own = yes ? hit : miss;
+    const double probability = yes ? hit : miss;
     const double both = hit * miss;
     const double inverse = 1.0 / (both < kLeastProduct ? 1.0 : both);
-    return {machine::lane_log(own < kLeast ? kLeast : own), both < kLeastProduct ? 0.0 : inverse,
-            yes ? miss : -hit, rise * link.density, link.up};
+    return {machine::lane_log(probability < kLeast ? kLeast : probability),
+            both < kLeastProduct ? 0.0 : inverse, yes ? miss : -hit, rise * link.density, link.up};
 }
 
 template <Link kLink>

@@ -122,13 +122,14 @@ analysis::Section too_many_section(const analysis::Findings& findings, const Res
     analysis::Section section{"too_many", "", {}};
     const std::size_t each =
         std::max<std::size_t>(1, frame.features.size() * frame.noise_levels.size());
-    section.state("too_many",
-                  findings.reliability != nullptr
-                      ? ""
-                      : fmt::format("No detection curves, areas and ranking: they need all values "
-                                    "at once, and the number of {} is limited to {} with these "
-                                    "features and noise levels.",
-                                    analysis::many(findings.subject), kMostAssessedValues / each));
+    section.state(
+        "too_many",
+        findings.reliability != nullptr
+            ? ""
+            : fmt::format("No detection curves, areas and ranking: they need all values "
+                          "at once, and the number of {} is limited to {} with these "
+                          "features and noise levels.",
+                          analysis::plural(findings.subject), kMostAssessedValues / each));
     return section;
 }
 

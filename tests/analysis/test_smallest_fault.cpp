@@ -178,9 +178,9 @@ TEST_CASE("A transferred bound names its origin, a bound of its own names itself
     const auto quiet = smallest_fault(result, 0), loud = smallest_fault(result, 1);
     REQUIRE(quiet);
     CHECK(quiet->size == 0.7);
-    CHECK(!quiet->own);
+    CHECK(!quiet->from_itself);
     CHECK(quiet->source == SmallestFault::Source{"te_fm0", 3.0});
-    CHECK(loud->own);
+    CHECK(loud->from_itself);
     CHECK(loud->size == 0.7);
 }
 

@@ -112,8 +112,8 @@ const std::array<EvidenceSubject, 8>& evidence_subjects() {
 using Keys = std::span<const std::string_view>;
 
 bool belongs(const std::string& key, Keys keys) {
-    return std::any_of(keys.begin(), keys.end(), [&](std::string_view one) {
-        return one.ends_with('.') ? key.starts_with(one) : key == one;
+    return std::any_of(keys.begin(), keys.end(), [&](std::string_view prefix) {
+        return prefix.ends_with('.') ? key.starts_with(prefix) : key == prefix;
     });
 }
 
@@ -338,12 +338,12 @@ Report evidence_report(const EvidenceSource& source) {
     for (const EvidenceSubject& subject : subjects) {
         sorted.sections.push_back({subject.key, subject.title, {}});
     }
-    const auto place = [&](std::string_view key) -> Section& {
+    const auto section_of = [&](std::string_view key) -> Section& {
         return *std::find_if(sorted.sections.begin(), sorted.sections.end(),
                              [&](const Section& section) { return section.key == key; });
     };
     if (source.kind != EvidenceKind::inspections) {
-        place("definition").add(indicator_table(source.indicators));
+        section_of("definition").add(indicator_table(source.indicators));
     }
     std::set<std::string> stated;
     for (const Section& section : source.findings.sections) {
@@ -354,15 +354,16 @@ Report evidence_report(const EvidenceSource& source) {
             }
         }
     }
-    place("threshold").state("evidence.rule", threshold_rule(source, sorted));
+    section_of("threshold").state("evidence.rule", threshold_rule(source, sorted));
     for (const auto& [subject, block] : source.added) {
-        place(subject).blocks.push_back(block);
+        section_of(subject).blocks.push_back(block);
     }
     const auto absent = absent_evidence(source, sorted);
     Section scope = scope_section(source, sorted.sections);
     for (const auto& [key, texts] : absent) {
-        place(key).state("evidence.absent." + key,
-                         texts.empty() ? "" : "Not provided by this study: " + joined(texts) + ".");
+        section_of(key).state(
+            "evidence.absent." + key,
+            texts.empty() ? "" : "Not provided by this study: " + joined(texts) + ".");
     }
     Report report;
     report.add(std::move(scope));

@@ -42,7 +42,7 @@ Table threshold_table(const Findings& findings, std::size_t n) {
                  findings.subject == Subject::recordings  ? "healthy: alarms/recordings"
                  : findings.request.threshold_records > 1 ? "healthy: alarms/records"
                                                           : "healthy: alarms/gearboxes",
-                 "false-alarm rate", "with healthy test " + many(findings.subject)},
+                 "false-alarm rate", "with healthy test " + plural(findings.subject)},
                 {}};
     if (tails) {
         table.columns.insert(table.columns.end(), {"extrapolated", "values fitted"});
@@ -82,7 +82,7 @@ Table rate_table(const Findings& findings, std::size_t n) {
                 fmt::format("Detection rates Pd{} [lower, upper] at {} confidence (Wilson)",
                             findings.at_noise(n), findings.percent()),
                 {!sized ? kNoSize : "size" + (shown.empty() ? "" : " " + shown),
-                 many(findings.subject), "not computed"},
+                 plural(findings.subject), "not computed"},
                 {}};
     table.labels = 3;
     for (const FeatureDetection& feature : findings.detection) {
@@ -268,7 +268,7 @@ void add_ranking(Section& section, const Findings& findings, std::size_t n) {
     section.state(fmt::format("ranking.{}", n), ranking_text(findings, ranking, n));
     Table table{fmt::format("ranks.{}", n),
                 fmt::format("Ranking{}, {} healthy and {} faulty {}", findings.at_noise(n),
-                            ranking.healthy, ranking.faulty, many(findings.subject)),
+                            ranking.healthy, ranking.faulty, plural(findings.subject)),
                 {"rank", "feature", "area", "p against the first"},
                 {},
                 true};
@@ -409,13 +409,13 @@ void add_costs(Section& section, const Findings& findings, std::size_t n) {
 std::string condition_title(const Findings& findings, const ConditionDetection& detection,
                             const ConditionLevel& level, std::size_t n) {
     std::vector<std::string> thresholds;
-    for (const ConditionThreshold& one : level.thresholds) {
+    for (const ConditionThreshold& condition : level.thresholds) {
         thresholds.push_back(fmt::format(
-            "{}: {}", quantity_text(one.condition, detection.unit),
-            std::isnan(one.threshold)
+            "{}: {}", quantity_text(condition.condition, detection.unit),
+            std::isnan(condition.threshold)
                 ? "none"
-                : quantity_text(one.threshold, findings.unit(findings.feature(detection.feature)),
-                                4)));
+                : quantity_text(condition.threshold,
+                                findings.unit(findings.feature(detection.feature)), 4)));
     }
     return fmt::format("{}{}; thresholds at {} {}", detection.feature, findings.at_noise(n),
                        input_name(detection.input, detection.unit), joined(thresholds));
@@ -445,7 +445,7 @@ Section conditions_section(const Findings& findings) {
     section.state("conditions.how",
                   fmt::format("Each value of {} has its own threshold, set by healthy {} with that "
                               "value.",
-                              name, many(findings.subject)));
+                              name, plural(findings.subject)));
     std::string refusal;
     for (std::size_t f = 0; f < all.size(); ++f) {
         if (!all[f].refusal.empty()) {

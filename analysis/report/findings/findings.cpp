@@ -32,7 +32,7 @@ std::string unassessable_text(const Findings& findings) {
     if (findings.detection.empty() || findings.levels() == 0) {
         return "The study computes no feature, so there is nothing to detect a fault with.";
     }
-    const std::string rows = one(findings.subject);
+    const std::string rows = singular(findings.subject);
     if (findings.healthy == 0 && findings.faulty == 0) {
         return fmt::format("No {} has a value of any feature, so detection cannot be assessed.",
                            rows);
@@ -41,7 +41,7 @@ std::string unassessable_text(const Findings& findings) {
         return fmt::format(
             "No {} of this study has a fault, so detection cannot be assessed; only healthy {} are "
             "shown.",
-            rows, many(findings.subject));
+            rows, plural(findings.subject));
     }
     if (findings.healthy == 0) {
         return fmt::format(
@@ -61,7 +61,7 @@ std::string unassessable_text(const Findings& findings) {
             "Only {} healthy and {} faulty {} have values; at least {} of each are needed to "
             "assess "
             "detection.",
-            findings.healthy, findings.faulty, many(findings.subject), kFewestReported);
+            findings.healthy, findings.faulty, plural(findings.subject), kFewestReported);
     }
     return "";
 }
@@ -128,12 +128,12 @@ std::string Findings::size(const SizeEstimate& estimate, const HitMissPod& pod) 
 }
 
 std::string Findings::alarm_if(std::size_t feature, std::size_t level, int digits) const {
-    const LevelDetection& at = detection[feature].levels[level];
+    const LevelDetection& detected = detection[feature].levels[level];
     const std::string shown = quantity_unit(unit(feature));
-    return std::isnan(at.threshold)
+    return std::isnan(detected.threshold)
                ? "none"
                : fmt::format("{} {}{}{}", alarm_symbol(detection[feature].alarm),
-                             distinct_text(at.threshold, at.healthy_median, digits),
+                             distinct_text(detected.threshold, detected.healthy_median, digits),
                              shown.empty() ? "" : " ", shown);
 }
 
@@ -230,7 +230,7 @@ Table smallest_table(const Findings& findings) {
         const LevelDetection& level = findings.detection[f].levels[n];
         table.rows.push_back({label,
                               number_text(found->size / request.size.per_unit()) +
-                                  (found->from_curve ? "" : "*") + (found->own ? "" : "+"),
+                                  (found->from_curve ? "" : "*") + (found->from_itself ? "" : "+"),
                               found->feature, findings.alarm_if(f, n, 4),
                               rate_text(request.false_alarm_rate, level.threshold_rate)});
     }
@@ -243,7 +243,7 @@ void add_notes(Section& section, const Findings& findings) {
     bool tested = false;
     for (const auto& found : findings.smallest) {
         tested |= found && !found->from_curve;
-        if (found && !found->own &&
+        if (found && !found->from_itself &&
             std::ranges::count(carried, source_text(findings, *found)) == 0) {
             carried.push_back(source_text(findings, *found));
         }
@@ -278,13 +278,13 @@ std::string noise_limit(const Findings& findings) {
         }
     }
     if (last > reference) {
-        const std::string at = "at " + findings.noise(last);
+        const std::string at_noise = "at " + findings.noise(last);
         if (!findings.smallest[last]) {
-            texts.push_back(at + (without_threshold(findings.detection, last)
-                                      ? " there is no threshold"
-                                      : " no tested size is found"));
+            texts.push_back(at_noise + (without_threshold(findings.detection, last)
+                                            ? " there is no threshold"
+                                            : " no tested size is found"));
         } else if (here && findings.smallest[last]->size > 1.1 * here->size) {
-            texts.push_back(fmt::format("{} the smallest fault found is {}", at, size(last)));
+            texts.push_back(fmt::format("{} the smallest fault found is {}", at_noise, size(last)));
         }
     }
     return texts.empty() ? "" : "Noise: " + joined(texts) + ".";
@@ -298,7 +298,7 @@ std::string sample_limit(const Findings& findings, const SmallestFault& found) {
     }
     const HitMissPod& pod =
         findings.reliable(findings.feature(found.feature), findings.reference).hit_miss;
-    if (!found.own) {
+    if (!found.from_itself) {
         return fmt::format(
             "Sizes: this is the bound of {}, which finds no more faults of any tested size, so it "
             "also holds for {} here{}.",
@@ -320,7 +320,7 @@ std::string sample_limit(const Findings& findings, const SmallestFault& found) {
     return fmt::format(
         "Sample: {} is the estimate (a90); {} faulty {} leave it uncertain up to {} "
         "({}).",
-        with_unit(pod.a90.estimate.size, unit), pod.tests, many(findings.subject),
+        with_unit(pod.a90.estimate.size, unit), pod.tests, plural(findings.subject),
         with_unit(found.size, unit), findings.bound());
 }
 
@@ -330,30 +330,30 @@ std::string headline_text(const Findings& findings, std::size_t level) {
     if (!findings.unassessable.empty()) {
         return findings.unassessable;
     }
-    const std::string at = findings.at_noise(level);
+    const std::string at_noise = findings.at_noise(level);
     const bool sized = has_sizes(findings.request);
     if (const auto& found = findings.smallest[level]) {
         return fmt::format("{} found with {} by {}{}.",
                            sized ? fmt::format("{} of {} is", capitalised(findings.fault),
                                                size_and_share(findings, found->size))
-                                 : "The faulty " + many(findings.subject) + " are",
-                           findings.probability(), feature_text(found->feature), at);
+                                 : "The faulty " + plural(findings.subject) + " are",
+                           findings.probability(), feature_text(found->feature), at_noise);
     }
     if (without_threshold(findings.detection, level)) {
-        return capitalised((at.empty() ? "" : at.substr(1) + " ") +
+        return capitalised((at_noise.empty() ? "" : at_noise.substr(1) + " ") +
                            "no feature has a threshold, so detection is unknown.");
     }
     const BestRate best = best_rate(findings, level);
     if (best.cell == nullptr) {
-        return capitalised((at.empty() ? "" : at.substr(1) + " ") +
+        return capitalised((at_noise.empty() ? "" : at_noise.substr(1) + " ") +
                            "no feature has a detection rate.");
     }
     return fmt::format("No tested {} is found with {}{}. The best is {}, which finds {} of {}.{}",
-                       findings.fault_name(), findings.probability(), at,
+                       findings.fault_name(), findings.probability(), at_noise,
                        feature_text(best.feature),
                        rate_text(best.cell->pd, best.cell->lower, best.cell->upper),
                        sized ? "those of " + range_text(best.cell->size, findings.request.size)
-                             : "the faulty " + many(findings.subject),
+                             : "the faulty " + plural(findings.subject),
                        silent_text(findings, level));
 }
 
@@ -380,12 +380,12 @@ std::string unknown_text(const Findings& findings, std::size_t level) {
     }
     const SizeUnit& unit = findings.request.size;
     for (const std::size_t f : findings.order[level]) {
-        const LevelReliability& at = findings.reliable(f, level);
-        if (at.uncertain.inputs.empty() || !at.uncertain.refusal.empty()) {
+        const LevelReliability& reliability = findings.reliable(f, level);
+        if (reliability.uncertain.inputs.empty() || !reliability.uncertain.refusal.empty()) {
             continue;
         }
         std::vector<std::string> inputs;
-        for (const std::string& input : at.uncertain.inputs) {
+        for (const std::string& input : reliability.uncertain.inputs) {
             inputs.push_back(input_name(input, ""));
         }
         const std::string shown = unit.shown_unit();
@@ -393,8 +393,10 @@ std::string unknown_text(const Findings& findings, std::size_t level) {
             "Unknown for this machine: {}. Over the middle 90 % of their possible values, the size "
             "that {} finds with 90 % probability ranges from {} to {}{}; more gearboxes do not "
             "narrow this range.",
-            joined(inputs), findings.name(f), findings.size(at.uncertain.a90_low, at.hit_miss),
-            findings.size(at.uncertain.a90_high, at.hit_miss), shown.empty() ? "" : " " + shown);
+            joined(inputs), findings.name(f),
+            findings.size(reliability.uncertain.a90_low, reliability.hit_miss),
+            findings.size(reliability.uncertain.a90_high, reliability.hit_miss),
+            shown.empty() ? "" : " " + shown);
     }
     return "";
 }

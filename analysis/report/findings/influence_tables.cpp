@@ -138,18 +138,18 @@ void add_input_details(Section& section, const Findings& findings, std::size_t f
                   {},
                   true};
         for (std::size_t level = 0; level < findings.levels(); ++level) {
-            const LevelReliability& at = findings.reliable(f, level);
+            const LevelReliability& reliability = findings.reliable(f, level);
             const std::string noise = "x " + number_text(findings.request.noise_levels[level]);
-            for (const InputEffect& other : at.inputs.inputs) {
+            for (const InputEffect& other : reliability.inputs.inputs) {
                 if (other.name != effect->name) {
                     continue;
                 }
                 for (std::size_t i = 0; i < other.a90.size(); ++i) {
                     const SizeBounds& a90 = other.a90[i];
                     map.rows.push_back({noise, quantity_text(other.values[i], unit),
-                                        findings.size(a90.estimate, at.hit_miss),
-                                        findings.size(a90.lower, at.hit_miss),
-                                        findings.size(a90.upper, at.hit_miss)});
+                                        findings.size(a90.estimate, reliability.hit_miss),
+                                        findings.size(a90.lower, reliability.hit_miss),
+                                        findings.size(a90.upper, reliability.hit_miss)});
                 }
                 if (!other.refusal.empty()) {
                     map.rows.push_back({noise, other.refusal, "-", "-", "-"});
@@ -186,7 +186,7 @@ void add_shares(Section& section, const Findings& findings, std::size_t n) {
                 "{}; all inputs together {}. The rest is due to noise and to inputs that are "
                 "not listed, such as tooth and pin errors.",
                 given.feature, range_text(given.sizes, findings.request.size), misses.count,
-                many(findings.subject), named.empty() ? "no input above 0.01" : joined(named),
+                plural(findings.subject), named.empty() ? "no input above 0.01" : joined(named),
                 rate_text(misses.explained)));
     }
     if (n != findings.reference) {
@@ -198,7 +198,7 @@ void add_shares(Section& section, const Findings& findings, std::size_t n) {
         Table table{
             fmt::format("shares.{}", key),
             fmt::format("{}: {} {}, {} terms explain {}", what, indices->count,
-                        many(findings.subject), indices->terms, percent_text(indices->explained)),
+                        plural(findings.subject), indices->terms, percent_text(indices->explained)),
             {"input", "alone", "with interactions"},
             {},
             true};
@@ -256,7 +256,7 @@ std::string misses_text(const Findings& findings, std::size_t feature, std::size
                        miss_count(misses),
                        named.empty() ? "no random input has a significant influence"
                                      : fmt::format("the missed {} tends to have the {}",
-                                                   one(findings.subject), joined(named)));
+                                                   singular(findings.subject), joined(named)));
 }
 
 void add_influences(Section& section, const Findings& findings, std::size_t level) {
@@ -279,7 +279,7 @@ Section combined_section(const Findings& findings) {
         return section;
     }
     Table table{"combined",
-                "Performance on held-out " + many(findings.subject),
+                "Performance on held-out " + plural(findings.subject),
                 {"noise", "best single", "its area", "combined area", "p of equal areas",
                  findings.bound() + " single", findings.bound() + " combined"},
                 {}};
@@ -313,7 +313,7 @@ Section combined_section(const Findings& findings) {
         section.state("combined.text",
                       "All features combined into one detector (logistic regression), trained on "
                       "half of the " +
-                          many(findings.subject) +
+                          plural(findings.subject) +
                           " and tested on the other half, compared with the best single feature. " +
                           (better.empty()
                                ? "The combination is not significantly better than the best single "
