@@ -185,11 +185,11 @@ class Describer {
                 fmt::format("{:.4g}", gears::ring_mesh_phase(train, n, drivetrain.sense())));
         }
         if (!train.positions_rad.empty()) {
-            const gears::PlanetPlaces places = gears::planet_places(train);
+            const gears::PlanetPositions planets = gears::planet_positions(train);
             std::vector<std::string> positions;
             for (int n = 0; n < train.planets; ++n) {
                 positions.push_back(fmt::format(
-                    "{:.6g}", gears::planet_angle(places, n) * 180.0 / std::numbers::pi));
+                    "{:.6g}", gears::planet_angle(planets, n) * 180.0 / std::numbers::pi));
             }
             add("planet positions", "{}", joined(positions) + " deg");
         }

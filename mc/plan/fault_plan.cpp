@@ -59,10 +59,10 @@ void check_sizes(const FaultPlan& plan, const stiffness::ToothFaultFamily& famil
 }
 
 lockstep::PlanetPositions planet_positions(const Study& study) {
-    const gears::PlanetPlaces places = gears::planet_places(planetary_train(study));
+    const gears::PlanetPositions planets = gears::planet_positions(planetary_train(study));
     lockstep::PlanetPositions turns;
-    for (const int place : places.place) {
-        turns.position.push_back(static_cast<double>(place) / places.places);
+    for (const int step : planets.step) {
+        turns.position.push_back(static_cast<double>(step) / planets.steps);
     }
     return turns;
 }

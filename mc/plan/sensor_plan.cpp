@@ -98,7 +98,7 @@ class SensorPlanner {
                                      drivetrain_.span());
             return;
         }
-        signals::SensorPlace position;
+        signals::SensorPosition position;
         if (additional_ != nullptr) {
             position = {additional_->angle_deg, additional_->tangential, additional_->gain};
         }
@@ -106,7 +106,7 @@ class SensorPlanner {
         const auto sense = planetary->carrier_turns_backwards() ? signals::CarrierSense::negative
                                                                 : signals::CarrierSense::positive;
         const auto add = [&](const auto& kind) {
-            plan_.paths.emplace_back(kind, gears::planet_places(planetary->train()), samples_,
+            plan_.paths.emplace_back(kind, gears::planet_positions(planetary->train()), samples_,
                                      drivetrain_.span(), sense, position);
         };
         add(*study_.effects.path);

@@ -180,9 +180,9 @@ class SignalReader : RecordingColumns {
         if (!problems_.empty()) {
             return {};
         }
-        how = fmt::format("{} pulses of column {}, {:g} per turn", pulses.at.size(),
+        how = fmt::format("{} pulses of column {}, {:g} per turn", pulses.sample.size(),
                           columns_.tachometer, columns_.pulses_per_turn);
-        signals::PulseCount counted = signals::count_pulses(pulses.at);
+        signals::PulseCount counted = signals::count_pulses(pulses.sample);
         first_sample_ = counted.first;
         return scaled(std::move(counted.count), meshes);
     }

@@ -1,4 +1,5 @@
-// Parameters of W fixed-shaft gearboxes for the lockstep kernels, as a structure of arrays.
+// Motion of W fixed-shaft gearboxes in lockstep: their parameters as a structure of arrays, and the
+// equations of motion.
 #pragma once
 
 #include <span>
@@ -9,6 +10,7 @@
 
 namespace gearpod::dynamics {
 
+// Parameters of W fixed-shaft gearboxes for the lockstep kernels, as a structure of arrays.
 template <int W, class RealType = double>
 struct alignas(64) FixedShaftLanes {
     using Real = RealType;
@@ -33,7 +35,6 @@ FixedShaftLanes<W, Real> make_lanes(const FixedShaftLayout& layout,
 
 // Lockstep accelerations of the fixed-shaft gearbox, written out per spring-damper. The physics is
 // that of the matrices in fixed_shaft.cpp; tests compare the two. Tian (2004), Eqs. 4.1-4.8.
-
 template <class MeshLaw, int W, class RealType = double>
 struct FixedShaftMotions {
     using Real = RealType;

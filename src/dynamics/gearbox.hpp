@@ -1,4 +1,4 @@
-// Interface to a gearbox of any kind; dispatches to the functions of its kind.
+// Layout and inputs of a gearbox of any kind; dispatches to the functions of its kind.
 #pragma once
 
 #include <span>

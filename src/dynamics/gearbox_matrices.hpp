@@ -1,5 +1,6 @@
-// Matrices of a gearbox and their factorizations. The Eigen templates are instantiated only in the
-// source of this header, because they take longer to compile than a kernel.
+// Matrices of a gearbox of any kind: equations of motion, static equilibrium and natural
+// frequencies. The Eigen templates are instantiated only in the source of this header, because they
+// take longer to compile than a kernel.
 #pragma once
 
 #include <Eigen/Core>

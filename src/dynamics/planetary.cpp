@@ -38,10 +38,10 @@ void add_inertial_terms(GearboxMatrices& m, const PlanetaryLayout& layout,
 void add_pin_forces(GearboxMatrices& m, const PlanetaryLayout& layout,
                     const PlanetaryInputs& inputs) {
     for (int n = 0; n < layout.planets; ++n) {
-        const PlanetDeviations& own = inputs.planet_deviations[n];
-        const double k = own.bearing_stiffness * inputs.bearing_stiffness_N_m[planet];
-        m.force += k * own.pin_x_m * planet_bearing_row(layout, n, 0) +
-                   k * own.pin_y_m * planet_bearing_row(layout, n, 1);
+        const PlanetDeviations& deviations = inputs.planet_deviations[n];
+        const double k = deviations.bearing_stiffness * inputs.bearing_stiffness_N_m[planet];
+        m.force += k * deviations.pin_x_m * planet_bearing_row(layout, n, 0) +
+                   k * deviations.pin_y_m * planet_bearing_row(layout, n, 1);
     }
 }
 
@@ -165,9 +165,9 @@ GearboxMatrices assemble(const PlanetaryLayout& layout, const PlanetaryInputs& i
     GearboxMatrices m = zero_matrices(layout.motions());
     for (int i = 0; i < 3 + layout.planets; ++i) {
         const int body = std::min(i, static_cast<int>(planet));
-        const double own = i < planet ? 1.0 : inputs.planet_deviations[i - planet].mass;
-        m.mass(3 * i, 3 * i) = m.mass(3 * i + 1, 3 * i + 1) = own * inputs.mass_kg[body];
-        m.mass(3 * i + 2, 3 * i + 2) = own * inputs.inertia_over_r2_kg[body];
+        const double factor = i < planet ? 1.0 : inputs.planet_deviations[i - planet].mass;
+        m.mass(3 * i, 3 * i) = m.mass(3 * i + 1, 3 * i + 1) = factor * inputs.mass_kg[body];
+        m.mass(3 * i + 2, 3 * i + 2) = factor * inputs.inertia_over_r2_kg[body];
     }
     for (int body : {carrier, ring, sun}) {
         m.force(3 * body + 2) = inputs.force_N[body];

@@ -42,17 +42,18 @@ void set_lane(PlanetaryLanes<W, Real>& lanes, int l, const PlanetaryLayout& layo
               const PlanetaryInputs& in) {
     for (int i = 0; i < 3 + layout.planets; ++i) {
         const int body = std::min(i, static_cast<int>(planet));
-        const PlanetDeviations own =
+        const PlanetDeviations deviations =
             i < planet ? PlanetDeviations{} : in.planet_deviations[i - planet];
-        double inertia = own.mass * in.inertia_over_r2_kg[body];
+        double inertia = deviations.mass * in.inertia_over_r2_kg[body];
         if (layout.motion == Motion::torsional && body == carrier) {
             inertia += planets_mass_kg(layout, in);
         }
-        lanes.inverse_mass[i][l] = Real(1.0 / (own.mass * in.mass_kg[body]));
+        lanes.inverse_mass[i][l] = Real(1.0 / (deviations.mass * in.mass_kg[body]));
         lanes.inverse_inertia[i][l] = Real(1.0 / inertia);
         lanes.bearing_stiffness[i][l] =
-            Real(own.bearing_stiffness * in.bearing_stiffness_N_m[body]);
-        lanes.bearing_damping[i][l] = Real(own.bearing_damping * in.bearing_damping_N_s_m[body]);
+            Real(deviations.bearing_stiffness * in.bearing_stiffness_N_m[body]);
+        lanes.bearing_damping[i][l] =
+            Real(deviations.bearing_damping * in.bearing_damping_N_s_m[body]);
     }
     for (int n = 0; n < layout.planets; ++n) {
         lanes.pin_x[n][l] = Real(in.planet_deviations[n].pin_x_m);

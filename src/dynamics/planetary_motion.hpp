@@ -50,7 +50,6 @@ PlanetaryLanes<W, Real> make_lanes(const PlanetaryLayout& layout,
 // 1..N. Bearings are rigid, so planets move with the carrier: x_n = -u_c sin psi_n, y_n = u_c cos
 // psi_n. A mesh with working pressure angle alpha thus deflects by -u_c cos(alpha). The planets'
 // masses are included in the carrier's inertia (make_lanes).
-
 template <class MeshLaw, int W, class RealType = double>
 struct TorsionalMotion {
     using Real = RealType;
@@ -134,7 +133,6 @@ struct TorsionalMotion {
 // Lockstep accelerations of the model with 9 + 3N degrees of freedom: x, y and u of carrier, ring,
 // sun and planets, written out per spring-damper. The physics is that of the matrices in
 // planetary.cpp; tests compare the two.
-
 template <class InertialTerms, class MeshLaw, int W, class RealType = double>
 struct TranslationalMotion {
     using Real = RealType;

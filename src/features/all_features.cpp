@@ -208,47 +208,48 @@ constexpr std::string_view kChangeFeatures[] = {"sensor_rms",    "window_ratio",
 
 // Features of the change that no single record has, and of the record and its change together.
 constexpr Feature kurtosis_of_change() {
-    Feature own = feature<turn_kurtosis>(
+    Feature change = feature<turn_kurtosis>(
         "change_kurtosis", "kurtosis of the change since the baseline record", "1", AlarmSide::high,
         "kurtosis, normal = 3, of the average of the record less "
         "the gearbox's own baseline record");
-    own.baseline_use = BaselineUse::change;
-    return own;
+    change.baseline_use = BaselineUse::change;
+    return change;
 }
 constexpr Feature correlation_with_baseline() {
-    Feature own = feature<turn_kurtosis>(
+    Feature change = feature<turn_kurtosis>(
         "baseline_correlation", "correlation with the baseline record", "1", AlarmSide::low,
         "correlation coefficient of the averages of the record "
         "and of the gearbox's own baseline record");
-    own.baseline_use = BaselineUse::record_and_change;
-    own.compute = [](const FeatureInput& input) {
+    change.baseline_use = BaselineUse::record_and_change;
+    change.compute = [](const FeatureInput& input) {
         return baseline_correlation(input.get<SensorTurn>(), input.change->get<SensorTurn>());
     };
-    return own;
+    return change;
 }
 
 class Catalogue {
   public:
     Catalogue() : all_(kFeatures.begin(), kFeatures.end()) {
         for (const std::string_view name : kChangeFeatures) {
-            Feature own = *std::find_if(kFeatures.begin(), kFeatures.end(),
-                                        [&](const Feature& f) { return f.name == name; });
-            own.name = text("change_", own.name, "");
-            own.title = text("", own.title, " in the change since the baseline record");
-            own.doc = text("", own.doc, ", of the record less the gearbox's own baseline record");
-            own.baseline_use = BaselineUse::change;
-            all_.push_back(own);
+            Feature change = *std::find_if(kFeatures.begin(), kFeatures.end(),
+                                           [&](const Feature& f) { return f.name == name; });
+            change.name = text("change_", change.name, "");
+            change.title = text("", change.title, " in the change since the baseline record");
+            change.doc =
+                text("", change.doc, ", of the record less the gearbox's own baseline record");
+            change.baseline_use = BaselineUse::change;
+            all_.push_back(change);
         }
         all_.push_back(kurtosis_of_change());
         all_.push_back(correlation_with_baseline());
-        for (Feature own : kFeatures) {
-            own.name = text("own_", own.name, "");
-            own.title = text("", own.title, " relative to the baseline record");
-            own.doc =
-                text("", own.name.substr(4), " over that of the gearbox's own baseline record");
-            own.unit = "1";
-            own.baseline_use = BaselineUse::baseline;
-            all_.push_back(own);
+        for (Feature ratio : kFeatures) {
+            ratio.name = text("own_", ratio.name, "");
+            ratio.title = text("", ratio.title, " relative to the baseline record");
+            ratio.doc =
+                text("", ratio.name.substr(4), " over that of the gearbox's own baseline record");
+            ratio.unit = "1";
+            ratio.baseline_use = BaselineUse::baseline;
+            all_.push_back(ratio);
         }
     }
     std::span<const Feature> all() const { return all_; }
@@ -267,7 +268,7 @@ class DeclaredFeatures {
     const Feature& add(Feature feature) {
         const std::lock_guard lock(mutex_);
         const auto known = std::find(all_.begin(), all_.end(), feature);
-        const std::size_t place = static_cast<std::size_t>(known - all_.begin());
+        const std::size_t index = static_cast<std::size_t>(known - all_.begin());
         if (known == all_.end()) {
             for (std::string_view* text :
                  {&feature.name, &feature.title, &feature.unit, &feature.doc}) {
@@ -275,14 +276,14 @@ class DeclaredFeatures {
             }
             all_.push_back(feature);
         }
-        std::erase(order_, place);
-        order_.push_back(place);
-        return all_[place];
+        std::erase(order_, index);
+        order_.push_back(index);
+        return all_[index];
     }
     const Feature* find(std::string_view name) {
         const std::lock_guard lock(mutex_);
         const auto last = std::find_if(order_.rbegin(), order_.rend(),
-                                       [&](std::size_t place) { return all_[place].name == name; });
+                                       [&](std::size_t index) { return all_[index].name == name; });
         return last == order_.rend() ? nullptr : &all_[*last];
     }
 

@@ -37,7 +37,6 @@ inline double cyclic_coherence(const SensorSamples& sensor, const SensorTurn& av
 // of it, without h itself; lines of the carrier turn are few of them. The feature is near 1 in
 // stationary noise. NaN for less than three planet turns, for a signal of rounding errors, and if
 // the medians are below 1e-12 of E(0), as in a record without noise.
-
 inline double envelope_order(const SensorSamples& sensor, const SensorTurn& average) {
     constexpr std::size_t kFewestTurns = 3, kMostHarmonics = 5;
     constexpr double kRounding = 1e-12;

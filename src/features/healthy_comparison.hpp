@@ -1,5 +1,5 @@
-// Fourth moments of a signal over the square of its variance in healthy gearboxes. Unlike a
-// kurtosis, they keep rising when damage spreads and the variance grows.
+// Features that compare a record with healthy ones: NA4, NB4, NSDS, and the correlation with the
+// baseline record.
 #pragma once
 
 #include <algorithm>
@@ -11,6 +11,8 @@
 
 namespace gearpod::features {
 
+// Fourth moments of a signal over the square of its variance in healthy gearboxes. Unlike a
+// kurtosis, they keep rising when damage spreads and the variance grows.
 inline double trended_kurtosis(std::span<const double> values, double healthy_variance) {
     const auto count = static_cast<double>(values.size());
     const double mean = std::accumulate(values.begin(), values.end(), 0.0) / count;
@@ -43,7 +45,6 @@ inline double nb4(const SensorTurn& sensor, const HealthyRecords& healthy) {
 //     NSDS = sum over f > 0 of max(0, s(f) - s_h(f)) / sum over f > 0 of s_h(f),
 //
 // where s are the amplitudes of the averaged turn, and s_h their mean over the healthy records.
-
 inline double nsds(const SensorTurn& sensor, const HealthyRecords& healthy) {
     double above = 0.0, sum = 0.0;
     for (std::size_t k = 1; k < healthy.amplitude.size(); ++k) {
@@ -59,7 +60,6 @@ inline double nsds(const SensorTurn& sensor, const HealthyRecords& healthy) {
 // Vib. Acoust. 124 (2002), 172-179, who predict a healthy record and judge the remainder.
 //
 // The baseline is the record less the change, because both are averaged sample by sample.
-
 inline double baseline_correlation(const SensorTurn& record, const SensorTurn& change) {
     const std::span<const double> now = record.turn, changed = change.turn;
     const auto count = static_cast<double>(now.size());

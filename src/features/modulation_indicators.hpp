@@ -41,7 +41,6 @@ inline double sideband_level(const SensorTurn& sensor) {
 //
 // A cracked tooth delays the mesh for one tooth, which shows in both. NaN if there are no mesh
 // lines apart from rounding errors.
-
 inline double amplitude_modulation(const SensorTurn& sensor) {
     const auto modulation =
         signals::mesh_modulation(sensor.turn, sensor.amplitude, sensor.mesh_order);

@@ -1,4 +1,5 @@
-// Averaged sensor signal without its mean, for features that filter it.
+// Features from filters that are fitted to the averaged sensor signal: linear prediction and
+// minimum-entropy deconvolution.
 #pragma once
 
 #include <algorithm>
@@ -32,7 +33,6 @@ inline std::vector<double> turn_about_mean(const SensorTurn& sensor) {
 // mean of e^2 (Yule-Walker equations of the circular autocorrelation, inverse_filters.hpp). The
 // order p is two mesh periods of samples, at most a quarter of the turn: one mesh period would
 // suffice for all mesh harmonics, two add their sidebands. NaN if x is rounding errors of the turn.
-
 inline double ar_residual_kurtosis(const SensorTurn& sensor) {
     const std::vector<double> x = turn_about_mean(sensor);
     if (x.empty()) {
@@ -57,7 +57,6 @@ inline double ar_residual_kurtosis(const SensorTurn& sensor) {
 // most an eighth of the turn, and 10 iterations: fixed numbers, so that equal records have equal
 // values. A filter can make an impulse of noise, too; healthy values are therefore above 3. NaN if
 // the average about its mean is rounding errors.
-
 inline double med_kurtosis(const SensorTurn& sensor) {
     constexpr int kIterations = 10;
     const std::vector<double> x = turn_about_mean(sensor);

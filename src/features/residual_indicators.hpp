@@ -1,4 +1,5 @@
-// Standardised moments of the difference signal. Lebold et al. (2000); Samuel and Pines (2005).
+// Moments and energies of the residual and difference signals: FM4, M6A, M8A, energy ratio and
+// energy operator.
 #pragma once
 
 #include <cmath>
@@ -10,6 +11,8 @@
 #include "machine/no_value.hpp"
 
 namespace gearpod::features {
+
+// Standardised moments of the difference signal. Lebold et al. (2000); Samuel and Pines (2005).
 
 // Figure of merit four: kurtosis of the difference signal, normal = 3. Stewart (1977).
 inline double fm4(const SensorTurn& sensor) {
@@ -46,7 +49,6 @@ inline double te_m8a(const TeParts& te) {
 // G. Lewicki, K. E. LaBerge, R. T. Ehinger and J. Fetty, NASA/TM-2011-217127. The fault of one
 // planet is not averaged with its sound companions as in fm4. NaN without passages of all teeth,
 // and if the difference signals are rounding errors.
-
 inline double separated_fm4(const SeparatedPlanets& planets) {
     double largest = kNan;
     for (std::size_t p = 0; p < planets.turn.size(); ++p) {
@@ -58,7 +60,6 @@ inline double separated_fm4(const SeparatedPlanets& planets) {
 }
 
 // Energy ratio: RMS of the difference signal over RMS of the regular signal. Lebold et al. (2000).
-
 inline double energy_ratio(const SensorTurn& sensor) {
     const auto sum_of_squares = [](std::span<const double> values) {
         return std::inner_product(values.begin(), values.end(), values.begin(), 0.0);
@@ -76,7 +77,6 @@ inline double energy_ratio(const SensorTurn& sensor) {
 // and thus rises with amplitude and frequency. A tooth fault changes both for a short time.
 //
 // NaN if the residual signal is rounding errors, or the deviation of its energy from the mean.
-
 inline double energy_operator(const SensorTurn& sensor) {
     const std::span<const double> r = sensor.residual;
     const std::size_t n = r.size();

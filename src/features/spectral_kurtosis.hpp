@@ -1,15 +1,4 @@
-// Spectral kurtosis of the residual signal, the largest one over the frequency bands:
-//
-//     SK(m) = <|X_k(m)|^4> / <|X_k(m)|^2>^2 - 2,
-//
-// where X_k are short-time Fourier transforms and <> is their mean over k. Antoni, Mech. Syst.
-// Signal Process. 20 (2006) 282-307. It is 0 for stationary Gaussian noise, -1 for a tone, and
-// K - 2 for one impulse in K frames.
-//
-// Frames are one mesh period long, under a periodic Hann window, and overlap by half. The averaged
-// turn is periodic, so there are K = 2 Z_p of them. In Gaussian noise the estimate of one band
-// scatters by about 2 / sqrt(K), and the largest one is therefore above 0. Bands whose mean power
-// is below 1e-12 of the strongest band's contain rounding errors only and are left out.
+// Spectral kurtosis of the residual signal, and the kurtogram's peak.
 #pragma once
 
 #include <algorithm>
@@ -26,6 +15,18 @@
 
 namespace gearpod::features {
 
+// Spectral kurtosis of the residual signal, the largest one over the frequency bands:
+//
+//     SK(m) = <|X_k(m)|^4> / <|X_k(m)|^2>^2 - 2,
+//
+// where X_k are short-time Fourier transforms and <> is their mean over k. Antoni, Mech. Syst.
+// Signal Process. 20 (2006) 282-307. It is 0 for stationary Gaussian noise, -1 for a tone, and
+// K - 2 for one impulse in K frames.
+//
+// Frames are one mesh period long, under a periodic Hann window, and overlap by half. The averaged
+// turn is periodic, so there are K = 2 Z_p of them. In Gaussian noise the estimate of one band
+// scatters by about 2 / sqrt(K), and the largest one is therefore above 0. Bands whose mean power
+// is below 1e-12 of the strongest band's contain rounding errors only and are left out.
 inline double spectral_kurtosis(const SensorTurn& sensor) {
     constexpr double kRounding = 1e-12;
     const std::span<const double> x = sensor.residual;
@@ -66,7 +67,6 @@ inline double spectral_kurtosis(const SensorTurn& sensor) {
 // resolves single teeth. The value is 0 for stationary Gaussian noise, apart from the scatter of
 // the largest of the bands: 2 / sqrt(C) for one band of C orders. NaN for a signal of rounding
 // errors.
-
 inline signals::Kurtogram kurtogram_of(const SensorSamples& sensor, const SensorTurn& average) {
     const std::size_t per_mesh = average.turn.size() / static_cast<std::size_t>(average.mesh_order);
     return {sensor.samples, per_mesh / 2};

@@ -1,8 +1,4 @@
-// Kurtosis, normal = 3, of the speed error: signals/spectra/order_spectrum.hpp. At constant mean
-// speed it is the jitter of the instantaneous angular speed that encoders show: Y. Li et al., Mech.
-// Syst. Signal Process. 19 (2005) 786-805. A tooth fault changes the speed where the load passes to
-// and from the tooth; the derivative weights these short changes more than te_features.hpp. NaN for
-// a constant transmission error.
+// Features of the speed error: kurtosis, largest tooth window, and the fault's order.
 #pragma once
 
 #include <algorithm>
@@ -16,6 +12,11 @@
 
 namespace gearpod::features {
 
+// Kurtosis, normal = 3, of the speed error: signals/spectra/order_spectrum.hpp. At constant mean
+// speed it is the jitter of the instantaneous angular speed that encoders show: Y. Li et al., Mech.
+// Syst. Signal Process. 19 (2005) 786-805. A tooth fault changes the speed where the load passes to
+// and from the tooth; the derivative weights these short changes more than te_features.hpp. NaN for
+// a constant transmission error.
 inline double te_speed_kurtosis(const TeParts& te) {
     return standardised_moment(signals::speed_error(te.turn), 4);
 }
@@ -24,7 +25,6 @@ inline double te_speed_kurtosis(const TeParts& te) {
 // mesh period, one from every sample of the averaged turn on. It localises the change of speed at a
 // faulty tooth: X. Song et al., Modern Mech. Eng. 14 (2024) 39-50. 1 for regular meshing. NaN if
 // the median is zero.
-
 inline double te_speed_window_ratio(const TeParts& te) {
     const std::vector<double> speed = signals::speed_error(te.turn);
     const std::size_t per_mesh = speed.size() / static_cast<std::size_t>(te.mesh_order);
@@ -57,7 +57,6 @@ inline double te_speed_window_ratio(const TeParts& te) {
 // The average over turns has the multiples of the fault order only. There are no neighbouring lines
 // to compare with. The first mesh line may vanish because of the phases of the planets, hence the
 // strongest one. NaN for a constant transmission error.
-
 inline double te_speed_fault_order(const TeParts& te) {
     constexpr std::size_t kFaultHarmonics = 5;
     const auto teeth = static_cast<std::size_t>(te.mesh_order);

@@ -1,4 +1,4 @@
-// Root mean square of the averaged transmission error: Park et al. (2016), Table II.
+// Features of the averaged transmission error.
 #pragma once
 
 #include <algorithm>
@@ -10,6 +10,7 @@
 
 namespace gearpod::features {
 
+// Root mean square of the averaged transmission error: Park et al. (2016), Table II.
 inline double te_rms(const TeTurn& te) {
     const double sum = std::inner_product(te.turn.begin(), te.turn.end(), te.turn.begin(), 0.0);
     return std::sqrt(sum / static_cast<double>(te.turn.size()));
@@ -17,7 +18,6 @@ inline double te_rms(const TeTurn& te) {
 
 // Kurtosis of the averaged transmission error about its mean, 3 for a normal distribution:
 // Park et al. (2016), Table II.
-
 inline double te_kurtosis(const TeTurn& te) {
     const auto count = static_cast<double>(te.turn.size());
     const double mean = std::accumulate(te.turn.begin(), te.turn.end(), 0.0) / count;
@@ -33,7 +33,6 @@ inline double te_kurtosis(const TeTurn& te) {
 
 // Figure of merit zero: peak-to-peak over the sum of the amplitudes at the mesh order Z_p and its
 // harmonics, up to te_harmonics of them and below the Nyquist order: Park et al. (2016), Table II.
-
 inline double te_fm0(const TeTurn& te) {
     const auto [low, high] = std::minmax_element(te.turn.begin(), te.turn.end());
     double harmonics = 0.0;
@@ -50,7 +49,6 @@ inline double te_fm0(const TeTurn& te) {
 
 // Frequency centre: sum of f s(f) over sum of s(f), f > 0, in orders of the planet turn: Park et
 // al. (2016), Table II. It decreases when a local fault adds sidebands at low orders.
-
 inline double te_fc(const TeTurn& te) {
     double weighted = 0.0;
     double sum = 0.0;

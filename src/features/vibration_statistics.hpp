@@ -1,4 +1,4 @@
-// Root mean square of the sensor signal over the span, a standard indicator of condition monitors.
+// Statistics of the sensor signal and of its average over a turn.
 #pragma once
 
 #include <algorithm>
@@ -11,6 +11,7 @@
 
 namespace gearpod::features {
 
+// Root mean square of the sensor signal over the span, a standard indicator of condition monitors.
 inline double sensor_rms(const SensorPower& sensor) {
     return std::sqrt(sensor.mean_square);
 }
@@ -20,14 +21,12 @@ inline double sensor_rms(const SensorPower& sensor) {
 // harmonics and their sidebands due to the carrier's rotation. All are whole multiples of the
 // carrier frequency, so the filter subtracts the average over carrier turns. Lines of sun and
 // planet teeth have other orders; those of a tooth of a fixed ring coincide with the regular ones.
-
 inline double frms(const FilteredSensor& sensor) {
     return sensor.rms;
 }
 
 // Crest factor of the averaged sensor signal: largest magnitude about the mean over the RMS about
 // it. Samuel and Pines (2005).
-
 inline double crest_factor(const SensorTurn& sensor) {
     const std::span<const double> turn = sensor.turn;
     const auto count = static_cast<double>(turn.size());
@@ -44,7 +43,6 @@ inline double crest_factor(const SensorTurn& sensor) {
 // Kurtosis of the averaged sensor signal about its mean, normal = 3; of the change signal, it rises
 // when the change concentrates in few teeth. D. Dyer and R. M. Stewart, J. Mech. Des. 100 (1978),
 // 229-235.
-
 inline double turn_kurtosis(const SensorTurn& sensor) {
     return standardised_moment(sensor.turn, 4);
 }
@@ -58,7 +56,6 @@ inline double turn_kurtosis(const SensorTurn& sensor) {
 // for gearbox diagnostics", University of Southampton (1977); Lebold et al. (2000). It detects
 // major faults, which raise single peaks or lower the mesh lines. NaN if there are no mesh lines
 // apart from rounding errors.
-
 inline double fm0(const SensorTurn& sensor) {
     constexpr double kRounding = 1e-12;  // of the peak-to-peak value
     const auto [low, high] = std::minmax_element(sensor.turn.begin(), sensor.turn.end());

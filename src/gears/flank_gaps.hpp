@@ -1,7 +1,5 @@
-// Tip relief, root relief and crowning: material removed near the ends of contact and of the face
-// width, from the flanks of all teeth of a gear. It is given as a gap along the line of action.
-// Lengths are in metres; those of relief are along the line of action, inwards from the end of
-// contact.
+// Gaps of flanks along the line of action: tip relief, root relief, crowning, wear, and the corner
+// contact outside the path.
 #pragma once
 
 #include <vector>
@@ -10,6 +8,10 @@
 
 namespace gearpod::gears {
 
+// Tip relief, root relief and crowning: material removed near the ends of contact and of the face
+// width, from the flanks of all teeth of a gear. It is given as a gap along the line of action.
+// Lengths are in metres; those of relief are along the line of action, inwards from the end of
+// contact.
 enum class ReliefShape { linear, parabolic };
 
 struct FlankRelief {
@@ -41,7 +43,6 @@ std::vector<double> relief_kinks(const MeshGeometry& mesh, const FlankRelief& ge
 // Load sharing between tooth pairs is ignored, and so is the change of the load by the wear itself.
 // Sources: Archard (1953), J. Appl. Phys. 24, 981-988; Flodin and Andersson (1997), Wear 207,
 // 16-23.
-
 class FlankWear {
   public:
     // `worn_gear`: 1 or 2 of the mesh. Throws std::invalid_argument if contact reaches the gear's

@@ -425,9 +425,9 @@ double MeshGeometry::tip_clearance(int which_tip) const {
 }
 
 double MeshGeometry::roll_angle(int which, double tau) const {
-    const Gear& at = gear(which);
-    const double half = at.half_base_angle();
-    return contact_angle(which, tau) + (at.internal ? -half : half);
+    const Gear& member = gear(which);
+    const double half = member.half_base_angle();
+    return contact_angle(which, tau) + (member.internal ? -half : half);
 }
 
 double MeshGeometry::contact_radius(int which, double tau) const {

@@ -1,10 +1,5 @@
-// Working centre distance and pressure angle of two gears with profile shift. Lengths in metres,
-// angles in radians. Gear 1 is external. Tooth numbers of an internal gear 2 are negative in the
-// formula, shifts are not (gear.hpp). Sources: ISO 21771; DIN 3960; with the involute function
-//
-//     inv a_w = inv a0 + 2 tan a0 (x_1 + x_2) / (z_1 + z_2),    a = (R_b1 + R_b2) / cos a_w
-//
-// for teeth without backlash.
+// Geometry of a mesh of two gears with profile shift: working centre distance and pressure angle,
+// undercut, contact ratio and path of contact.
 #pragma once
 
 #include <optional>
@@ -14,6 +9,14 @@
 #include "gears/gear.hpp"
 
 namespace gearpod::gears {
+
+// Working centre distance and pressure angle of two gears with profile shift. Lengths in metres,
+// angles in radians. Gear 1 is external. Tooth numbers of an internal gear 2 are negative in the
+// formula, shifts are not (gear.hpp). Sources: ISO 21771; DIN 3960; with the involute function
+//
+//     inv a_w = inv a0 + 2 tan a0 (x_1 + x_2) / (z_1 + z_2),    a = (R_b1 + R_b2) / cos a_w
+//
+// for teeth without backlash.
 
 // Centre distance of touching reference circles, and of touching base circles: the sum of an
 // external pair's radii, the difference of an internal pair's.

@@ -46,19 +46,19 @@ PlanetDimensions standard_dimensions(const PlanetaryTrain& train, double addendu
             train.planet_teeth + 2 * addendum_coefficient};
 }
 
-// Fractional part of teeth * place / places, computed with integers.
-double reduced_phase(int teeth, int planet, const PlanetPlaces& at) {
-    const int place = at.place.at(static_cast<std::size_t>(planet));
-    const long long remainder = static_cast<long long>(teeth) * place % at.places;
-    return static_cast<double>(remainder) / at.places;
+// Fractional part of teeth * step / steps, computed with integers.
+double reduced_phase(int teeth, int planet, const PlanetPositions& planets) {
+    const int step = planets.step.at(static_cast<std::size_t>(planet));
+    const long long remainder = static_cast<long long>(teeth) * step % planets.steps;
+    return static_cast<double>(remainder) / planets.steps;
 }
 
 // Mesh periods of a gear from planet 0 to the given planet, in the forward direction if `forward`,
 // otherwise backward.
-double tooth_delay(int teeth, int planet, const PlanetPlaces& at, bool forward) {
-    const int place = at.place.at(static_cast<std::size_t>(planet));
-    const int passed = forward ? place : (at.places - place) % at.places;
-    return static_cast<double>(static_cast<long long>(teeth) * passed) / at.places;
+double tooth_delay(int teeth, int planet, const PlanetPositions& planets, bool forward) {
+    const int step = planets.step.at(static_cast<std::size_t>(planet));
+    const int passed = forward ? step : (planets.steps - step) % planets.steps;
+    return static_cast<double>(static_cast<long long>(teeth) * passed) / planets.steps;
 }
 
 double signed_phase(double phase, bool negative) {
@@ -82,9 +82,9 @@ double degrees(double angle_rad) {
     return angle_rad * 180 / pi;
 }
 
-// Largest deviation of a position from a valid place that counts as rounding, relative to the
-// spacing of places.
-constexpr double kPlaceTolerance = 0.01;
+// Largest deviation of a position from a valid step that counts as rounding, relative to the
+// spacing of steps.
+constexpr double kStepTolerance = 0.01;
 
 void position_problems(const PlanetaryTrain& train, const PlanetDimensions& dimensions,
                        std::vector<std::string>& problems) {
@@ -106,24 +106,24 @@ void position_problems(const PlanetaryTrain& train, const PlanetDimensions& dime
                             "ascend from 0 and stay below 360)",
                             n + 1, degrees(psi[n]), n, degrees(psi[n - 1])));
         }
-    const int places = train.sun_teeth + train.ring_teeth;
+    const int steps = train.sun_teeth + train.ring_teeth;
     for (std::size_t n = 0; n < psi.size(); ++n) {
-        const double place = psi[n] * places / (2 * pi);
-        if (!(std::abs(place - std::round(place)) <= kPlaceTolerance)) {
+        const double step = psi[n] * steps / (2 * pi);
+        if (!(std::abs(step - std::round(step)) <= kStepTolerance)) {
             problems.push_back(fmt::format(
                 "planet {} does not mesh at {:.6g} degrees, (sun + ring) x position / 360 = {:.4f} "
                 "is not an integer ({:.6f} or {:.6f} degrees would do)",
-                n + 1, degrees(psi[n]), place, std::floor(place) * 360 / places,
-                std::ceil(place) * 360 / places));
+                n + 1, degrees(psi[n]), step, std::floor(step) * 360 / steps,
+                std::ceil(step) * 360 / steps));
         }
     }
     if (report_too_many(train, dimensions, problems)) {
         return;
     }
-    const PlanetPlaces at = planet_places(train);
+    const PlanetPositions planets = planet_positions(train);
     for (int n = 0; n < train.planets; ++n)
         for (int m = 0; m < n; ++m) {
-            const double apart = planet_angle(at, n) - planet_angle(at, m);
+            const double apart = planet_angle(planets, n) - planet_angle(planets, m);
             const double between_axes =
                 2 * dimensions.centre_distance * std::abs(std::sin(apart / 2));
             if (between_axes <= dimensions.tip_diameter) {
@@ -137,33 +137,33 @@ void position_problems(const PlanetaryTrain& train, const PlanetDimensions& dime
 
 }  // namespace
 
-PlanetPlaces planet_places(const PlanetaryTrain& train) {
-    PlanetPlaces at;
+PlanetPositions planet_positions(const PlanetaryTrain& train) {
+    PlanetPositions planets;
     if (train.positions_rad.empty()) {
-        at.places = train.planets;
+        planets.steps = train.planets;
         for (int n = 0; n < train.planets; ++n) {
-            at.place.push_back(n);
+            planets.step.push_back(n);
         }
-        return at;
+        return planets;
     }
-    at.places = train.sun_teeth + train.ring_teeth;
+    planets.steps = train.sun_teeth + train.ring_teeth;
     for (const double psi : train.positions_rad) {
-        const auto place = std::llround(psi * at.places / (2 * pi)) % at.places;
-        at.place.push_back(static_cast<int>((place + at.places) % at.places));
+        const auto step = std::llround(psi * planets.steps / (2 * pi)) % planets.steps;
+        planets.step.push_back(static_cast<int>((step + planets.steps) % planets.steps));
     }
-    return at;
+    return planets;
 }
 
-double planet_angle(const PlanetPlaces& places, int planet) {
-    return 2 * pi * places.place.at(static_cast<std::size_t>(planet)) / places.places;
+double planet_angle(const PlanetPositions& positions, int planet) {
+    return 2 * pi * positions.step.at(static_cast<std::size_t>(planet)) / positions.steps;
 }
 
 std::vector<double> nearest_positions(const PlanetaryTrain& train) {
-    const int places = train.sun_teeth + train.ring_teeth, n = train.planets;
+    const int steps = train.sun_teeth + train.ring_teeth, n = train.planets;
     std::vector<double> positions;
     for (int planet = 0; planet < n; ++planet) {
-        const int place = (2 * planet * places + n) / (2 * n);  // rounded, halves up
-        positions.push_back(2 * pi * place / places);
+        const int step = (2 * planet * steps + n) / (2 * n);  // rounded, halves up
+        positions.push_back(2 * pi * step / steps);
     }
     return positions;
 }
@@ -200,22 +200,22 @@ std::vector<std::string> assembly_problems(const PlanetaryTrain& train,
 }
 
 double sun_mesh_phase(const PlanetaryTrain& train, int planet, PlanetSense sense) {
-    return signed_phase(reduced_phase(train.sun_teeth, planet, planet_places(train)),
+    return signed_phase(reduced_phase(train.sun_teeth, planet, planet_positions(train)),
                         sense == PlanetSense::counter_clockwise);
 }
 
 double ring_mesh_phase(const PlanetaryTrain& train, int planet, PlanetSense sense) {
-    return signed_phase(reduced_phase(train.ring_teeth, planet, planet_places(train)),
+    return signed_phase(reduced_phase(train.ring_teeth, planet, planet_positions(train)),
                         sense == PlanetSense::clockwise);
 }
 
 double sun_tooth_delay(const PlanetaryTrain& train, int planet, PlanetSense sense) {
-    return tooth_delay(train.sun_teeth, planet, planet_places(train),
+    return tooth_delay(train.sun_teeth, planet, planet_positions(train),
                        sense == PlanetSense::clockwise);
 }
 
 double ring_tooth_delay(const PlanetaryTrain& train, int planet, PlanetSense sense) {
-    return tooth_delay(train.ring_teeth, planet, planet_places(train),
+    return tooth_delay(train.ring_teeth, planet, planet_positions(train),
                        sense == PlanetSense::counter_clockwise);
 }
 

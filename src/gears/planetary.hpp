@@ -22,14 +22,14 @@ struct PlanetaryTrain {
     std::vector<double> positions_rad = {};
 };
 
-// Exact planet positions: planet n is at the fraction place[n] / places of a revolution.
-struct PlanetPlaces {
-    std::vector<int> place;
-    int places = 1;
+// Exact planet positions: planet n is at step[n] of `steps` equal steps of a revolution.
+struct PlanetPositions {
+    std::vector<int> step;
+    int steps = 1;
 };
-PlanetPlaces planet_places(const PlanetaryTrain& train);
+PlanetPositions planet_positions(const PlanetaryTrain& train);
 // psi_n, rad.
-double planet_angle(const PlanetPlaces& places, int planet);
+double planet_angle(const PlanetPositions& positions, int planet);
 
 // Sense of the planets' rotation relative to the carrier. It determines the order in which the
 // planets reach a mesh phase.

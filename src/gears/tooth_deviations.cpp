@@ -97,9 +97,9 @@ class UnitScaleGears {
             const double common = normal(engine);
             double least = 0.0, most = 0.0;
             for (int t = 0; t < teeth; ++t) {
-                const double own = normal(engine);
-                least = t == 0 ? own : std::min(least, own);
-                most = t == 0 ? own : std::max(most, own);
+                const double pitch = normal(engine);
+                least = t == 0 ? pitch : std::min(least, pitch);
+                most = t == 0 ? pitch : std::max(most, pitch);
             }
             worst_slope_.push_back(
                 std::max(std::abs(kCommonSlope * common + kIndividualSlope * least),

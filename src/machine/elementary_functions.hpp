@@ -144,7 +144,6 @@ GEARPOD_INLINE double lane_sine_of_turns(double z) {
 // Sine and cosine of the angles along a tooth's flank by their Taylor series. They give the same
 // bits on every processor, like the library's functions (machine/portable_libm.cpp), at a tenth of
 // their cost.
-
 struct SineCosine {
     double sine, cosine;
 };

@@ -1,5 +1,5 @@
-// Cooperative cancellation flag. Long computations poll it between their parts (mesh periods,
-// gearboxes, tasks of a team) and leave by an exception.
+// Teams of threads, and the cooperative cancellation of what they compute. Long computations poll
+// it between their parts (mesh periods, gearboxes, tasks of a team) and leave by an exception.
 #pragma once
 
 #include <cstddef>

@@ -69,13 +69,13 @@ class FaultyAdditiveMesh : public FaultyMesh {
     void total(std::span<const double> tau, double inside,
                std::span<double> stiffness) const override {
         const Stretch stretch = stretch_around(healthy_.transitions_, jumps_, inside);
-        std::vector<double> position(tau.size()), one(tau.size());
+        std::vector<double> position(tau.size()), pair_stiffness(tau.size());
         std::fill(stiffness.begin(), stiffness.end(), 0.0);
         const Ages ages = touching(inside, healthy_.contact_ratio());
         for (int age = ages.first; age < ages.last; ++age) {
             shift(tau, age, position);
-            one_pair(age, stretch, position, one);
-            add(one, stiffness);
+            one_pair(age, stretch, position, pair_stiffness);
+            add(pair_stiffness, stiffness);
         }
         for (double& k : stiffness)
             k *= factor_;
@@ -136,13 +136,13 @@ void AdditiveMesh::tooth_pair(std::span<const double> tau, std::span<double> sti
 
 void AdditiveMesh::total(std::span<const double> tau, double inside,
                          std::span<double> stiffness) const {
-    std::vector<double> position(tau.size()), one(tau.size());
+    std::vector<double> position(tau.size()), pair_stiffness(tau.size());
     std::fill(stiffness.begin(), stiffness.end(), 0.0);
     const Ages ages = touching(inside, contact_ratio_);
     for (int age = ages.first; age < ages.last; ++age) {
         shift(tau, age, position);
-        pair_(position, one);
-        add(one, stiffness);
+        pair_(position, pair_stiffness);
+        add(pair_stiffness, stiffness);
     }
 }
 
@@ -158,14 +158,14 @@ void AdditiveMesh::share(std::span<const double> tau, double inside,
 }
 
 ToothPairCurve AdditiveMesh::faulty_pair(const ToothFault& fault) const {
-    const int own = fault.gear() - 1;
+    const int faulty = fault.gear() - 1;
     const auto stiffness = [&](std::span<const double> tau, std::span<double> values) {
         std::array<double, ToothPairCurve::kMaxTerms> mate;
-        beams_[1 - own](tau, mate);
+        beams_[1 - faulty](tau, mate);
         if (fault.changes_sections())
             fault.beam_compliance(tau, values);
         else
-            beams_[own](tau, values);
+            beams_[faulty](tau, values);
         for (std::size_t i = 0; i < tau.size(); ++i) {
             const double width = fault.changes_contact() ? fault.contact_width(tau[i]) : 1.0;
             values[i] =

@@ -39,8 +39,8 @@ class FaultyCoupledMesh : public FaultyMesh {
             for (const double transition : transitions_)
                 breaks_.push_back(period + transition);
         for (int tooth = 0; tooth < fault.teeth(); ++tooth) {
-            for (const double at : fault.breaks())
-                breaks_.push_back(tooth + at);
+            for (const double position : fault.breaks())
+                breaks_.push_back(tooth + position);
             for (const double jump : fault.jumps())
                 jumps_.push_back(tooth + jump);
         }
@@ -109,7 +109,7 @@ class FaultyCoupledMesh : public FaultyMesh {
 
     static void apply_fault(const CoupledMesh& healthy, const ToothFault& fault,
                             std::span<const double> tau, int tooth, int pair,
-                            std::vector<TouchingPairs>& at) {
+                            std::vector<TouchingPairs>& touching) {
         const std::size_t n = tau.size();
         std::vector<double> position(n), faulty(n), whole(n);
         std::transform(tau.begin(), tau.end(), position.begin(),
@@ -119,11 +119,11 @@ class FaultyCoupledMesh : public FaultyMesh {
             healthy.beams_[fault.gear() - 1](position, whole);
         }
         for (std::size_t i = 0; i < n; ++i) {
-            double& own = at[i].compliance[pair][pair];
-            own = (own + (faulty[i] - whole[i])) / fault.pair_factor();
-            at[i].contact_factor[pair] = 1 / fault.pair_factor();
+            double& compliance = touching[i].compliance[pair][pair];
+            compliance = (compliance + (faulty[i] - whole[i])) / fault.pair_factor();
+            touching[i].contact_factor[pair] = 1 / fault.pair_factor();
             if (fault.changes_contact())
-                at[i].width[pair] = fault.contact_width(position[i]);
+                touching[i].width[pair] = fault.contact_width(position[i]);
         }
     }
 
@@ -204,16 +204,16 @@ double CoupledMesh::coupling(double tau_i, double tau_j) const {
 }
 
 TouchingPairs CoupledMesh::touching(double phase, int pairs) const {
-    TouchingPairs at;
-    at.count = pairs;
+    TouchingPairs touching;
+    touching.count = pairs;
     for (int i = 0; i < pairs; ++i) {
         const double tau = std::min(phase + i, contact_ratio());
-        at.width[i] = at.contact_factor[i] = 1;
-        at.compliance[i][i] = beams_[0](tau) + beams_[1](tau) + foundation_(tau);
+        touching.width[i] = touching.contact_factor[i] = 1;
+        touching.compliance[i][i] = beams_[0](tau) + beams_[1](tau) + foundation_(tau);
         for (int j = 0; j < i; ++j)
-            at.compliance[i][j] = at.compliance[j][i] = coupling(phase + i, phase + j);
+            touching.compliance[i][j] = touching.compliance[j][i] = coupling(phase + i, phase + j);
     }
-    return at;
+    return touching;
 }
 
 SharedLoad CoupledMesh::healthy_load(double phase, int pairs) const {

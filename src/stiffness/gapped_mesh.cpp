@@ -30,8 +30,8 @@ const FlankGaps& checked(const FlankGaps& gaps, double overlap, double force, in
     return gaps;
 }
 
-void add_phase(double at, std::vector<double>& phases) {
-    const double phase = at - std::floor(at);
+void add_phase(double position, std::vector<double>& phases) {
+    const double phase = position - std::floor(position);
     phases.push_back(phase > 1 - kPositionTolerance ? 0 : phase);
 }
 
@@ -40,15 +40,15 @@ void add_phase(double at, std::vector<double>& phases) {
 template <class Total>
 void total_at_paths(std::span<const double> tau, double inside, double late, bool helical,
                     const Total& total, std::span<double> stiffness) {
-    std::vector<double> own(tau.begin(), tau.end());
-    for (double& at : own)
-        at -= late;
+    std::vector<double> shifted(tau.begin(), tau.end());
+    for (double& position : shifted)
+        position -= late;
     if (!helical) {
-        total(std::span<const double>(own), inside - late, stiffness);
+        total(std::span<const double>(shifted), inside - late, stiffness);
         return;
     }
-    for (std::size_t i = 0; i < own.size(); ++i)
-        total(std::span<const double>(&own[i], 1), own[i], stiffness.subspan(i, 1));
+    for (std::size_t i = 0; i < shifted.size(); ++i)
+        total(std::span<const double>(&shifted[i], 1), shifted[i], stiffness.subspan(i, 1));
 }
 
 std::unique_ptr<const MeshStiffness> make_nominal(std::unique_ptr<const MeshStiffness> spur,
@@ -93,8 +93,8 @@ ToothPairCurve GappedMesh::fit(ExtendedPairs& pairs, int tooth,
     return make(
         [&](std::span<const double> tau, std::span<double> values) {
             std::vector<double> nominal(tau.begin(), tau.end());
-            for (double& at : nominal)
-                at += from;
+            for (double& position : nominal)
+                position += from;
             pairs.stiffness(tooth, nominal, values);
         },
         breaks, spur_ratio_);
@@ -106,13 +106,13 @@ std::vector<double> GappedMesh::breaks() const {
     std::vector<double> all;
     const int reach = static_cast<int>(std::ceil(ratio)) + 1;
     for (int other = -reach; other <= reach; ++other)
-        for (const double at :
+        for (const double edge :
              {other - fade.before, other + 0.0, other + ratio, other + ratio + fade.after})
-            if (const double own = path_begin() + at; own > 0 && own < spur_ratio_)
-                all.push_back(own);
+            if (const double position = path_begin() + edge; position > 0 && position < spur_ratio_)
+                all.push_back(position);
     for (const double phase : spur_.transitions())
-        for (double at = path_begin() + phase; at < spur_ratio_; ++at)
-            all.push_back(at);
+        for (double position = path_begin() + phase; position < spur_ratio_; ++position)
+            all.push_back(position);
     sort_positions(all);
     return all;
 }
@@ -135,8 +135,8 @@ std::vector<double> GappedMesh::make_transitions() const {
     add_phase(contact_ratio(), phases);
     if (helical()) {
         if (gap_.flanks.reach_m == 0)
-            for (const double at : helical_slices_->changes())
-                add_phase(at, phases);
+            for (const double position : helical_slices_->changes())
+                add_phase(position, phases);
     } else {
         for (const double phase : spur_.transitions())
             add_phase(path_begin() + phase, phases);
@@ -148,9 +148,9 @@ std::vector<double> GappedMesh::make_transitions() const {
 }
 
 double GappedMesh::flank_position(double tau) const {
-    const double ratio = spur_.contact_ratio(), at = tau - path_begin();
-    const double oldest = std::clamp(at, 0.0, ratio);
-    const double youngest = std::clamp(at - overlap_, 0.0, ratio);
+    const double ratio = spur_.contact_ratio(), nominal = tau - path_begin();
+    const double oldest = std::clamp(nominal, 0.0, ratio);
+    const double youngest = std::clamp(nominal - overlap_, 0.0, ratio);
     return 0.5 * (oldest + youngest) / ratio - 0.5;
 }
 
@@ -206,7 +206,8 @@ void GappedMesh::path_total(std::span<const double> tau, double inside,
                             std::span<double> stiffness) const {
     total_at_paths(
         tau, inside, path_begin(), helical(),
-        [this](auto at, double within, auto k) { nominal_->total(at, within, k); }, stiffness);
+        [this](auto position, double within, auto k) { nominal_->total(position, within, k); },
+        stiffness);
 }
 
 void GappedMesh::share(std::span<const double> tau, double inside, std::span<double> share) const {
@@ -236,10 +237,10 @@ class FaultyGappedMesh : public FaultyMesh {
         const double begin = healthy_.path_begin();
         std::vector<double> fault_positions;
         for (int tooth = 0; tooth < fault.teeth(); ++tooth) {
-            for (const double at : fault.breaks())
-                fault_positions.push_back(begin + tooth + at);
-            for (const double at : fault.jumps())
-                fault_positions.push_back(begin + tooth + at);
+            for (const double position : fault.breaks())
+                fault_positions.push_back(begin + tooth + position);
+            for (const double position : fault.jumps())
+                fault_positions.push_back(begin + tooth + position);
         }
         if (healthy_.slices_ == 1 && !healthy_.helical())
             for (const double jump : spur_.jumps())
@@ -247,9 +248,10 @@ class FaultyGappedMesh : public FaultyMesh {
         ExtendedPairs pairs(NominalPairs(healthy_.spur_, &spur_), healthy_.gap_.extension);
         for (int tooth = first_tooth(); tooth < duration(); ++tooth) {
             std::vector<double> breaks = healthy_.breaks();
-            for (const double at : fault_positions)
-                if (const double own = at - tooth; own > 0 && own < healthy_.spur_ratio_)
-                    breaks.push_back(own);
+            for (const double fault_position : fault_positions)
+                if (const double position = fault_position - tooth;
+                    position > 0 && position < healthy_.spur_ratio_)
+                    breaks.push_back(position);
             sort_positions(breaks);
             curves_.push_back(healthy_.fit(pairs, tooth, breaks));
             if (healthy_.helical())
@@ -283,11 +285,11 @@ class FaultyGappedMesh : public FaultyMesh {
 
     void path_total(std::span<const double> tau, double inside,
                     std::span<double> stiffness) const override {
-        const auto total = [this](auto at, double within, auto k) {
+        const auto total = [this](auto position, double within, auto k) {
             if (within > 0 && within < nominal_->duration())
-                nominal_->total(at, within, k);
+                nominal_->total(position, within, k);
             else
-                healthy_.nominal_->total(at, within, k);
+                healthy_.nominal_->total(position, within, k);
         };
         total_at_paths(tau, inside, healthy_.path_begin(), healthy_.helical(), total, stiffness);
     }
@@ -295,11 +297,11 @@ class FaultyGappedMesh : public FaultyMesh {
     void tooth_pair(int tooth, std::span<const double> tau, double inside,
                     std::span<double> stiffness) const override {
         std::fill(stiffness.begin(), stiffness.end(), 0.0);
-        std::vector<double> one(tau.size());
+        std::vector<double> slice_values(tau.size());
         for (int slice = 0; slice < healthy_.slices(); ++slice) {
-            slice_stiffness(tooth, slice, tau, inside, one);
-            std::transform(one.begin(), one.end(), stiffness.begin(), stiffness.begin(),
-                           std::plus<>());
+            slice_stiffness(tooth, slice, tau, inside, slice_values);
+            std::transform(slice_values.begin(), slice_values.end(), stiffness.begin(),
+                           stiffness.begin(), std::plus<>());
         }
     }
 
@@ -308,27 +310,27 @@ class FaultyGappedMesh : public FaultyMesh {
         std::fill(stiffness.begin(), stiffness.end(), 0.0);
         if (inside <= tooth || inside >= tooth + healthy_.contact_ratio())
             return;
-        std::vector<double> own(tau.begin(), tau.end());
-        for (double& at : own)
-            at -= tooth;
+        std::vector<double> shifted(tau.begin(), tau.end());
+        for (double& position : shifted)
+            position -= tooth;
         const auto pair = static_cast<std::size_t>(tooth - first_tooth());
         if (healthy_.helical()) {
-            healthy_.slice_stiffness(slice, own, inside - tooth, stiffness);
+            healthy_.slice_stiffness(slice, shifted, inside - tooth, stiffness);
             for (std::size_t i = 0; i < tau.size(); ++i) {
                 const double lost =
-                    healthy_.helical_slices_->mean(lost_[pair], slice, own[i], face_);
+                    healthy_.helical_slices_->mean(lost_[pair], slice, shifted[i], face_);
                 stiffness[i] = std::max(0.0, stiffness[i] - lost);
             }
             return;
         }
         if (healthy_.slices_ == 1) {
             const Stretch whole = stretch_around(healthy_.transitions_, jumps_, inside);
-            curves_[pair](own, {whole.begin - tooth, whole.end - tooth}, stiffness);
+            curves_[pair](shifted, {whole.begin - tooth, whole.end - tooth}, stiffness);
             return;
         }
-        curves_[pair](own, stiffness);
+        curves_[pair](shifted, stiffness);
         std::vector<double> whole(tau.size());
-        healthy_.curve_(own, whole);
+        healthy_.curve_(shifted, whole);
         const double part = weight(slice);
         for (std::size_t i = 0; i < tau.size(); ++i) {
             const double lost = part * (whole[i] - stiffness[i]);

@@ -20,9 +20,9 @@ std::vector<double> points_within(std::span<const double> transitions, double be
     std::vector<double> points{begin, end};
     for (double period = std::floor(begin); period <= end; ++period)
         for (const double phase : transitions)
-            if (const double at = period + phase;
-                at > begin + kPositionTolerance && at < end - kPositionTolerance)
-                points.push_back(at);
+            if (const double position = period + phase;
+                position > begin + kPositionTolerance && position < end - kPositionTolerance)
+                points.push_back(position);
     sort_positions(points);
     return points;
 }
@@ -31,8 +31,8 @@ std::vector<double> helical_transitions(const MeshStiffness& spur, double overla
     std::vector<double> phases;
     for (const double phase : spur.transitions())
         for (const double later : {0.0, overlap}) {
-            const double at = phase + later - std::floor(phase + later);
-            phases.push_back(at > 1 - kPositionTolerance ? 0 : at);
+            const double position = phase + later - std::floor(phase + later);
+            phases.push_back(position > 1 - kPositionTolerance ? 0 : position);
         }
     sort_positions(phases);
     return phases;
@@ -47,8 +47,8 @@ void add_mean(const RunningIntegral& integral, double width, std::span<const dou
     for (const bool end : {true, false}) {
         const double back = end ? late : late + width;
         const double period = inside ? std::floor(*inside - back) : 0;
-        std::transform(tau.begin(), tau.end(), t.begin(), [&](double at) {
-            return inside ? std::clamp(at - back - period, 0.0, 1.0) : at - back;
+        std::transform(tau.begin(), tau.end(), t.begin(), [&](double position) {
+            return inside ? std::clamp(position - back - period, 0.0, 1.0) : position - back;
         });
         integral(t, value);
         for (std::size_t i = 0; i < t.size(); ++i)
@@ -114,9 +114,10 @@ class FaultyHelicalMesh : public FaultyMesh {
         std::fill(stiffness.begin(), stiffness.end(), 0.0);
         if (inside <= tooth || inside >= tooth + healthy_.contact_ratio())
             return;
-        std::vector<double> own(tau.size());
-        std::transform(tau.begin(), tau.end(), own.begin(), [&](double t) { return t - tooth; });
-        healthy_.one_pair(own, stiffness);
+        std::vector<double> shifted(tau.size());
+        std::transform(tau.begin(), tau.end(), shifted.begin(),
+                       [&](double t) { return t - tooth; });
+        healthy_.one_pair(shifted, stiffness);
         std::call_once(tooth_pairs_fitted_, [&] { integrate_tooth_pairs(); });
         const std::size_t i = static_cast<std::size_t>(tooth - first_tooth());
         if (tooth >= first_tooth() && i < lost_by_tooth_.size())
@@ -145,11 +146,11 @@ class FaultyHelicalMesh : public FaultyMesh {
     void integrate_tooth_pairs() const {
         for (int tooth = first_tooth(); tooth < spur_->duration(); ++tooth)
             lost_by_tooth_.push_back(integral([&](auto t, double inside, auto values) {
-                std::vector<double> own(t.size()), whole(t.size());
-                std::transform(t.begin(), t.end(), own.begin(),
-                               [&](double at) { return at - tooth; });
+                std::vector<double> shifted(t.size()), whole(t.size());
+                std::transform(t.begin(), t.end(), shifted.begin(),
+                               [&](double position) { return position - tooth; });
                 spur_->tooth_pair(tooth, t, inside, values);
-                spur_pair(healthy_.slice(), own, inside - tooth, whole);
+                spur_pair(healthy_.slice(), shifted, inside - tooth, whole);
                 subtract(whole, values);
             }));
     }

@@ -49,13 +49,13 @@ RunningIntegral integral_of(const ToothPairCurve& curve, const std::vector<doubl
                             const Factor& factor) {
     double largest = 0;
     for (int i = 0; i < kPositions; ++i) {
-        const double at = sampled_position(points.back(), i);
-        largest = std::max(largest, std::abs(curve(at) * factor(at)));
+        const double position = sampled_position(points.back(), i);
+        largest = std::max(largest, std::abs(curve(position) * factor(position)));
     }
-    return {[&](std::span<const double> at, double, std::span<double> values) {
-                curve(at, values);
-                for (std::size_t i = 0; i < at.size(); ++i)
-                    values[i] *= factor(at[i]);
+    return {[&](std::span<const double> positions, double, std::span<double> values) {
+                curve(positions, values);
+                for (std::size_t i = 0; i < positions.size(); ++i)
+                    values[i] *= factor(positions[i]);
             },
             points, kSliceTolerance * largest};
 }
@@ -64,10 +64,10 @@ RunningIntegral integral_of(const ToothPairCurve& curve, const std::vector<doubl
 double closest_position(const Factor& gap, double ratio) {
     double closest = 0, least = std::numeric_limits<double>::infinity();
     for (int i = 0; i < kPositions; ++i) {
-        const double at = sampled_position(ratio, i);
-        if (const double own = gap(at); own < least) {
-            least = own;
-            closest = at;
+        const double position = sampled_position(ratio, i);
+        if (const double value = gap(position); value < least) {
+            least = value;
+            closest = position;
         }
     }
     return closest;
@@ -80,11 +80,11 @@ double mean_approach(const ToothPairCurve& curve, const Factor& gap, double rati
     constexpr int kAcross = 16;
     std::vector<ContactSpring> springs;
     for (int i = 0; i < kPositions; ++i) {
-        const double at = sampled_position(ratio, i);
-        const double k = curve(at) * ratio / (kPositions * kAcross), own = gap(at);
+        const double position = sampled_position(ratio, i);
+        const double k = curve(position) * ratio / (kPositions * kAcross), gap_m = gap(position);
         for (int slice = 0; slice < kAcross; ++slice) {
             const double across = (2 * slice + 1.0) / kAcross - 1;
-            springs.push_back({k, own + crowning_m * across * across});
+            springs.push_back({k, gap_m + crowning_m * across * across});
         }
     }
     return approach_of(springs, force_N);
@@ -98,16 +98,18 @@ HelicalSlices::HelicalSlices(const ToothPairCurve& curve, const std::vector<doub
       ratio_(points.back()),
       overlap_(overlap_ratio),
       stiffness_{integral_of(curve, points, [](double) { return 1.0; }),
-                 integral_of(curve, points, [](double at) { return at; }),
-                 integral_of(curve, points, [](double at) { return at * at; })},
-      force_(integral_of(curve, points, [this](double at) { return gap_at(at); })),
-      place_(integral_of(curve, points, [this](double at) { return place_at(at); })) {
+                 integral_of(curve, points, [](double position) { return position; }),
+                 integral_of(curve, points, [](double position) { return position * position; })},
+      force_(integral_of(curve, points, [this](double position) { return gap_at(position); })),
+      flank_position_(integral_of(
+          curve, points, [this](double position) { return flank_position_at(position); })) {
     if (gap_.flanks.wear)
-        wear_.emplace(integral_of(curve, points, [this](double at) { return wear_at(at); }));
-    const auto own_gap = [this](double at) { return gap_at(at); };
-    const double closest = closest_position(own_gap, ratio_);
+        wear_.emplace(
+            integral_of(curve, points, [this](double position) { return wear_at(position); }));
+    const auto gap_of = [this](double position) { return gap_at(position); };
+    const double closest = closest_position(gap_of, ratio_);
     const double approach =
-        force_N > 0 ? mean_approach(curve, own_gap, ratio_, gap_.flanks.crowning_m(), force_N)
+        force_N > 0 ? mean_approach(curve, gap_of, ratio_, gap_.flanks.crowning_m(), force_N)
                     : std::numeric_limits<double>::infinity();
     Positions inner{closest, closest};
     const auto add_around = [&](const Positions& within) {
@@ -141,7 +143,7 @@ double HelicalSlices::wear_at(double position) const {
     return gap_.wear(position - gap_.extension.reach().before);
 }
 
-double HelicalSlices::place_at(double position) const {
+double HelicalSlices::flank_position_at(double position) const {
     return gap_.flank_position(position - gap_.extension.reach().before);
 }
 
@@ -158,12 +160,12 @@ double HelicalSlices::reaches(double gap_m, double closest, double end) const {
 void HelicalSlices::add_slice(const std::array<Positions, 2>& engaged, const FaceRange& face) {
     constexpr double kInfinity = std::numeric_limits<double>::infinity();
     Slice slice{engaged, face, kInfinity, 0, kInfinity, 0};
-    for (const Positions& own : engaged) {
-        if (own.length() < kShortestSlice)
+    for (const Positions& positions : engaged) {
+        if (positions.length() < kShortestSlice)
             continue;
         for (int i = 0; i <= kPositions; ++i) {
-            const double at = own.begin + own.length() * i / kPositions;
-            const double gap = gap_at(at), wear = wear_at(at);
+            const double position = positions.begin + positions.length() * i / kPositions;
+            const double gap = gap_at(position), wear = wear_at(position);
             slice.least_gap = std::min(slice.least_gap, gap);
             slice.largest_gap = std::max(slice.largest_gap, gap);
             slice.least_wear = std::min(slice.least_wear, wear);
@@ -184,10 +186,10 @@ HelicalSlices::Positions HelicalSlices::covered(const Slice& slice, const Positi
 
 double HelicalSlices::mean(const RunningIntegral& integral, int slice, double tau,
                            const FaceRange& part) const {
-    const Slice& own = slices_[static_cast<std::size_t>(slice)];
+    const Slice& properties = slices_[static_cast<std::size_t>(slice)];
     double sum = 0;
-    for (const Positions& engaged : own.engaged) {
-        const Positions contact = covered(own, engaged, tau, part);
+    for (const Positions& engaged : properties.engaged) {
+        const Positions contact = covered(properties, engaged, tau, part);
         if (contact.length() < kShortestSlice)
             continue;
         const double ends[] = {contact.begin, contact.end};
@@ -205,11 +207,12 @@ double HelicalSlices::stiffness(int slice, double tau) const {
 // The contact at position s lies at y = (tau - s) / overlap on the face, where crowning is
 // C (1 - 2 y)^2.
 double HelicalSlices::gap(int slice, double tau) const {
-    const Slice& own = slices_[static_cast<std::size_t>(slice)];
+    const Slice& properties = slices_[static_cast<std::size_t>(slice)];
     const double k = stiffness(slice, tau), crowning = gap_.flanks.crowning_m();
     if (k <= 0)
-        return own.largest_gap;
-    const double gap = std::clamp(mean(force_, slice, tau, {}) / k, own.least_gap, own.largest_gap);
+        return properties.largest_gap;
+    const double gap =
+        std::clamp(mean(force_, slice, tau, {}) / k, properties.least_gap, properties.largest_gap);
     if (crowning == 0)
         return gap;
     const double at_zero = 1 - 2 * tau / overlap_, growth = 2 / overlap_;
@@ -222,27 +225,29 @@ double HelicalSlices::gap(int slice, double tau) const {
 double HelicalSlices::wear(int slice, double tau) const {
     if (!wear_)
         return 0;
-    const Slice& own = slices_[static_cast<std::size_t>(slice)];
+    const Slice& properties = slices_[static_cast<std::size_t>(slice)];
     const double k = stiffness(slice, tau);
-    return k > 0 ? std::clamp(mean(*wear_, slice, tau, {}) / k, own.least_wear, own.largest_wear)
-                 : own.largest_wear;
+    return k > 0 ? std::clamp(mean(*wear_, slice, tau, {}) / k, properties.least_wear,
+                              properties.largest_wear)
+                 : properties.largest_wear;
 }
 
 double HelicalSlices::flank_position(int slice, double tau) const {
     const auto& engaged = slices_[static_cast<std::size_t>(slice)].engaged;
     const double k = stiffness(slice, tau);
-    const double least = place_at(engaged[0].begin);
-    const double most = place_at(std::max(engaged[0].end, engaged[1].end));
-    return k > 0 ? std::clamp(mean(place_, slice, tau, {}) / k, least, most) : 0.5 * (least + most);
+    const double least = flank_position_at(engaged[0].begin);
+    const double most = flank_position_at(std::max(engaged[0].end, engaged[1].end));
+    return k > 0 ? std::clamp(mean(flank_position_, slice, tau, {}) / k, least, most)
+                 : 0.5 * (least + most);
 }
 
 double HelicalSlices::on_path(int slice, double tau) const {
-    const Slice& own = slices_[static_cast<std::size_t>(slice)];
+    const Slice& properties = slices_[static_cast<std::size_t>(slice)];
     const double begin = gap_.extension.reach().before;
     const double end = begin + gap_.extension.contact_ratio();
     double sum = 0;
-    for (const Positions& engaged : own.engaged) {
-        const Positions contact = covered(own, engaged, tau, {});
+    for (const Positions& engaged : properties.engaged) {
+        const Positions contact = covered(properties, engaged, tau, {});
         sum += std::max(0.0, std::min(contact.end, end) - std::max(contact.begin, begin));
     }
     return sum / overlap_;

@@ -69,7 +69,7 @@ class HelicalSlices {
                       const FaceRange& part) const;
     double gap_at(double position) const;
     double wear_at(double position) const;
-    double place_at(double position) const;
+    double flank_position_at(double position) const;
     // Position at which the gap reaches `gap_m`, between one with a smaller gap and an end.
     double reaches(double gap_m, double closest, double end) const;
     void add_slice(const std::array<Positions, 2>& engaged, const FaceRange& face);
@@ -78,7 +78,8 @@ class HelicalSlices {
     double ratio_, overlap_;
     std::vector<Slice> slices_;
     std::array<RunningIntegral, 3> stiffness_;  // of the stiffness times position^0, 1, 2
-    RunningIntegral force_, place_;        // of the stiffness times gap, and times flank position
+    RunningIntegral force_,
+        flank_position_;                   // of the stiffness times gap, and times flank position
     std::optional<RunningIntegral> wear_;  // of the stiffness times wear; empty without wear
 };
 

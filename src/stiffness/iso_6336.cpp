@@ -31,11 +31,11 @@ CountedGear counted(const gears::Gear& gear, double helix_cos, double base_helix
 }
 
 // Theoretical compliance q', mm um/N.
-double theoretical_compliance(const CountedGear& one, const CountedGear& two) {
-    const double x_1 = one.shift, x_2 = two.shift;
-    return 0.04723 + 0.15551 * one.inverse_teeth + 0.25791 * two.inverse_teeth - 0.00635 * x_1 -
-           0.11654 * x_1 * one.inverse_teeth - 0.00193 * x_2 - 0.24188 * x_2 * two.inverse_teeth +
-           0.00529 * x_1 * x_1 + 0.00182 * x_2 * x_2;
+double theoretical_compliance(const CountedGear& first, const CountedGear& second) {
+    const double x_1 = first.shift, x_2 = second.shift;
+    return 0.04723 + 0.15551 * first.inverse_teeth + 0.25791 * second.inverse_teeth -
+           0.00635 * x_1 - 0.11654 * x_1 * first.inverse_teeth - 0.00193 * x_2 -
+           0.24188 * x_2 * second.inverse_teeth + 0.00529 * x_1 * x_1 + 0.00182 * x_2 * x_2;
 }
 
 double basic_rack_factor(double dedendum, double normal_angle_rad) {
@@ -54,9 +54,9 @@ std::optional<Iso6336Stiffness> iso_6336_stiffness(const gears::MeshGeometry& me
     const double normal_angle = std::atan(std::tan(pinion.pressure_angle_rad) * helix_cos);
     const double base_helix_sin = std::sin(helix_angle_rad) * std::cos(normal_angle);
     const double base_helix_cos = std::sqrt(1.0 - base_helix_sin * base_helix_sin);
-    const CountedGear one = counted(pinion, helix_cos, base_helix_cos),
-                      two = counted(wheel, helix_cos, base_helix_cos);
-    const double shifts = one.shift + two.shift;
+    const CountedGear first = counted(pinion, helix_cos, base_helix_cos),
+                      second = counted(wheel, helix_cos, base_helix_cos);
+    const double shifts = first.shift + second.shift;
     if (shifts < kLeastShifts || shifts > kMostShifts ||
         mesh.contact_ratio() < kLeastContactRatio) {
         return {};
@@ -66,8 +66,8 @@ std::optional<Iso6336Stiffness> iso_6336_stiffness(const gears::MeshGeometry& me
         kIso6336MeasuredOverTheory *
         basic_rack_factor(pinion.dedendum_coefficient / helix_cos, normal_angle) * helix_cos *
         (material.youngs_modulus_Pa / kSteel_Pa);
-    const double single = factors / theoretical_compliance(one, two) * kPerMicrometreAndMillimetre *
-                          material.face_width_m;
+    const double single = factors / theoretical_compliance(first, second) *
+                          kPerMicrometreAndMillimetre * material.face_width_m;
     return Iso6336Stiffness{single, single * (0.75 * mesh.contact_ratio() + 0.25)};
 }
 

@@ -1,12 +1,4 @@
-// Gear blank factor: fraction of the mesh stiffness that remains where a gear is not a solid disc
-// but a rim on a thinner web. ISO 6336-1:2006, 9.3.2.3, for webs in the middle of the face width,
-//
-//     C_R = 1 + ln(b_s / b) / (5 exp(s_R / (5 m_n))),    0.2 <= b_s / b <= 1.2,  s_R / m_n >= 1.
-//
-// Values outside these limits are replaced by the limit, as in the standard. b_s: web, b: face
-// width, s_R: rim below the tooth's root, m_n: normal module. The factor is a fit to the stiffness
-// of the whole pair, contact included, of external gears with a mating gear at least as stiff. A
-// web wider than the face (a hub) makes the pair stiffer.
+// Mesh stiffness, gear blank factor and tooth stresses after ISO 6336.
 #pragma once
 
 #include <optional>
@@ -16,6 +8,15 @@
 
 namespace gearpod::stiffness {
 
+// Gear blank factor: fraction of the mesh stiffness that remains where a gear is not a solid disc
+// but a rim on a thinner web. ISO 6336-1:2006, 9.3.2.3, for webs in the middle of the face width,
+//
+//     C_R = 1 + ln(b_s / b) / (5 exp(s_R / (5 m_n))),    0.2 <= b_s / b <= 1.2,  s_R / m_n >= 1.
+//
+// Values outside these limits are replaced by the limit, as in the standard. b_s: web, b: face
+// width, s_R: rim below the tooth's root, m_n: normal module. The factor is a fit to the stiffness
+// of the whole pair, contact included, of external gears with a mating gear at least as stiff. A
+// web wider than the face (a hub) makes the pair stiffer.
 double gear_blank_factor(double web_over_face, double rim_over_module);
 
 // Tooth and mesh stiffness by ISO 6336-1:2006, method B (section 9.3.2), for comparison.
@@ -27,7 +28,6 @@ double gear_blank_factor(double web_over_face, double rim_over_module);
 // angle, e_alpha: transverse contact ratio. An internal wheel has z2 = infinity. C_B is the
 // basic-rack factor of the pinion, also where the wheel has another rack. C_M = 0.8 is empirical:
 // measured teeth are a fifth softer than the theory of q'.
-
 inline constexpr double kIso6336MeasuredOverTheory = 0.8;  // C_M
 
 // Stiffnesses times the face width, N/m. The gear blank factor C_R is omitted.
@@ -57,7 +57,6 @@ std::optional<Iso6336Stiffness> iso_6336_stiffness(const gears::MeshGeometry& me
 //
 // The factors for application, dynamics and load distribution (K) are omitted, as are Z_B and Z_D
 // (single contact), Y_B (thin rims) and Y_DT (deep teeth).
-
 struct ToothStress {
     double contact_Pa = 0;                // sigma_H0
     double root_1_Pa = 0, root_2_Pa = 0;  // sigma_F0 of gears 1 and 2; NaN if it is undefined

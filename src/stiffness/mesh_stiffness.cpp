@@ -25,9 +25,9 @@ double limit_at(const Mesh& mesh, std::span<const double> transitions,
                 std::span<const double> jumps, double tau, Limit limit) {
     const double offset = limit == Limit::from_above ? kEndOffset : -kEndOffset;
     const Stretch stretch = stretch_around(transitions, jumps, tau + offset);
-    const double at = std::clamp(tau, stretch.begin, stretch.end);
+    const double position = std::clamp(tau, stretch.begin, stretch.end);
     double stiffness = 0;
-    mesh.total({&at, 1}, 0.5 * (stretch.begin + stretch.end), {&stiffness, 1});
+    mesh.total({&position, 1}, 0.5 * (stretch.begin + stretch.end), {&stiffness, 1});
     return stiffness;
 }
 

@@ -40,11 +40,11 @@ void NominalPairs::pair(int tooth, std::span<const double> tau, double inside,
         faulty_->tooth_pair(tooth, tau, inside, stiffness);
         return;
     }
-    std::vector<double> own(tau.begin(), tau.end());
-    for (double& at : own) {
-        at -= tooth;
+    std::vector<double> shifted(tau.begin(), tau.end());
+    for (double& position : shifted) {
+        position -= tooth;
     }
-    spur_.slice_stiffness(0, own, inside - tooth, stiffness);
+    spur_.slice_stiffness(0, shifted, inside - tooth, stiffness);
 }
 
 double PathExtension::weight(double tau) const {
@@ -70,22 +70,22 @@ double ExtendedPairs::total_at(double tau, double inside) const {
 
 ExtendedPairs::Change ExtendedPairs::make_change(int tooth, bool joins) const {
     const double ratio = extension_.contact_ratio();
-    const double at = joins ? tooth : tooth + ratio;
-    const double with = joins ? at + kSideOffset : at - kSideOffset;
-    const double without = joins ? at - kSideOffset : at + kSideOffset;
+    const double position = joins ? tooth : tooth + ratio;
+    const double with = joins ? position + kSideOffset : position - kSideOffset;
+    const double without = joins ? position - kSideOffset : position + kSideOffset;
     Change change;
-    change.own = pair_at(tooth, at, with);
+    change.pair = pair_at(tooth, position, with);
     if (whole(ratio)) {
-        change.added = change.own;
+        change.added = change.pair;
         return change;
     }
-    change.added = std::max(0.0, total_at(at, with) - total_at(at, without));
-    for (int other = tooth - static_cast<int>(ratio) - 1; other < at; ++other) {
-        if (other == tooth || other + ratio <= at) {
+    change.added = std::max(0.0, total_at(position, with) - total_at(position, without));
+    for (int other = tooth - static_cast<int>(ratio) - 1; other < position; ++other) {
+        if (other == tooth || other + ratio <= position) {
             continue;
         }
-        const double before = pair_at(other, at, without);
-        change.others[other] = before > 0 ? pair_at(other, at, with) / before : 1;
+        const double before = pair_at(other, position, without);
+        change.others[other] = before > 0 ? pair_at(other, position, with) / before : 1;
     }
     return change;
 }
@@ -116,9 +116,10 @@ void ExtendedPairs::stiffness(int tooth, std::span<const double> tau, std::span<
     const double ratio = extension_.contact_ratio();
     const double middle = tau[tau.size() / 2];
     if (middle < tooth || middle > tooth + ratio) {
-        const Change& own = change(tooth, middle < tooth);
-        std::transform(tau.begin(), tau.end(), values.begin(),
-                       [&](double at) { return own.stiffness(extension_.weight(at - tooth)); });
+        const Change& end = change(tooth, middle < tooth);
+        std::transform(tau.begin(), tau.end(), values.begin(), [&](double position) {
+            return end.stiffness(extension_.weight(position - tooth));
+        });
         return;
     }
     pairs_.pair(tooth, tau, middle, values);

@@ -82,9 +82,9 @@ class ExtendedPairs {
     // stiffness among the others, the stiffness it adds to the mesh, and the factors by which it
     // changes the other pairs' stiffness.
     struct Change {
-        double own = 0, added = 0;
+        double pair = 0, added = 0;
         std::map<int, double> others;
-        double stiffness(double weight) const { return added + weight * (own - added); }
+        double stiffness(double weight) const { return added + weight * (pair - added); }
     };
     const Change& change(int tooth, bool joins);
 
@@ -129,31 +129,36 @@ struct PairGap {
 
     // Position on the flank: -1/2 up to the start of the nominal path, 1/2 from its end on. `at`:
     // mesh periods from the start of the path.
-    double flank_position(double at) const {
-        return std::clamp(at / extension.contact_ratio(), 0.0, 1.0) - 0.5;
+    double flank_position(double position) const {
+        return std::clamp(position / extension.contact_ratio(), 0.0, 1.0) - 0.5;
     }
     // Gap, m, at a position from the start of the nominal path, mesh periods; `crown`: gap by
     // crowning, m.
-    double operator()(double at, double crown) const {
-        const double flank = gears::relief_gap(flanks.geometry, flanks.relief_1, flanks.relief_2,
-                                               std::clamp(at, 0.0, extension.contact_ratio())) +
-                             crown;
-        return on_path(at) ? flank : (flank + gears::corner_gap(flanks.geometry, at)) * scale(at);
+    double operator()(double position, double crown) const {
+        const double flank =
+            gears::relief_gap(flanks.geometry, flanks.relief_1, flanks.relief_2,
+                              std::clamp(position, 0.0, extension.contact_ratio())) +
+            crown;
+        return on_path(position)
+                   ? flank
+                   : (flank + gears::corner_gap(flanks.geometry, position)) * scale(position);
     }
     // Gap by wear of unit depth at that position; 0 unless the flanks wear.
-    double wear(double at) const {
-        return !flanks.wear  ? 0
-               : on_path(at) ? flanks.wear->shape(at)
-                             : flanks.wear->shape(at) * scale(at);
+    double wear(double position) const {
+        return !flanks.wear        ? 0
+               : on_path(position) ? flanks.wear->shape(position)
+                                   : flanks.wear->shape(position) * scale(position);
     }
 
   private:
-    bool on_path(double at) const { return at >= 0 && at <= extension.contact_ratio(); }
+    bool on_path(double position) const {
+        return position >= 0 && position <= extension.contact_ratio();
+    }
     // Factor of gaps at a position outside of the path.
-    double scale(double at) const {
-        const ExtendedPairs::Change& end = at < 0 ? joins : leaves;
-        const double k = end.stiffness(extension.weight(at));
-        return k > 0 ? end.own / k : 1;
+    double scale(double position) const {
+        const ExtendedPairs::Change& end = position < 0 ? joins : leaves;
+        const double k = end.stiffness(extension.weight(position));
+        return k > 0 ? end.pair / k : 1;
     }
 };
 

@@ -53,11 +53,11 @@ ToothPairCurve ToothPairFit::operator()(const Stiffness& stiffness, std::span<co
                                         double contact_ratio) const {
     ToothPairCurve curve;
     double begin = 0;
-    for (const double at : breaks) {
-        if (at < begin + kShortestPiece || at > contact_ratio - kShortestPiece)
+    for (const double position : breaks) {
+        if (position < begin + kShortestPiece || position > contact_ratio - kShortestPiece)
             continue;
-        add_piece(curve, stiffness, begin, at, kMaxCuts);
-        begin = at;
+        add_piece(curve, stiffness, begin, position, kMaxCuts);
+        begin = position;
     }
     add_piece(curve, stiffness, begin, contact_ratio, kMaxCuts);
     return curve;

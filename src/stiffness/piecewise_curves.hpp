@@ -58,7 +58,6 @@ class ToothPairFit {
 };
 
 // Integral of a piecewise smooth curve from its start, as Chebyshev series.
-
 class RunningIntegral {
   public:
     // curve(t, inside, values): values at ascending t of a piece, with `inside` strictly within it.

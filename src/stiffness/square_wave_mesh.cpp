@@ -37,14 +37,14 @@ class FaultySquareWave : public FaultyMesh {
     // the healthy pairs share the rest.
     void tooth_pair(int tooth, std::span<const double> /*tau*/, double inside,
                     std::span<double> stiffness) const override {
-        double own = 0;
+        double level = 0;
         if (touches(inside - tooth, healthy_.contact_ratio())) {
             const Pairs pairs = pairs_at(inside);
-            own = pair_factor_ * healthy_.level(pairs.all) / pairs.all;
+            level = pair_factor_ * healthy_.level(pairs.all) / pairs.all;
             if (tooth < 0 || tooth >= teeth_)
-                own = (pairs.total - pairs.faulty * own) / (pairs.all - pairs.faulty);
+                level = (pairs.total - pairs.faulty * level) / (pairs.all - pairs.faulty);
         }
-        std::fill(stiffness.begin(), stiffness.end(), mesh_factor_ * own);
+        std::fill(stiffness.begin(), stiffness.end(), mesh_factor_ * level);
     }
 
   private:

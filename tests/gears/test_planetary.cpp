@@ -160,7 +160,7 @@ TEST_CASE("Explicit equal positions give the same phases as default positions") 
             CHECK(sun_mesh_phase(given, n, sense) == Approx(sun_mesh_phase(equal, n, sense)));
             CHECK(ring_mesh_phase(given, n, sense) == Approx(ring_mesh_phase(equal, n, sense)));
             CHECK(sun_tooth_delay(given, n, sense) == Approx(sun_tooth_delay(equal, n, sense)));
-            CHECK(planet_angle(planet_places(given), n) == Approx(kTurn * n / 3));
+            CHECK(planet_angle(planet_positions(given), n) == Approx(kTurn * n / 3));
         }
 }
 

@@ -193,13 +193,13 @@ TEST_CASE("planets that would overlap are refused by their own tip circles") {
 TEST_CASE("planets that cannot be spaced equally take the nearest positions") {
     PlanetaryTrain train{27, 35, 99, 4};
     train.positions_rad = nearest_positions(train);
-    const PlanetPlaces at = planet_places(train);
-    CHECK(at.places == 126);
-    CHECK(at.place == std::vector<int>{0, 32, 63, 95});
+    const PlanetPositions planets = planet_positions(train);
+    CHECK(planets.steps == 126);
+    CHECK(planets.step == std::vector<int>{0, 32, 63, 95});
     CHECK(assembly_problems(train, {31.5, 37.0}).empty());
     PlanetaryTrain equal{19, 31, 81, 4};
     equal.positions_rad = nearest_positions(equal);
-    CHECK(planet_places(equal).place == std::vector<int>{0, 25, 50, 75});
+    CHECK(planet_positions(equal).step == std::vector<int>{0, 25, 50, 75});
 }
 
 // Rotates a planet in small steps and detects when its flanks cross the line between the axes.

@@ -65,20 +65,20 @@ TEST_CASE("the crack's surface has the limits of Yang's equations 61 to 66") {
     const CrackSurface full{2e-3, 1e-3, L, 0.5e-3, 2e-3, 0.8, 1.5, 4, 2, L};
     CHECK(partial.crack(0).depth_m == 1e-3);
     CHECK(partial.crack(1).depth_m == 0);
-    CHECK(partial.place(1) == Approx(0.012));
+    CHECK(partial.z_at(1) == Approx(0.012));
     CHECK(full.crack(0).depth_m == 2e-3);
     CHECK(full.crack(1).depth_m == Approx(1e-3));
-    CHECK(full.place(1) == Approx(L));
+    CHECK(full.z_at(1) == Approx(L));
     CHECK(full.crack(1).height_m == Approx(2e-3));
     CHECK(full.crack(0).angle_rad == 0.8);
     CHECK(full.crack(1).angle_rad == Approx(1.5));
     for (const double t : {0.1, 0.4, 0.8}) {
-        const double z = partial.place(t), step = 1e-6;
+        const double z = partial.z_at(t), step = 1e-6;
         CHECK(partial.crack(t).depth_m == Approx(1e-3 * std::sqrt((0.012 - z) / 0.012)));
-        const double y = full.place(t);
+        const double y = full.z_at(t);
         CHECK(full.crack(t).depth_m == Approx(std::sqrt((1e-6 - 4e-6) / L * y + 4e-6)));
         CHECK(full.stretching(t) ==
-              Approx((full.place(t + step) - full.place(t - step)) / (2 * step)).epsilon(1e-6));
+              Approx((full.z_at(t + step) - full.z_at(t - step)) / (2 * step)).epsilon(1e-6));
         CHECK(full.height(y) == Approx(1.5e-3 * y * y / (L * L) + 0.5e-3 +
                                        1.5e-3 / 4 * std::sin(2 * std::numbers::pi * y / L)));
     }

@@ -1,4 +1,4 @@
-// Parts that all mesh-damping laws share. A law is a struct with
+// Laws of mesh damping. A law is a struct with
 // - kText, its name in descriptions, and kParameters, its parameters in study files;
 // - shape(k), the part of the damping that depends on the mesh stiffness k, N/m;
 // - terms(p, m), how much of it a gearbox has: p are its parameters and m is the equivalent mass
@@ -42,7 +42,6 @@ struct DampingParameter {
 };
 
 // Constant damping at all mesh phases.
-
 struct ConstantDamping {
     static constexpr std::string_view kText = "constant";
     static constexpr DampingParameter kParameters[] = {
@@ -53,7 +52,6 @@ struct ConstantDamping {
 };
 
 // Damping proportional to stiffness: c = mu k, Tian (2004), Eq. 4.22.
-
 struct ProportionalDamping {
     static constexpr std::string_view kText = "proportional to stiffness";
     static constexpr DampingParameter kParameters[] = {
@@ -64,7 +62,6 @@ struct ProportionalDamping {
 };
 
 // Ratio of critical damping: c = 2 zeta sqrt(k m), Liang (2016), Eq. 4.2.5.
-
 struct RatioDamping {
     static constexpr std::string_view kText = "ratio of critical damping";
     static constexpr DampingParameter kParameters[] = {
@@ -81,7 +78,6 @@ struct RatioDamping {
 // their equivalent mass m. A mode in which the gears do not turn has the damping ratio
 // alpha / (2 w) + beta w / 2 at its natural frequency w, rad/s. Rayleigh, The Theory of
 // Sound, vol. 1 (1877).
-
 struct RayleighDamping {
     static constexpr std::string_view kText = "Rayleigh: proportional to mass and stiffness";
     static constexpr DampingParameter kParameters[] = {
@@ -97,7 +93,6 @@ struct RayleighDamping {
 };
 
 // Laws of mesh damping: mesh_dampings.def lists them.
-
 enum class MeshDamping {
 #define GEARPOD_MESH_DAMPING(NAME, LAW) NAME,
 #include "dynamics/effects/mesh_dampings.def"

@@ -1,4 +1,4 @@
-// Force of a spring-damper, common to all lockstep models.
+// Laws of the mesh force: linear, with separation, and with unilateral contact of each tooth pair.
 #pragma once
 
 #include <cmath>
@@ -139,8 +139,8 @@ struct UnilateralContact {
             const Real* __restrict gap = m.tooth_e + j * Pairs::kRows + pair * W;
 #pragma omp simd
             for (int l = 0; l < W; ++l) {
-                const Real own = front[l] - gap[l];
-                f[l] = std::fma(k[l], own > none ? own : none, f[l]);
+                const Real compression = front[l] - gap[l];
+                f[l] = std::fma(k[l], compression > none ? compression : none, f[l]);
             }
         }
 #pragma omp simd

@@ -1,4 +1,5 @@
-// Distinguishes parts of a signal from the rounding errors of their separation.
+// Statistics of a signal and of its teeth: moments, medians, the worst tooth, and the level of
+// rounding errors.
 #pragma once
 
 #include <numeric>
@@ -18,12 +19,10 @@ inline bool is_rounding(std::span<const double> part, std::span<const double> wh
 }
 
 // Median of a small sample; NaN for an empty one.
-
 double median(std::vector<double> values);
 
 // Standardized moment n^(p/2 - 1) sum (x - mean)^p / (sum (x - mean)^2)^(p/2) for even p; the
 // kurtosis for p = 4.
-
 double standardised_moment(std::span<const double> values, int power);
 
 // Comparison of the worst tooth of a gear with the other teeth, which needs no healthy gearbox as

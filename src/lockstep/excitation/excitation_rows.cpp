@@ -163,13 +163,14 @@ void ExcitationRows::fill_speed_values(int mesh) {
 void ExcitationRows::integrate_time(int mesh) {
     EXPECTS(nodes_per_step_ == 2 && position_.size() % 2 == 1);
     const auto lanes = static_cast<std::size_t>(lanes_);
-    const int at = columns_in(excitation_) + mesh_period_value;
+    const int column = columns_in(excitation_) + mesh_period_value;
     for (std::size_t l = 0; l < lanes; ++l) {
         double time = any_before_ && mesh == last_mesh_ + 1 ? end_time_[l] : mesh * period_[l];
         time_[l] = time;
         for (std::size_t n = 2; n < position_.size(); n += 2) {
             const double h = position_[n] - position_[n - 2];
-            const double a = value(n - 2, at)[l], b = value(n - 1, at)[l], c = value(n, at)[l];
+            const double a = value(n - 2, column)[l], b = value(n - 1, column)[l],
+                         c = value(n, column)[l];
             time_[(n - 1) * lanes + l] = std::fma(h / 24.0, 5.0 * a + 8.0 * b - c, time);
             time = std::fma(h / 6.0, a + 4.0 * b + c, time);
             time_[n * lanes + l] = time;

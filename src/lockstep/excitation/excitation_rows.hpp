@@ -1,4 +1,4 @@
-// Layout of a row of excitation values at a stage node (excitation_rows.hpp).
+// Values of a time-varying excitation at the stage nodes of a mesh period, one row for each node.
 #pragma once
 
 #include <span>
@@ -76,7 +76,6 @@ void write_speed_values(int lanes, const SpeedRows& rows);
 
 // Values of a time-varying excitation at the stage nodes of one mesh period, for all lanes of a
 // tile.
-
 class ExcitationRows {
   public:
     // `inputs` has one gearbox per lane (8, 4 or 1). The excitation must outlive the rows.

@@ -52,9 +52,9 @@ GEARPOD_INLINE void add_splines_of_lanes(const SplineRows& r) {
             const double u = low < last ? low : last;
             const int left = static_cast<int>(u);
             const double x = u - left, y = 1.0 - x;
-            const int at = (left - 1) * W + l;
-            const double a = knots[at], b = knots[at + W], c = knots[at + 2 * W],
-                         d = knots[at + 3 * W];
+            const int index = (left - 1) * W + l;
+            const double a = knots[index], b = knots[index + W], c = knots[index + 2 * W],
+                         d = knots[index + 3 * W];
             const double b_weight = 2.0 / 3.0 - x * x * (1.0 - 0.5 * x);
             const double c_weight = 2.0 / 3.0 - y * y * (1.0 - 0.5 * y);
             value[l] = std::fma(y * y * y / 6.0, a,

@@ -1,6 +1,4 @@
-// Forces of a time-varying excitation on W gearboxes. Each is a pattern over the degrees of
-// freedom, constant for a tile, times a value at every stage node of a mesh period
-// (excitation_rows.hpp).
+// Models under time-varying forces: a base model with patterns of force.
 #pragma once
 
 #include <cmath>
@@ -14,6 +12,9 @@
 
 namespace gearpod::lockstep {
 
+// Forces of a time-varying excitation on W gearboxes. Each is a pattern over the degrees of
+// freedom, constant for a tile, times a value at every stage node of a mesh period
+// (excitation_rows.hpp).
 template <int W>
 struct ExcitationForces {
     // torque, gravity along x and y, angular acceleration, shafts
@@ -59,8 +60,6 @@ ExcitationForces<W> make_excitation_forces(const IntegrationPlan& plan,
                                            const Excitation& excitation,
                                            std::span<const dynamics::GearboxInputs> inputs,
                                            bool over_mass);
-
-// Models under time-varying forces: a base model plus these forces.
 
 // Steps of a mesh period that one call of a kernel integrates, [first, last); by default all. The
 // first call must begin with step 0. It makes a workspace, which it keeps for the next calls;

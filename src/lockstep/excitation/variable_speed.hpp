@@ -132,7 +132,6 @@ struct VariableSpeedFixedShaft : Forced<dynamics::FixedShaftMotions<MeshLaw, W>>
 // where T is the seconds per mesh period at the stage nodes. The sensor's low-pass filter z
 // (sensor_filter.hpp) is defined in time. It is therefore integrated together with the motion and
 // needs no precomputed coefficients.
-
 struct VariableSpeedRungeKutta4 {
     template <class Model, int W = Model::kWidth>
     struct alignas(64) Stages : ExplicitStages<Model, 3> {
@@ -274,11 +273,11 @@ struct VariableSpeedRungeKutta4 {
     }
 
     template <class Model, int W = Model::kWidth>
-    static GEARPOD_INLINE void low_pass(double w, int at, const Stages<Model>& s,
+    static GEARPOD_INLINE void low_pass(double w, int index, const Stages<Model>& s,
                                         double* __restrict filter) {
-        const double* __restrict u0 = s.input[0] + at;
-        const double* __restrict um = s.input[1] + at;
-        const double* __restrict u1 = s.input[2] + at;
+        const double* __restrict u0 = s.input[0] + index;
+        const double* __restrict um = s.input[1] + index;
+        const double* __restrict u1 = s.input[2] + index;
 #pragma omp simd
         for (int l = 0; l < W; ++l) {
             const double h0 = s.h[0][l], hm = s.h[1][l], h1 = s.h[2][l];

@@ -85,11 +85,11 @@ struct CentralDifference {
         for (int j = 0; j < x.size; j += W) {
 #pragma omp simd
             for (int l = 0; l < W; ++l) {
-                const int at = j + l;
-                const Real v = std::fma(x.h[l], a[at], x.v[at]);
-                x.v[at] = v;
-                x.q[at] = advance(x.q[at], drift_times.drift[l], v, x.q_rounding, at);
-                s.v[at] = std::fma(drift_times.reach[l], a[at], v);
+                const int index = j + l;
+                const Real v = std::fma(x.h[l], a[index], x.v[index]);
+                x.v[index] = v;
+                x.q[index] = advance(x.q[index], drift_times.drift[l], v, x.q_rounding, index);
+                s.v[index] = std::fma(drift_times.reach[l], a[index], v);
             }
         }
         step_filter<W>(filter, x.step, x.channels, state, s.input[0]);

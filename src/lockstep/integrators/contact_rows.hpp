@@ -80,14 +80,14 @@ GEARPOD_INLINE void set_constant_rows(const IntegrationPlan& plan, const MeshOve
 // Sets stiffness and gap of a spring at a position on the flank; `shared` is the gap common to all
 // lanes, m.
 template <int W, class Real>
-GEARPOD_INLINE void load_contact(double stiffness, double place, double shared,
+GEARPOD_INLINE void load_contact(double stiffness, double position, double shared,
                                  const Real* __restrict gap, const Real* __restrict growth,
                                  Real* __restrict k, Real* __restrict e) {
-    const Real own = static_cast<Real>(stiffness), at = static_cast<Real>(place);
+    const Real pair_stiffness = static_cast<Real>(stiffness), at = static_cast<Real>(position);
     const Real all = static_cast<Real>(shared);
 #pragma omp simd
     for (int l = 0; l < W; ++l) {
-        k[l] = own;
+        k[l] = pair_stiffness;
         e[l] = std::fma(at, growth[l], gap[l]) + all;
     }
 }
@@ -110,15 +110,15 @@ GEARPOD_INLINE void load_contacts(const IntegrationPlan& plan, const MeshOverrid
     const StiffnessNodes& table = plan.nodes;
     const int pairs = table.pairs, slices = table.slices, known = table.contacts();
     const int nodes = static_cast<int>(plan.grid.stage_nodes.size());
-    const int at = (step * nodes + node) * known * pairs;
-    const double* shared = table.tooth_stiffness.data() + at;
-    const double* places = table.tooth_place.data() + at;
-    const double* gaps = table.tooth_gap.empty() ? nullptr : table.tooth_gap.data() + at;
+    const int first = (step * nodes + node) * known * pairs;
+    const double* shared = table.tooth_stiffness.data() + first;
+    const double* positions = table.tooth_position.data() + first;
+    const double* gaps = table.tooth_gap.empty() ? nullptr : table.tooth_gap.data() + first;
     for (int j = 0; j < known; ++j) {
         const int tooth = j / slices * kRows;
         for (int pair = 0; pair < pairs; ++pair) {
             const int row = j * kRows + pair * W, i = j * pairs + pair;
-            load_contact<W>(shared[i], places[i], gaps == nullptr ? 0.0 : gaps[i],
+            load_contact<W>(shared[i], positions[i], gaps == nullptr ? 0.0 : gaps[i],
                             m.gap + tooth + pair * W, m.growth + tooth + pair * W, m.tooth_k + row,
                             m.tooth_e + row);
         }
@@ -127,7 +127,7 @@ GEARPOD_INLINE void load_contacts(const IntegrationPlan& plan, const MeshOverrid
         std::copy_n(m.k, pairs * W, m.tooth_k);
     }
     if (!overrides.wear.empty()) {
-        const double* worn = table.tooth_wear.data() + at;
+        const double* worn = table.tooth_wear.data() + first;
         for (int j = 0; j < known; ++j) {
             for (int pair = 0; pair < pairs; ++pair) {
                 add_wear<W>(worn[j * pairs + pair], overrides.wear.data(),

@@ -206,12 +206,12 @@ void set_constants(ImplicitLanes<W>& lanes, const dynamics::GearboxMatrices& m, 
     for (int i = 0; i < lanes.degrees; ++i) {
         lanes.force[static_cast<std::size_t>(i * W + l)] = m.force(i);
     }
-    double* at = lanes.c_k.data() + l;
+    double* coefficient = lanes.c_k.data() + l;
     for (std::size_t e = 0; e < lanes.coupling.to.size(); ++e) {
         const int i = lanes.coupling.to[e], j = lanes.coupling.from[e];
-        at[0] = m.damping(i, j) + m.gyroscopic(i, j);
-        at[W] = m.stiffness(i, j) + m.centrifugal(i, j);
-        at += 2 * W;
+        coefficient[0] = m.damping(i, j) + m.gyroscopic(i, j);
+        coefficient[W] = m.stiffness(i, j) + m.centrifugal(i, j);
+        coefficient += 2 * W;
     }
 }
 

@@ -1,6 +1,5 @@
-// Sparsity pattern of a matrix and of its triangular factors, computed once and shared by all
-// matrices with that pattern. A gearbox couples its planets only through the carrier, the ring and
-// the sun, so a good elimination order causes almost no fill-in.
+// Matrices of an implicit integrator for W gearboxes, with their sparsity pattern and elimination
+// order.
 #pragma once
 
 #include <Eigen/Dense>
@@ -11,6 +10,10 @@
 #include "lockstep/plan/integration_plan.hpp"
 
 namespace gearpod::lockstep {
+
+// Sparsity pattern of a matrix and of its triangular factors, computed once and shared by all
+// matrices with that pattern. A gearbox couples its planets only through the carrier, the ring and
+// the sun, so a good elimination order causes almost no fill-in.
 
 // Positions of nonzero entries: entry e is in row `to[e]` and column `from[e]`. A product with a
 // vector adds value e times element `from[e]` to element `to[e]`. Entries are sorted by column, so
@@ -51,7 +54,6 @@ Eigen::MatrixXd factors(const SparseLu& lu, const Eigen::MatrixXd& matrix);
 // This is the Woodbury identity in mechanical terms. Since S >= 0, a mesh without load causes no
 // singularity. C_0, K_0 and the factors of H are sparse, so a tile's block of them
 // fits the first-level cache.
-
 template <int W>
 struct ImplicitLanes {
     static constexpr int kMaxDegrees = 9 + 3 * dynamics::kMaxPlanets;

@@ -1,4 +1,5 @@
-// One stage of an implicit integrator for W gearboxes in lockstep (implicit_lanes.hpp).
+// Stages of an implicit integrator for W gearboxes in lockstep: motion in matrices, contact of the
+// meshes, and the solution of a stage.
 #pragma once
 
 #include <algorithm>
@@ -222,22 +223,22 @@ GEARPOD_INLINE void solve_meshes(int pairs, const double* __restrict g, const do
     for (int i = 0; i < pairs; ++i) {
         const double* left = i == 0 ? g : matrix;  // remainder of G; all of it for the first pivot
         const double* row = left + i * pairs * W;
-        const int at = i * W;
+        const int first = i * W;
 #pragma omp simd
         for (int l = 0; l < W; ++l) {
-            const double inverse = 1.0 / std::fma(s[at + l], row[at + l], 1.0);
-            e[at + l] = s[at + l] * inverse;
-            force[at + l] = inverse * std::fma(-s[at + l], sum[at + l], force[at + l]);
+            const double inverse = 1.0 / std::fma(s[first + l], row[first + l], 1.0);
+            e[first + l] = s[first + l] * inverse;
+            force[first + l] = inverse * std::fma(-s[first + l], sum[first + l], force[first + l]);
         }
         for (int r = i + 1; r < pairs; ++r) {
             const double* other = left + r * pairs * W;
             double* rest = matrix + r * pairs * W;
 #pragma omp simd
             for (int l = 0; l < W; ++l) {
-                sum[r * W + l] = std::fma(other[at + l], force[at + l], sum[r * W + l]);
-                factor[l] = other[at + l] * e[at + l];
+                sum[r * W + l] = std::fma(other[first + l], force[first + l], sum[r * W + l]);
+                factor[l] = other[first + l] * e[first + l];
             }
-            for (int c = at + W; c < pairs * W; c += W) {
+            for (int c = first + W; c < pairs * W; c += W) {
                 const double* pivot_row = opaque_row(row + c);
 #pragma omp simd
                 for (int l = 0; l < W; ++l) {
@@ -250,13 +251,13 @@ GEARPOD_INLINE void solve_meshes(int pairs, const double* __restrict g, const do
         broadcast<W>(0.0, sum + i);
     }
     for (int i = pairs - 1; i >= 0; --i) {
-        const int at = i * W;
-        subtract_product<W>(e + at, sum + at, force + at);
+        const int first = i * W;
+        subtract_product<W>(e + first, sum + first, force + first);
         for (int r = i - 1; r >= 0; --r) {
-            const double* row = opaque_row((r == 0 ? g : matrix + r * pairs * W) + at);
+            const double* row = opaque_row((r == 0 ? g : matrix + r * pairs * W) + first);
 #pragma omp simd
             for (int l = 0; l < W; ++l) {
-                sum[r * W + l] = std::fma(row[l], force[at + l], sum[r * W + l]);
+                sum[r * W + l] = std::fma(row[l], force[first + l], sum[r * W + l]);
             }
         }
     }
@@ -299,9 +300,9 @@ GEARPOD_INLINE int update_unilateral_contact(int i, const double* __restrict fro
         const double* __restrict e = t.pairs.tooth_e + j * kRows + i;
 #pragma omp simd
         for (int l = 0; l < W; ++l) {
-            const double own = front[l] > e[l] ? k[l] : 0.0;
-            active_stiffness[l] += own;
-            preload[l] = std::fma(own, e[l], preload[l]);
+            const double stiffness = front[l] > e[l] ? k[l] : 0.0;
+            active_stiffness[l] += stiffness;
+            preload[l] = std::fma(stiffness, e[l], preload[l]);
         }
     }
     int changes = 0;

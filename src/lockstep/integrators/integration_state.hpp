@@ -69,8 +69,8 @@ GEARPOD_INLINE double position(const TileState& state, int i) {
     return state.q[static_cast<std::size_t>(i)];
 }
 GEARPOD_INLINE double position(const SingleState& state, int i) {
-    const auto at = static_cast<std::size_t>(i);
-    return double{state.q[at]} + double{state.q_rounding[at]};
+    const auto index = static_cast<std::size_t>(i);
+    return double{state.q[index]} + double{state.q_rounding[index]};
 }
 
 // States at the ends of the steps of a mesh period, recorded on request.
@@ -94,10 +94,10 @@ GEARPOD_INLINE void write_step_state(const IntegrationPlan& plan,
     const int size = static_cast<int>(plan.te_weight.size()) * W;
     double* __restrict q = record.step_states.data() + 2 * step * size;
     double* __restrict v = q + size;
-    const auto at = static_cast<std::size_t>(step);
+    const auto row = static_cast<std::size_t>(step);
     const bool parted =
-        step == 0 || at == plan.grid.steps.size() || plan.grid.steps[at].sample >= 0;
-    const double ahead = parted ? 0.0 : position_lead<Integrator>() * plan.grid.steps[at].length;
+        step == 0 || row == plan.grid.steps.size() || plan.grid.steps[row].sample >= 0;
+    const double ahead = parted ? 0.0 : position_lead<Integrator>() * plan.grid.steps[row].length;
     for (int i = 0; i < size; ++i) {
         v[i] = double{state.v[static_cast<std::size_t>(i)]};
         q[i] = position(state, i) - ahead * double{lanes.mesh_period[i % W]} * v[i];

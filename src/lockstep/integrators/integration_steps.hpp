@@ -27,11 +27,11 @@ GEARPOD_INLINE void load_errors(const IntegrationPlan& plan, const typename Mode
         return;
     }
     const int nodes = static_cast<int>(plan.grid.stage_nodes.size());
-    const int at = (step * nodes + node) * pairs;
+    const int first = (step * nodes + node) * pairs;
     alignas(64) Real rate[W];
     for (int pair = 0; pair < pairs; ++pair) {
-        broadcast<W>(plan.nodes.error.data()[at + pair], m.e + pair * W);
-        broadcast<W>(plan.nodes.error_rate.data()[at + pair], rate);
+        broadcast<W>(plan.nodes.error.data()[first + pair], m.e + pair * W);
+        broadcast<W>(plan.nodes.error_rate.data()[first + pair], rate);
         divide<W>(rate, lanes.mesh_period, m.de + pair * W);
     }
 }
@@ -63,9 +63,9 @@ GEARPOD_INLINE void load_pairs(const IntegrationPlan& plan, const typename Model
             continue;
         }
         const auto& law = Model::mesh_damping(lanes, o.pair);
-        const int at = ((step - o.first_step) * nodes + node) * W;
-        const double* ko = o.stiffness.data() + at;
-        const double* co = o.damping_shape.data() + at;
+        const int first = ((step - o.first_step) * nodes + node) * W;
+        const double* ko = o.stiffness.data() + first;
+        const double* co = o.damping_shape.data() + first;
 #pragma omp simd
         for (int l = 0; l < W; ++l) {
             k[o.pair * W + l] = static_cast<Real>(ko[l]);
@@ -106,8 +106,8 @@ GEARPOD_INLINE Real filter_input(const Real* m, Real u, Later... later) {
 
 // sum + m[at] p + m[at + 1] dp.
 template <int W, class Real>
-GEARPOD_INLINE Real filter_row(const Real* m, int at, Real p, Real dp, Real sum) {
-    return std::fma(m[at * W], p, std::fma(m[(at + 1) * W], dp, sum));
+GEARPOD_INLINE Real filter_row(const Real* m, int index, Real p, Real dp, Real sum) {
+    return std::fma(m[index * W], p, std::fma(m[(index + 1) * W], dp, sum));
 }
 
 // Advances one channel's filter `f` by one step from its inputs at the step's nodes.
@@ -138,8 +138,9 @@ GEARPOD_INLINE void step_filter(const Filter& filter, const Step& step, int chan
                                 const Inputs*... inputs) {
     const auto* coefficients = filter.data() + step.kind * kFilterCoefficients * W;
     for (int channel = 0; channel < channels; ++channel) {
-        const int at = channel * W;
-        filter_channel<W>(coefficients, state.filter.data() + at * kFilterStates, (inputs + at)...);
+        const int first = channel * W;
+        filter_channel<W>(coefficients, state.filter.data() + first * kFilterStates,
+                          (inputs + first)...);
     }
 }
 
@@ -239,8 +240,8 @@ GEARPOD_INLINE void write_interpolated_samples(const IntegrationPlan& plan,
 GEARPOD_INLINE void prefetch_row(const std::vector<double>& table, std::size_t first,
                                  std::size_t count) {
     constexpr std::size_t kLine = 64 / sizeof(double);
-    for (std::size_t at = 0; at < count && !table.empty(); at += kLine) {
-        __builtin_prefetch(table.data() + first + at);
+    for (std::size_t offset = 0; offset < count && !table.empty(); offset += kLine) {
+        __builtin_prefetch(table.data() + first + offset);
     }
 }
 
@@ -255,7 +256,7 @@ GEARPOD_INLINE void prefetch_step(const IntegrationPlan& plan, int step) {
         prefetch_row(*all, row * pairs, pairs);
     }
     for (const auto* all :
-         {&table.tooth_stiffness, &table.tooth_place, &table.tooth_gap, &table.tooth_wear}) {
+         {&table.tooth_stiffness, &table.tooth_position, &table.tooth_gap, &table.tooth_wear}) {
         prefetch_row(*all, row * contacts, contacts);
     }
 }
@@ -323,9 +324,9 @@ GEARPOD_INLINE void integrate_mesh(const IntegrationPlan& plan, const typename M
                                    MeshRecord& record) {
     if constexpr (std::is_same_v<RealOf<Model>, float>) {
         const machine::AlignedArray<float> coefficients(filter.begin(), filter.end());
-        SingleState own(state);
-        integrate_steps<Integrator, Model>(plan, lanes, coefficients, overrides, own, record);
-        own.copy_to(state);
+        SingleState single(state);
+        integrate_steps<Integrator, Model>(plan, lanes, coefficients, overrides, single, record);
+        single.copy_to(state);
     } else {
         integrate_steps<Integrator, Model>(plan, lanes, filter, overrides, state, record);
     }

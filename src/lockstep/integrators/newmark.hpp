@@ -1,6 +1,4 @@
-// Newmark's method with average acceleration (1959; beta 1/4, gamma 1/2), order 2. The acceleration
-// at a step's start is recomputed with the stiffness just after it, so that the order survives the
-// jumps at contact transitions.
+// Implicit methods of one stage: Newmark's, Chung and Hulbert's and the generalised alpha method.
 #pragma once
 
 #include <cmath>
@@ -10,6 +8,9 @@
 
 namespace gearpod::lockstep {
 
+// Newmark's method with average acceleration (1959; beta 1/4, gamma 1/2), order 2. The acceleration
+// at a step's start is recomputed with the stiffness just after it, so that the order survives the
+// jumps at contact transitions.
 struct Newmark {
     static constexpr const char* kName = "newmark";
     static constexpr int kOrder = 2;

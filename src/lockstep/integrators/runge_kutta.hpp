@@ -1,6 +1,4 @@
-// Classical explicit Runge-Kutta method, order 4: q'' = a(q, q') with the stiffness at the step's
-// start, middle and end. The same method integrates the sensor's low-pass filter together with the
-// motion.
+// Explicit Runge-Kutta methods: the classical one, Bogacki and Shampine's and Butcher's.
 #pragma once
 
 #include <algorithm>
@@ -11,6 +9,9 @@
 
 namespace gearpod::lockstep {
 
+// Classical explicit Runge-Kutta method, order 4: q'' = a(q, q') with the stiffness at the step's
+// start, middle and end. The same method integrates the sensor's low-pass filter together with the
+// motion.
 struct RungeKutta4 {
     static constexpr const char* kName = "rk4";
     static constexpr int kOrder = 4;
@@ -91,14 +92,15 @@ struct RungeKutta4 {
         for (int j = 0; j < x.size; j += W) {
 #pragma omp simd
             for (int l = 0; l < W; ++l) {
-                const int at = j + l;
-                const Real sum = s.a[1][at] + s.a[2][at];
-                s.q[at] = std::fma(x.h[l], s.v[at], x.q[at]);
-                s.v[at] = std::fma(x.h[l], s.a[2][at], x.v[at]);
+                const int index = j + l;
+                const Real sum = s.a[1][index] + s.a[2][index];
+                s.q[index] = std::fma(x.h[l], s.v[index], x.q[index]);
+                s.v[index] = std::fma(x.h[l], s.a[2][index], x.v[index]);
                 // New position, and the part of the new velocity known before the last stage.
-                x.q[at] = advance(x.q[at], x.h[l], std::fma(sixth[l], s.a[0][at] + sum, x.v[at]),
-                                  x.q_rounding, at);
-                x.v[at] = std::fma(sixth[l], std::fma(Real(2), sum, s.a[0][at]), x.v[at]);
+                x.q[index] =
+                    advance(x.q[index], x.h[l], std::fma(sixth[l], s.a[0][index] + sum, x.v[index]),
+                            x.q_rounding, index);
+                x.v[index] = std::fma(sixth[l], std::fma(Real(2), sum, s.a[0][index]), x.v[index]);
             }
         }
     }
@@ -107,7 +109,6 @@ struct RungeKutta4 {
 // Explicit method of Bogacki and Shampine (1989), order 3, with three stages. The fourth stage, of
 // the embedded method of order 2, is omitted. Because the stiffness may jump between steps, it
 // cannot serve as the first stage of the next step.
-
 struct BogackiShampine {
     static constexpr const char* kName = "bs3";
     static constexpr int kOrder = 3;
@@ -160,12 +161,12 @@ struct BogackiShampine {
             for (int l = 0; l < W; ++l) {
                 // The stage slopes have the weights 2/9, 3/9 and 4/9. The velocity slopes follow
                 // from the first two accelerations.
-                const int at = j + l;
-                const Real a1 = s.a[0][at], a2 = s.a[1][at], a3 = s.a[2][at];
-                const Real slope = std::fma(sixth[l], std::fma(Real(2), a2, a1), x.v[at]);
+                const int index = j + l;
+                const Real a1 = s.a[0][index], a2 = s.a[1][index], a3 = s.a[2][index];
+                const Real slope = std::fma(sixth[l], std::fma(Real(2), a2, a1), x.v[index]);
                 const Real rise = std::fma(Real(2), a1, std::fma(Real(3), a2, Real(4) * a3));
-                x.q[at] = advance(x.q[at], x.h[l], slope, x.q_rounding, at);
-                x.v[at] = std::fma(ninth[l], rise, x.v[at]);
+                x.q[index] = advance(x.q[index], x.h[l], slope, x.q_rounding, index);
+                x.v[index] = std::fma(ninth[l], rise, x.v[index]);
             }
         }
         step_filter<W>(filter, x.step, x.channels, state, s.input[0], s.input[1], s.input[2]);
@@ -174,7 +175,6 @@ struct BogackiShampine {
 
 // Explicit method of Butcher with six stages, order 5 (J. C. Butcher, On Runge-Kutta processes of
 // high order, 1964).
-
 struct Butcher {
     static constexpr const char* kName = "rk5";
     static constexpr int kOrder = 5;
@@ -220,17 +220,17 @@ struct Butcher {
     static auto filter(const System& s) {
         std::array<typename System::Parts, kStages> k;
         const auto z = s.start();
-        auto at = z;
+        auto end = z;
         for (int stage = 0; stage <= kStages; ++stage) {
-            at = z;
+            end = z;
             for (int from = 0; from < stage; ++from) {
-                at += kTable[stage][from] * k[static_cast<std::size_t>(from)];
+                end += kTable[stage][from] * k[static_cast<std::size_t>(from)];
             }
             if (stage < kStages) {
-                k[static_cast<std::size_t>(stage)] = s.slope(at, stage);
+                k[static_cast<std::size_t>(stage)] = s.slope(end, stage);
             }
         }
-        return s.map(at);
+        return s.map(end);
     }
 
     template <class Model>
@@ -254,9 +254,10 @@ struct Butcher {
         for (int j = 0; j < x.size; j += W) {
 #pragma omp simd
             for (int l = 0; l < W; ++l) {
-                const int at = j + l;
-                x.q[at] = advance(x.q[at], x.h[l], slope<kStages>(x, s, at, l), x.q_rounding, at);
-                x.v[at] = std::fma(x.h[l], rise<kStages>(s, at), x.v[at]);
+                const int index = j + l;
+                x.q[index] = advance(x.q[index], x.h[l], slope<kStages>(x, s, index, l),
+                                     x.q_rounding, index);
+                x.v[index] = std::fma(x.h[l], rise<kStages>(s, index), x.v[index]);
             }
         }
         step_filter<W>(filter, x.step, x.channels, state, s.input[0], s.input[1], s.input[2],
@@ -267,27 +268,27 @@ struct Butcher {
     // Weighted sum of the accelerations of the stages before `Row`. The weights of rise() are from
     // kTable, those of slope() from its square.
     template <int Row, class Stages>
-    static GEARPOD_INLINE auto rise(const Stages& s, int at) {
+    static GEARPOD_INLINE auto rise(const Stages& s, int index) {
         using Real = std::remove_cvref_t<decltype(s.q[0])>;
-        Real total = Real(kTable[Row][Row - 1]) * s.a[Row - 1][at];
+        Real total = Real(kTable[Row][Row - 1]) * s.a[Row - 1][index];
         for (int from = Row - 2; from >= 0; --from) {
             if (kTable[Row][from] != 0.0) {
-                total = std::fma(Real(kTable[Row][from]), s.a[from][at], total);
+                total = std::fma(Real(kTable[Row][from]), s.a[from][index], total);
             }
         }
         return total;
     }
     template <int Row, class Step, class Stages>
-    static GEARPOD_INLINE auto slope(const Step& x, const Stages& s, int at, int l) {
+    static GEARPOD_INLINE auto slope(const Step& x, const Stages& s, int index, int l) {
         using Real = std::remove_cvref_t<decltype(s.q[0])>;
         Real total = Real(0);
         for (int from = Row - 2; from >= 0; --from) {
             if (kSquare[Row][static_cast<std::size_t>(from)] != 0.0) {
-                total = std::fma(Real(kSquare[Row][static_cast<std::size_t>(from)]), s.a[from][at],
-                                 total);
+                total = std::fma(Real(kSquare[Row][static_cast<std::size_t>(from)]),
+                                 s.a[from][index], total);
             }
         }
-        return std::fma(x.h[l], total, Real(kSquare[Row][kStages]) * x.v[at]);
+        return std::fma(x.h[l], total, Real(kSquare[Row][kStages]) * x.v[index]);
     }
 
     // Sets s.q and s.v to the arguments of a stage after the first.
@@ -302,9 +303,9 @@ struct Butcher {
         for (int j = 0; j < x.size; j += W) {
 #pragma omp simd
             for (int l = 0; l < W; ++l) {
-                const int at = j + l;
-                s.q[at] = std::fma(x.h[l], slope<Stage>(x, s, at, l), x.q[at]);
-                s.v[at] = std::fma(x.h[l], rise<Stage>(s, at), x.v[at]);
+                const int index = j + l;
+                s.q[index] = std::fma(x.h[l], slope<Stage>(x, s, index, l), x.q[index]);
+                s.v[index] = std::fma(x.h[l], rise<Stage>(s, index), x.v[index]);
             }
         }
     }

@@ -24,7 +24,7 @@ inline constexpr int kFilterInput = 12;  // kFilterInputs x 4
 inline constexpr int kFilterInputs = 6;
 inline constexpr int kFilterCoefficients = kFilterInput + kFilterInputs * kFilterStates;
 
-// Sensor's low-pass filter z' = A z + b u (sensor_filter.hpp) over one step of h seconds, as the
+// Sensor's low-pass filter z' = A z + b u over one step of h seconds, as the
 // argument of the methods' filter(). The result is linear in z and in the input u at the stages.
 
 // next = transition * z + inputs * (u at the stages).

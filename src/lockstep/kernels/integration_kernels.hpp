@@ -26,7 +26,6 @@ void add_kernel(KernelTable& table, KernelKey key, MotionModel motion_model) {
 
 // Kernels of an integrator and a mesh law at constant load and speed, for each given number of
 // lanes.
-
 template <machine::InstructionSet kSet, class Method, class Law, class Real, int W>
 void add_steady(KernelTable& table, const KernelKey& key) {
     if constexpr (kImplicit<Method>) {
@@ -55,7 +54,6 @@ void add_singles(KernelTable& table, const KernelKey& key) {
 
 // Kernels of an integrator and a mesh law under time-varying forces, for each given number of
 // lanes.
-
 template <machine::InstructionSet kSet, class Method, class Law, int W>
 void add_forced_of_width(KernelTable& table, const KernelKey& key) {
     if constexpr (kImplicit<Method>) {
@@ -81,7 +79,6 @@ void add_forced(KernelTable& table, KernelKey key) {
 }
 
 // Kernels of an integrator and a mesh law at variable speed, for each given number of lanes.
-
 template <machine::InstructionSet kSet, class Method, class Law, int W>
 void add_variable_speed_of_width(KernelTable& table, const KernelKey& key) {
     using SpeedMethod = typename VariableSpeed<Method>::Type;

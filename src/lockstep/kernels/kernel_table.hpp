@@ -1,6 +1,6 @@
-// Table of the kernels of this program: one function for each way to integrate a mesh period of W
-// gearboxes. CMake generates one file for each line of integrators.def, kind of kernel, mesh law
-// and instruction set (kernels.cmake).
+// Table of the kernels of this program, one function for each way to integrate a mesh period of W
+// gearboxes, and the choice of instruction set and lanes. CMake generates one file for each line of
+// integrators.def, kind of kernel, mesh law and instruction set (kernels.cmake).
 #pragma once
 
 #include <compare>

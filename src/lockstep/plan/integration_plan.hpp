@@ -62,7 +62,7 @@ struct PairOverride {
 
 // Gaps of a pair's tooth pairs during some steps of a mesh period, [tooth pair][lane], m: the gap
 // in the middle of the engagement, and its growth along the engagement (times
-// StiffnessNodes::tooth_place).
+// StiffnessNodes::tooth_position).
 struct PairGaps {
     int pair = 0;
     int first_step = 0;

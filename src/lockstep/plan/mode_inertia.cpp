@@ -33,10 +33,10 @@ ModeInertia mode_inertia(const dynamics::GearboxMatrices& m, double limit_rad_s)
         const double added = modes.squares(mode) / limit2 - 1.0;
         inertia.mass += added * momentum * momentum.transpose();
         for (Eigen::Index i = 0; i < n; ++i) {
-            const auto at = static_cast<std::size_t>((k / kModesPerBlock * n + i) * kModesPerBlock +
-                                                     k % kModesPerBlock);
-            inertia.in_double.momentum[at] = momentum(i);
-            inertia.in_double.effect[at] = -added / (1.0 + added) * shape(i);
+            const auto index = static_cast<std::size_t>(
+                (k / kModesPerBlock * n + i) * kModesPerBlock + k % kModesPerBlock);
+            inertia.in_double.momentum[index] = momentum(i);
+            inertia.in_double.effect[index] = -added / (1.0 + added) * shape(i);
         }
     }
     inertia.in_single = {{inertia.in_double.momentum.begin(), inertia.in_double.momentum.end()},

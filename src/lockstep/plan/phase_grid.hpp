@@ -1,4 +1,4 @@
-// Distinct step lengths of a grid.
+// Grid of steps over a mesh period, with few distinct lengths.
 #pragma once
 
 #include <algorithm>
@@ -27,7 +27,6 @@ inline int find_or_add(std::vector<double>& lengths, double length) {
 // Time steps of one mesh period, the same for all lanes. A step boundary lies on every contact
 // transition of every pair, so that integrators keep their order across the stiffness jumps.
 // Usually one also lies on every sample; a sample inside a step is interpolated.
-
 struct Step {
     double phase = 0.0;   // start, mesh periods
     double length = 0.0;  // mesh periods

@@ -190,15 +190,15 @@ void add_errors(const PairSet& pairs, const PhaseGrid& grid, std::span<const Mes
     nodes.error.resize(nodes.stiffness.size());
     nodes.error_rate.resize(nodes.stiffness.size());
     const double sense = pairs.reversed ? -1.0 : 1.0;
-    std::size_t at = 0;
+    std::size_t index = 0;
     for (const Step& step : grid.steps) {
         for (const double node : grid.stage_nodes) {
             const double phase = step.phase + node * step.length;
-            for (int pair = 0; pair < nodes.pairs; ++pair, ++at) {
+            for (int pair = 0; pair < nodes.pairs; ++pair, ++index) {
                 const ErrorValue value = error_at(errors[static_cast<std::size_t>(pair)],
                                                   sense * (phase - pairs.pitch_phase(pair)));
-                nodes.error[at] += value.error;
-                nodes.error_rate[at] += sense * value.rate;
+                nodes.error[index] += value.error;
+                nodes.error_rate[index] += sense * value.rate;
             }
         }
     }

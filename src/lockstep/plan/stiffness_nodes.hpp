@@ -1,5 +1,5 @@
-// Stiffness of all pairs at the stage nodes of a phase grid, stored so that each pair and node
-// needs one contiguous load.
+// Gear pairs of a gearbox, and their stiffness and error at the stage nodes of a phase grid, stored
+// so that each pair and node needs one contiguous load.
 #pragma once
 
 #include <span>
@@ -62,7 +62,7 @@ struct StiffnessNodes {
     // Springs of the tooth pairs' slices, [step][stage node][tooth pair][slice][pair], youngest
     // tooth pair first. All are empty unless the mesh law needs single tooth pairs.
     // - tooth_stiffness: N/m, 0 where fewer tooth pairs are engaged.
-    // - tooth_place: position on the path of contact, -1/2 at its start to 1/2 at its end in the
+    // - tooth_position: position on the path of contact, -1/2 at its start to 1/2 at its end in the
     //   sense of gears::MeshGeometry, clamped outside.
     // - tooth_gap: gap common to all lanes, m; empty if there is none.
     // - tooth_on_path: share of the slice's face on the nominal path; empty if there are no gaps.
@@ -70,7 +70,7 @@ struct StiffnessNodes {
     //   are no others.
     int tooth_pairs = 0;
     int slices = 1;
-    std::vector<double> tooth_stiffness, tooth_place, tooth_gap, tooth_on_path, tooth_wear;
+    std::vector<double> tooth_stiffness, tooth_position, tooth_gap, tooth_on_path, tooth_wear;
     int contacts() const { return tooth_pairs * slices; }
     std::vector<ToothEngagement> engagements;  // of all pairs, in order
 };

@@ -27,9 +27,9 @@ double contact_stiffness(const PairSet& pairs, int pair, int slice, double since
     const stiffness::MeshStiffness& mesh = pairs.curve(pair);
     const double middle = position_of(pairs, pair, inside);
     const auto stretch = stiffness::stretch_around(mesh.transitions(), {}, middle);
-    const double at = std::clamp(position_of(pairs, pair, since), stretch.begin, stretch.end);
+    const double tau = std::clamp(position_of(pairs, pair, since), stretch.begin, stretch.end);
     double stiffness = 0.0;
-    mesh.slice_stiffness(slice, {&at, 1}, middle, {&stiffness, 1});
+    mesh.slice_stiffness(slice, {&tau, 1}, middle, {&stiffness, 1});
     return stiffness;
 }
 
@@ -54,19 +54,19 @@ void fill_node(const PairSet& pairs, int pair, double phase, double middle, std:
     for (int j = 0; j < teeth.count; ++j) {
         const double engaged = pairs.start[static_cast<std::size_t>(pair)] - teeth.youngest - j;
         const double since = phase - engaged;
-        const double at = position_of(pairs, pair, since);
+        const double tau = position_of(pairs, pair, since);
         for (int slice = 0; slice < mesh.slices(); ++slice) {
             const std::size_t i =
                 first + static_cast<std::size_t>(j * nodes.slices + slice) * count;
             nodes.tooth_stiffness[i] =
                 contact_stiffness(pairs, pair, slice, since, middle - engaged);
-            nodes.tooth_place[i] = mesh.slice_flank_position(slice, at);
+            nodes.tooth_position[i] = mesh.slice_flank_position(slice, tau);
             if (!nodes.tooth_gap.empty()) {
-                nodes.tooth_gap[i] = mesh.slice_gap(slice, at);
-                nodes.tooth_on_path[i] = mesh.slice_on_path(slice, at);
+                nodes.tooth_gap[i] = mesh.slice_gap(slice, tau);
+                nodes.tooth_on_path[i] = mesh.slice_on_path(slice, tau);
             }
             if (worn) {
-                nodes.tooth_wear[i] = mesh.slice_wear(slice, at);
+                nodes.tooth_wear[i] = mesh.slice_wear(slice, tau);
             }
         }
     }
@@ -76,16 +76,16 @@ void fill_contacts(const PairSet& pairs, const PhaseGrid& grid, const std::vecto
                    StiffnessNodes& nodes) {
     const auto contacts = static_cast<std::size_t>(nodes.contacts());
     const auto count = static_cast<std::size_t>(nodes.pairs);
-    std::size_t at = 0;  // index of the stage node
+    std::size_t index = 0;  // index of the stage node
     for (const Step& step : grid.steps) {
         const double middle = step.phase + 0.5 * step.length;
         for (const double part : grid.stage_nodes) {
             for (int pair = 0; pair < nodes.pairs; ++pair) {
                 fill_node(pairs, pair, step.phase + part * step.length, middle,
-                          at * contacts * count + static_cast<std::size_t>(pair),
+                          index * contacts * count + static_cast<std::size_t>(pair),
                           std::ranges::count(worn, pair) > 0, nodes);
             }
-            ++at;
+            ++index;
         }
     }
 }
@@ -126,7 +126,7 @@ void add_tooth_pairs(const PairSet& pairs, const PhaseGrid& grid, StiffnessNodes
     }
     const std::size_t size = nodes.stiffness.size() * static_cast<std::size_t>(nodes.contacts());
     nodes.tooth_stiffness.assign(size, 0.0);
-    nodes.tooth_place.assign(size, 0.0);
+    nodes.tooth_position.assign(size, 0.0);
     nodes.tooth_gap.assign(gaps ? size : 0, 0.0);
     nodes.tooth_on_path.assign(gaps ? size : 0, 0.0);
     nodes.tooth_wear.assign(worn.empty() ? 0 : size, 0.0);
@@ -142,7 +142,7 @@ std::vector<double> faulty_tooth_pairs(const PairSet& pairs, const stiffness::Fa
     const std::size_t nodes = steps.middle.empty() ? 0 : steps.node.size() / steps.middle.size();
     const auto contacts = static_cast<std::size_t>(tooth_pairs * slices);
     const double begun = pairs.start[static_cast<std::size_t>(passage.pair)];
-    std::vector<double> all(steps.node.size() * contacts, 0.0), tau(nodes), one(nodes);
+    std::vector<double> all(steps.node.size() * contacts, 0.0), tau(nodes), slice_values(nodes);
     for (std::size_t step = 0; step < steps.middle.size(); ++step) {
         const auto position = [&](double since) {
             return pairs.reversed ? faulty.duration() - since : since;
@@ -163,11 +163,11 @@ std::vector<double> faulty_tooth_pairs(const PairSet& pairs, const stiffness::Fa
             const int later = static_cast<int>(std::lround(engaged - passage.start));
             if (slice < mesh.slices()) {
                 faulty.slice_stiffness(pairs.reversed ? last - later : later, slice, tau, inside,
-                                       one);
+                                       slice_values);
             }
             for (std::size_t n = 0; n < nodes && slice < mesh.slices(); ++n) {
                 all[(step * nodes + n) * contacts + static_cast<std::size_t>(contact)] =
-                    one[pairs.reversed ? nodes - 1 - n : n];
+                    slice_values[pairs.reversed ? nodes - 1 - n : n];
             }
         }
     }
@@ -237,10 +237,10 @@ std::vector<PairGaps> tooth_gaps(const IntegrationPlan& plan, const ToothErrors&
                    machine::AlignedVector(slots * width), machine::AlignedVector(slots * width)};
         for (std::size_t j = 0; j < slots; ++j) {
             for (std::size_t l = 0; l < width; ++l) {
-                const ToothPairGap own = tooth_pair_gap(
+                const ToothPairGap gap = tooth_pair_gap(
                     errors, engaged.pair, k - engaged.youngest - static_cast<int>(j), l, width);
-                g.gap[j * width + l] = own.gap;
-                g.growth[j * width + l] = own.growth;
+                g.gap[j * width + l] = gap.gap;
+                g.growth[j * width + l] = gap.growth;
             }
         }
         all.push_back(std::move(g));
@@ -265,19 +265,22 @@ std::size_t tooth_pair_at(const IntegrationPlan& plan, int step, int node, int c
 
 double tooth_gap(const IntegrationPlan& plan, std::span<const PairGaps> gaps, int pair, int step,
                  int node, int contact, int lane, double wear) {
-    const std::size_t at = tooth_pair_at(plan, step, node, contact, pair);
+    const std::size_t index = tooth_pair_at(plan, step, node, contact, pair);
     const auto worn = [&](double gap) {
-        return plan.nodes.tooth_wear.empty() ? gap : std::fma(plan.nodes.tooth_wear[at], wear, gap);
+        return plan.nodes.tooth_wear.empty() ? gap
+                                             : std::fma(plan.nodes.tooth_wear[index], wear, gap);
     };
-    const double shared = plan.nodes.tooth_gap.empty() ? 0.0 : plan.nodes.tooth_gap[at];
-    const PairGaps* const own = gaps_of_pair(gaps, pair, step);
-    if (own == nullptr) {
+    const double shared = plan.nodes.tooth_gap.empty() ? 0.0 : plan.nodes.tooth_gap[index];
+    const PairGaps* const pair_gaps = gaps_of_pair(gaps, pair, step);
+    if (pair_gaps == nullptr) {
         return worn(shared);
     }
     const auto teeth = static_cast<std::size_t>(plan.nodes.tooth_pairs);
     const auto tooth = static_cast<std::size_t>(contact / plan.nodes.slices);
-    const auto i = tooth * (own->gap.size() / teeth) + static_cast<std::size_t>(lane);
-    return worn(std::fma(plan.nodes.tooth_place[at], own->growth[i], own->gap[i]) + shared);
+    const auto i = tooth * (pair_gaps->gap.size() / teeth) + static_cast<std::size_t>(lane);
+    return worn(
+        std::fma(plan.nodes.tooth_position[index], pair_gaps->growth[i], pair_gaps->gap[i]) +
+        shared);
 }
 
 }  // namespace gearpod::lockstep

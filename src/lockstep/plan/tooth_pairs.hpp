@@ -1,5 +1,5 @@
-// Single tooth pairs of gear pairs for unilateral contact: their engagements, and their stiffness
-// in the healthy state or while a fault passes.
+// Single tooth pairs of gear pairs for unilateral contact: their engagements, their stiffness in
+// the healthy state or while a fault passes, and the errors of their teeth.
 #pragma once
 
 #include <span>

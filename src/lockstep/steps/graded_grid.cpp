@@ -156,7 +156,7 @@ class PilotIntegration {
 
 // Squared deviation of a lane's values from others, and of themselves from 0 or from their mean.
 struct Squares {
-    double deviation = 0.0, own = 0.0;
+    double deviation = 0.0, size = 0.0;
 };
 Squares squares(const machine::AlignedVector& values, const machine::AlignedVector& other,
                 std::size_t lane, bool about_mean) {
@@ -168,13 +168,13 @@ Squares squares(const machine::AlignedVector& values, const machine::AlignedVect
     Squares s;
     for (std::size_t i = lane; i < values.size(); i += kLanes) {
         s.deviation += (values[i] - other[i]) * (values[i] - other[i]);
-        s.own += (values[i] - mean) * (values[i] - mean);
+        s.size += (values[i] - mean) * (values[i] - mean);
     }
     return s;
 }
 
 double relative(const Squares& s) {
-    return s.own > 0.0 ? std::sqrt(s.deviation / s.own) : 0.0;
+    return s.size > 0.0 ? std::sqrt(s.deviation / s.size) : 0.0;
 }
 
 // Relative rms difference of the worst lane; NaN counts as infinite.
@@ -185,8 +185,8 @@ double difference(const std::vector<MeshRecord>& a, const std::vector<MeshRecord
         for (std::size_t r = 0; r < a.size(); ++r) {
             const Squares x = squares(a[r].acceleration, b[r].acceleration, lane, false);
             const Squares y = squares(a[r].te, b[r].te, lane, true);
-            sensor = {sensor.deviation + x.deviation, sensor.own + x.own};
-            te = {te.deviation + y.deviation, te.own + y.own};
+            sensor = {sensor.deviation + x.deviation, sensor.size + x.size};
+            te = {te.deviation + y.deviation, te.size + y.size};
         }
         const double error = std::max(relative(sensor), relative(te));
         worst =

@@ -225,9 +225,9 @@ Eigen::MatrixXd mesh_period_map(const IntegrationPlan& plan, const dynamics::Gea
         (*mesh_integrator)({}, state, record);
         for (int lane = 0; lane < kUnitMotions && first + lane < ends.cols(); ++lane) {
             for (Eigen::Index d = 0; d < n; ++d) {
-                const auto at = static_cast<std::size_t>(d * kUnitMotions + lane);
-                ends(d, first + lane) = rate * state.q[at];
-                ends(n + d, first + lane) = state.v[at];
+                const auto index = static_cast<std::size_t>(d * kUnitMotions + lane);
+                ends(d, first + lane) = rate * state.q[index];
+                ends(n + d, first + lane) = state.v[index];
             }
         }
     }

@@ -1,5 +1,5 @@
-// Full solution: every mesh period of a span is integrated, after a run-in from the healthy
-// periodic orbit.
+// Strategies that integrate mesh periods: all of a span, those until the motion is periodic, or
+// those that a fault changes.
 #pragma once
 
 #include <optional>
@@ -10,6 +10,8 @@
 
 namespace gearpod::lockstep {
 
+// Full solution: every mesh period of a span is integrated, after a run-in from the healthy
+// periodic orbit.
 struct FullSolution {
     Convergence convergence = {};
     RecordedSpan span = {};
@@ -26,7 +28,6 @@ struct FullSolution {
 // A linear train under steady load and speed converges to an orbit that repeats every mesh period.
 // A faulty tooth perturbs it and the perturbation decays. A few recorded mesh periods, arranged by
 // `FaultPattern`, therefore represent all Z_p Z_r mesh periods that windowing uses.
-
 struct PeriodicSolution {
     Convergence convergence = {};
     bool with_motion = false;                     // also records motions and mesh forces
@@ -40,7 +41,6 @@ struct PeriodicSolution {
 // from the states of their healthy solution until the perturbation has decayed in each lane by
 // itself. Tooth errors are those of the healthy solution, whose excitation
 // must be constant.
-
 struct FaultPerturbation {
     // States of the same gearboxes without faults; they state the span and its run-in. Must outlive
     // the strategy.

@@ -120,9 +120,9 @@ class QuasiStaticTile {
             if (step < o.first_step || step >= o.last_step || o.tooth_stiffness.empty()) {
                 continue;
             }
-            const auto at = static_cast<std::size_t>((step - o.first_step) * nodes) * known * W;
+            const auto offset = static_cast<std::size_t>((step - o.first_step) * nodes) * known * W;
             for (std::size_t j = 0; j < known; ++j) {
-                std::copy_n(o.tooth_stiffness.data() + at + j * W, W,
+                std::copy_n(o.tooth_stiffness.data() + offset + j * W, W,
                             tooth_row(state_.tooth_k, j, o.pair));
             }
         }
@@ -132,12 +132,14 @@ class QuasiStaticTile {
                 continue;
             }
             for (std::size_t j = 0; j < known; ++j) {
-                const double place =
-                    plan_.nodes.tooth_place[first + j * pairs + static_cast<std::size_t>(g.pair)];
+                const double position =
+                    plan_.nodes
+                        .tooth_position[first + j * pairs + static_cast<std::size_t>(g.pair)];
                 double* const row = tooth_row(state_.tooth_e, j, g.pair);
-                const std::size_t own = j / slices * W;
+                const std::size_t first_lane = j / slices * W;
                 for (std::size_t l = 0; l < W; ++l) {
-                    row[l] = std::fma(place, g.growth[own + l], g.gap[own + l]) + row[l];
+                    row[l] = std::fma(position, g.growth[first_lane + l], g.gap[first_lane + l]) +
+                             row[l];
                 }
             }
         }
@@ -293,10 +295,10 @@ TileResult QuasiStaticSolution::run(const TileInputs& tile) const {
             .solve_pattern(pattern->with_motion);
     } else {
         const StaticSpan& span = std::get<StaticSpan>(meshes);
-        QuasiStaticTile<W> own(tile, span.tooth_errors, span.forces);
+        QuasiStaticTile<W> static_tile(tile, span.tooth_errors, span.forces);
         return span.tooth_errors == nullptr && (span.forces == nullptr || span.forces->repeat())
-                   ? over_span(own.solve_pattern(span.motion_meshes > 0), span.meshes)
-                   : own.solve_span(span);
+                   ? over_span(static_tile.solve_pattern(span.motion_meshes > 0), span.meshes)
+                   : static_tile.solve_span(span);
     }
 }
 

@@ -1,4 +1,5 @@
-// Tile during time integration: its state and records, and the integration to the periodic orbit.
+// Tile during time integration: its state and records, the integration to the periodic orbit, and
+// over a span.
 #pragma once
 
 #include <algorithm>
@@ -19,6 +20,7 @@
 
 namespace gearpod::lockstep {
 
+// Tile during time integration: its state and records, and the integration to the periodic orbit.
 template <int W>
 class IntegratedTile {
   public:
@@ -190,12 +192,12 @@ class IntegratedTile {
     void end_perturbation(int k, const TileState& healthy, const MeshRecord& record,
                           LaneMask<W>& perturbed) {
         for (int l = 0; l < W; ++l) {
-            auto& own = perturbed[static_cast<std::size_t>(l)];
-            if (own && diverged(l)) {
+            auto& is_perturbed = perturbed[static_cast<std::size_t>(l)];
+            if (is_perturbed && diverged(l)) {
                 mark_diverged(l);
-                own = false;
-            } else if (own && !schedule_.continues_after(k)) {
-                own = distance(state_, healthy, record, l) > convergence_.tolerance;
+                is_perturbed = false;
+            } else if (is_perturbed && !schedule_.continues_after(k)) {
+                is_perturbed = distance(state_, healthy, record, l) > convergence_.tolerance;
             }
         }
     }
@@ -266,7 +268,6 @@ class IntegratedTile {
 };
 
 // Tile during the time integration of every mesh period of a span.
-
 template <int W>
 class SpanTile : protected IntegratedTile<W> {
   protected:

@@ -55,12 +55,12 @@ void MeshForces<W>::with_law(int step, const MeshOverrides& overrides, std::span
                 r[l] += row[i] * v[i * W + l];
             }
         }
-        double* const own = force + pair * W;
+        double* const pair_force = force + pair * W;
         if constexpr (Law::kHasTeeth) {
-            Law::template forces<W>(*pairs, pair, d, r, own);
+            Law::template forces<W>(*pairs, pair, d, r, pair_force);
         } else {
             for (int l = 0; l < W; ++l) {
-                own[l] = Law::force(*pairs, pair * W + l, l, d[l], r[l]);
+                pair_force[l] = Law::force(*pairs, pair * W + l, l, d[l], r[l]);
             }
         }
     }

@@ -50,11 +50,11 @@ StaticLanes<W> make_static_lanes(const dynamics::GearboxLayout& layout, dynamics
     for (std::size_t l = 0; l < W; ++l) {
         const auto m = dynamics::assemble(layout, inputs[l], none);
         const Eigen::MatrixXd k = constrained_stiffness(m, turn, mesh_stiffness_N_m);
-        std::size_t at = l;
+        std::size_t index = l;
         for (int row = 0; row < lanes.degrees; ++row) {
             lanes.force[static_cast<std::size_t>(row) * W + l] = m.force(row);
-            for (int column = 0; column <= row; ++column, at += W) {
-                lanes.stiffness[at] = k(row, column);
+            for (int column = 0; column <= row; ++column, index += W) {
+                lanes.stiffness[index] = k(row, column);
             }
         }
         lanes.force_size.push_back(m.force.cwiseAbs().maxCoeff());

@@ -7,7 +7,7 @@
 namespace gearpod::lockstep {
 namespace {
 
-std::size_t place(int k, std::size_t period) {
+std::size_t index_in_period(int k, std::size_t period) {
     const auto length = static_cast<int>(period);
     return static_cast<std::size_t>((k % length + length) % length);
 }
@@ -28,10 +28,10 @@ void add_up(std::span<const machine::AlignedVector* const> parts, machine::Align
     }
     std::fill_n(out, size, 0.0);
     for (const machine::AlignedVector* part : parts) {
-        const double* __restrict own = part->data();
+        const double* __restrict values = part->data();
 #pragma omp simd
         for (std::size_t i = 0; i < size; ++i) {
-            out[i] += own[i];
+            out[i] += values[i];
         }
     }
 }
@@ -77,36 +77,36 @@ int part_meshes(std::span<const int> periods, int run_in_meshes) {
 }
 
 void SuperposedMotion::record(int k, MeshRecord& record) const {
-    std::vector<const MeshRecord*> own;
+    std::vector<const MeshRecord*> records;
     for (const SuperpositionPart& part : parts) {
-        own.push_back(&part.records[place(k, part.records.size())]);
+        records.push_back(&part.records[index_in_period(k, part.records.size())]);
     }
-    const auto one = [&](machine::AlignedVector MeshRecord::*what) {
+    const auto superpose = [&](machine::AlignedVector MeshRecord::*what) {
         std::vector<const machine::AlignedVector*> all;
-        for (const MeshRecord* part : own) {
+        for (const MeshRecord* part : records) {
             all.push_back(&(part->*what));
         }
         add_up(all, record.*what);
     };
-    one(&MeshRecord::acceleration);
-    one(&MeshRecord::te);
+    superpose(&MeshRecord::acceleration);
+    superpose(&MeshRecord::te);
     if (!record.motion.empty()) {
-        one(&MeshRecord::motion);
-        one(&MeshRecord::mesh_force);
+        superpose(&MeshRecord::motion);
+        superpose(&MeshRecord::mesh_force);
     }
 }
 
 void SuperposedMotion::state(int k, TileState& state) const {
-    const auto one = [&](machine::AlignedVector TileState::*what) {
+    const auto superpose = [&](machine::AlignedVector TileState::*what) {
         std::vector<const machine::AlignedVector*> all;
         for (const SuperpositionPart& part : parts) {
-            all.push_back(&(part.states[place(k, part.states.size())].*what));
+            all.push_back(&(part.states[index_in_period(k, part.states.size())].*what));
         }
         add_up(all, state.*what);
     };
-    one(&TileState::q);
-    one(&TileState::v);
-    one(&TileState::filter);
+    superpose(&TileState::q);
+    superpose(&TileState::v);
+    superpose(&TileState::filter);
 }
 
 void SuperposedMotion::count_periodic_orbit_once() {
@@ -140,17 +140,19 @@ std::vector<char> SuperposedMotion::keeps_contact(int from, int to, std::size_t 
     };
     update_kept([&](std::size_t i) { return periodic_orbit_compression[i]; });
     for (const SuperpositionPart& part : parts) {
-        for (const machine::AlignedVector& own : part.compression) {
-            update_kept([&](std::size_t i) { return periodic_orbit_compression[i] + own[i]; });
+        for (const machine::AlignedVector& compression : part.compression) {
+            update_kept(
+                [&](std::size_t i) { return periodic_orbit_compression[i] + compression[i]; });
         }
     }
     machine::AlignedVector sum(values);
     for (int k = from; k < to; ++k) {
         sum = periodic_orbit_compression;
         for (const SuperpositionPart& part : parts) {
-            const machine::AlignedVector& own = part.compression[place(k, part.compression.size())];
+            const machine::AlignedVector& compression =
+                part.compression[index_in_period(k, part.compression.size())];
             for (std::size_t i = 0; i < values; ++i) {
-                sum[i] += own[i];
+                sum[i] += compression[i];
             }
         }
         update_kept([&](std::size_t i) { return sum[i]; });

@@ -1,4 +1,4 @@
-// Inputs that solution strategies share.
+// Inputs and results of a tile, common to all solution strategies.
 #pragma once
 
 #include <algorithm>
@@ -58,8 +58,6 @@ struct RecordedSpan {
     std::vector<SpanPart> parts = {};
 };
 
-// Results of a tile.
-
 enum class LaneStatus { ok, diverged, not_converged };
 
 // States of a tile before each mesh period of a run-in and a span, and after the last one.
@@ -101,7 +99,6 @@ struct TileResult {
 };
 
 // Access to single lanes of a tile's arrays, whose last index is the lane.
-
 template <int W>
 using LaneMask = std::array<bool, W>;
 

@@ -37,10 +37,10 @@ template <class Lanes>
 class KernelCall {
   public:
     // `inputs` has one gearbox per lane. Throws MissingKernel.
-    KernelCall(const IntegrationPlan& plan, Lanes own,
+    KernelCall(const IntegrationPlan& plan, Lanes model_lanes,
                std::span<const dynamics::GearboxInputs> inputs, ExcitationKind excitation_kind,
                MotionModel motion_model)
-        : lanes(std::move(own)),
+        : lanes(std::move(model_lanes)),
           plan_(plan),
           filter_(filter_coefficients(plan.integrator, plan.low_pass_rad_s, plan.grid.lengths,
                                       dynamics::mesh_periods_s(inputs))),
@@ -73,11 +73,11 @@ auto with_lanes(const IntegrationPlan& plan, std::span<const dynamics::GearboxIn
                        MotionModel::matrices);
         }
     }
-    const auto lanes_of = [&]<class Inputs>(const auto& layout, std::vector<Inputs> own) {
+    const auto lanes_of = [&]<class Inputs>(const auto& layout, std::vector<Inputs> of_kind) {
         for (const auto& in : inputs) {
-            own.push_back(std::get<Inputs>(in));
+            of_kind.push_back(std::get<Inputs>(in));
         }
-        return dynamics::make_lanes<W, Real>(layout, std::span<const Inputs>(own));
+        return dynamics::make_lanes<W, Real>(layout, std::span<const Inputs>(of_kind));
     };
     if (const auto* layout = std::get_if<dynamics::PlanetaryLayout>(&plan.layout)) {
         const MotionModel motion_model =

@@ -1,5 +1,5 @@
-// Integrates W gearboxes over one mesh period at a time: an integrator together with the parameters
-// of its gearboxes.
+// Integrators of W gearboxes with their parameters: by mesh period, under a time-varying
+// excitation, or step by step.
 #pragma once
 
 #include <memory>
@@ -31,7 +31,6 @@ std::unique_ptr<const MeshIntegrator<W>> make_mesh_integrator(
 
 // Integrates W gearboxes under a time-varying excitation (excitation.hpp), one mesh period at a
 // time.
-
 template <int W>
 class ExcitedIntegrator {
   public:
@@ -55,7 +54,6 @@ std::unique_ptr<ExcitedIntegrator<W>> make_excited_integrator(
 
 // Integrates W gearboxes step by step under the torques of shafts, which may depend on the motion
 // after the previous step.
-
 template <int W>
 class StepIntegrator {
   public:

@@ -14,10 +14,11 @@ constexpr int kStretches = 24;  // per mesh period
 // Static transmission error of a pair at a stage node, m.
 double static_error(const IntegrationPlan& plan, int step, std::size_t node, int pair) {
     const StiffnessNodes& nodes = plan.nodes;
-    const std::size_t at = (static_cast<std::size_t>(step) * plan.grid.stage_nodes.size() + node) *
-                               static_cast<std::size_t>(nodes.pairs) +
-                           static_cast<std::size_t>(pair);
-    return nodes.error.empty() ? 0.0 : nodes.error[at];
+    const std::size_t index =
+        (static_cast<std::size_t>(step) * plan.grid.stage_nodes.size() + node) *
+            static_cast<std::size_t>(nodes.pairs) +
+        static_cast<std::size_t>(pair);
+    return nodes.error.empty() ? 0.0 : nodes.error[index];
 }
 
 }  // namespace
@@ -81,32 +82,32 @@ ToothContact::ToothContact(const IntegrationPlan& plan, std::vector<double> mesh
 void ToothContact::add_node(int pair, int step, std::size_t node) {
     const auto p = static_cast<std::size_t>(pair);
     const double length = plan_.grid.steps[static_cast<std::size_t>(step)].length;
-    Node own{step,
-             node == 0,
-             plan_.grid.stage_nodes[node],
-             length,
-             static_error(plan_, step, node, pair),
-             {}};
+    Node pair_node{step,
+                   node == 0,
+                   plan_.grid.stage_nodes[node],
+                   length,
+                   static_error(plan_, step, node, pair),
+                   {}};
     if (plan_.nodes.tooth_pairs == 0) {  // one spring carries the whole load
-        own.teeth.push_back({0, 0, 0.0, 0.0, 0.0, 1.0});
+        pair_node.teeth.push_back({0, 0, 0.0, 0.0, 0.0, 1.0});
     }
     const bool gaps = !plan_.nodes.tooth_gap.empty(), worn = !plan_.nodes.tooth_wear.empty();
     for (int contact = 0; contact < plan_.nodes.contacts(); ++contact) {
         const int n = static_cast<int>(node);
-        const std::size_t at = tooth_pair_at(plan_, step, n, contact, pair);
-        if (plan_.nodes.tooth_stiffness[at] > 0.0) {
-            const double place = plan_.nodes.tooth_place[at];
-            own.teeth.push_back({static_cast<std::size_t>(contact),
-                                 static_cast<std::size_t>(contact / plan_.nodes.slices), place,
-                                 tooth_gap(plan_, {}, pair, step, n, contact, 0),
-                                 worn ? plan_.nodes.tooth_wear[at] : 0.0,
-                                 gaps ? plan_.nodes.tooth_on_path[at] : 1.0});
+        const std::size_t index = tooth_pair_at(plan_, step, n, contact, pair);
+        if (plan_.nodes.tooth_stiffness[index] > 0.0) {
+            const double position = plan_.nodes.tooth_position[index];
+            pair_node.teeth.push_back({static_cast<std::size_t>(contact),
+                                       static_cast<std::size_t>(contact / plan_.nodes.slices),
+                                       position, tooth_gap(plan_, {}, pair, step, n, contact, 0),
+                                       worn ? plan_.nodes.tooth_wear[index] : 0.0,
+                                       gaps ? plan_.nodes.tooth_on_path[index] : 1.0});
         }
     }
-    for (const Tooth& tooth : own.teeth) {
-        engaged_[p] += own.first ? tooth.on_path * length : 0.0;
+    for (const Tooth& tooth : pair_node.teeth) {
+        engaged_[p] += pair_node.first ? tooth.on_path * length : 0.0;
     }
-    nodes_[p].push_back(std::move(own));
+    nodes_[p].push_back(std::move(pair_node));
 }
 
 // Adds sign times the pair's deflection, or its rate, at the step ends to d. `first_degree` is the
@@ -131,21 +132,21 @@ void ToothContact::deflect(const MeshRecord& record, int pair, double sign,
 
 // Lower bound of the deflection, m, at a stage node of a step. Positions at which integrators
 // evaluate forces lie on the chord, or on the tangents at the step's ends.
-void ToothContact::least_deflection(const Node& node, const double* __restrict at,
+void ToothContact::least_deflection(const Node& node, const double* __restrict deflection_start,
                                     const double* __restrict rate, double* __restrict least) const {
     const std::size_t width = mesh_period_s_.size();
     const double part = node.part, left = 1.0 - node.part, length = node.length;
     const double* __restrict period = mesh_period_s_.data();
     if (part == 0.0 || left == 0.0) {
-        std::copy_n(at + (part == 0.0 ? 0 : width), width, least);
+        std::copy_n(deflection_start + (part == 0.0 ? 0 : width), width, least);
         return;
     }
 #pragma omp simd
     for (std::size_t l = 0; l < width; ++l) {
         const double h = length * period[l];
-        const double chord = left * at[l] + part * at[width + l];
-        const double forward = at[l] + part * h * rate[l];
-        const double backward = at[width + l] - left * h * rate[width + l];
+        const double chord = left * deflection_start[l] + part * deflection_start[width + l];
+        const double forward = deflection_start[l] + part * h * rate[l];
+        const double backward = deflection_start[width + l] - left * h * rate[width + l];
         const double tangents = forward < backward ? forward : backward;
         least[l] = chord < tangents ? chord : tangents;
     }
@@ -169,25 +170,25 @@ machine::AlignedVector ToothContact::least_compression(const MeshRecord& record,
             deflect(*periodic_orbit, p, -1.0, 0, at);
             deflect(*periodic_orbit, p, -1.0, degrees, rate);
         }
-        LaneGaps own(gaps, nullptr, p, contacts_ * width);
+        LaneGaps lane_gaps(gaps, nullptr, p, contacts_ * width);
         for (const Node& node : nodes_[pair]) {
             const std::size_t before = static_cast<std::size_t>(node.step) * width;
             least_deflection(node, at.data() + before, rate.data() + before, d.data());
-            const auto [gap, growth] = own.at(node.step);
+            const auto [gap, growth] = lane_gaps.at(node.step);
             const auto stretch = static_cast<std::size_t>(
                 kStretches * plan_.grid.steps[static_cast<std::size_t>(node.step)].phase);
             for (const Tooth& tooth : node.teeth) {
                 double* __restrict row =
                     least.data() + ((stretch * pairs + pair) * contacts_ + tooth.contact) * width;
                 const double shared = periodic_orbit == nullptr ? tooth.shared + node.error : 0.0;
-                const double place = tooth.place;
+                const double position = tooth.position;
                 const double* __restrict constant = gap + tooth.tooth * width;
                 const double* __restrict slope = growth + tooth.tooth * width;
                 const double* __restrict deflection = d.data();
 #pragma omp simd
                 for (std::size_t l = 0; l < width; ++l) {
                     const double compression =
-                        deflection[l] - shared - (place * slope[l] + constant[l]);
+                        deflection[l] - shared - (position * slope[l] + constant[l]);
                     row[l] = compression < row[l] ? compression : row[l];
                 }
             }
@@ -208,24 +209,24 @@ machine::AlignedVector ToothContact::least_compression(const MeshRecord& record,
 
 // `d` holds the pair's deflection; `weight` is added in each lane without contact.
 void ToothContact::add_separation(const Node& node, std::size_t pair, const double* __restrict d,
-                                  LaneGaps& own, const double* __restrict weight,
+                                  LaneGaps& lane_gaps, const double* __restrict weight,
                                   machine::AlignedVector& apart) const {
     const std::size_t width = mesh_period_s_.size();
-    const auto [gap, growth] = own.at(node.step);
-    const double* __restrict wear = own.wear();
+    const auto [gap, growth] = lane_gaps.at(node.step);
+    const double* __restrict wear = lane_gaps.wear();
     double* __restrict sum = apart.data() + pair * width;
     for (const Tooth& tooth : node.teeth) {
         if (tooth.on_path == 0.0) {
             continue;
         }
-        const double shared = tooth.shared + node.error, place = tooth.place;
+        const double shared = tooth.shared + node.error, position = tooth.position;
         const double share = tooth.on_path, unit_gap = tooth.wear;
         const double* __restrict constant = gap + tooth.tooth * width;
         const double* __restrict slope = growth + tooth.tooth * width;
 #pragma omp simd
         for (std::size_t l = 0; l < width; ++l) {
             const double compression =
-                d[l] - shared - (place * slope[l] + constant[l]) - unit_gap * wear[l];
+                d[l] - shared - (position * slope[l] + constant[l]) - unit_gap * wear[l];
             sum[l] += compression > 0.0 ? 0.0 : share * weight[l];
         }
     }
@@ -240,7 +241,7 @@ void ToothContact::add_separation_time(const MeshRecord& record, const MeshOverr
         const int p = static_cast<int>(pair);
         std::ranges::fill(at, 0.0);
         deflect(record, p, 1.0, 0, at);
-        LaneGaps own(overrides.gaps, &overrides.wear, p, contacts_ * width);
+        LaneGaps lane_gaps(overrides.gaps, &overrides.wear, p, contacts_ * width);
         for (const Node& node : nodes_[pair]) {
             if (!node.first) {
                 continue;
@@ -252,7 +253,7 @@ void ToothContact::add_separation_time(const MeshRecord& record, const MeshOverr
                 d[l] = left * before[l] + part * before[width + l];
                 weight[l] = lanes[l] ? node.length : 0.0;
             }
-            add_separation(node, pair, d.data(), own, weight.data(), apart);
+            add_separation(node, pair, d.data(), lane_gaps, weight.data(), apart);
         }
     }
 }
@@ -274,8 +275,9 @@ void ToothContact::add_position(int step, const machine::AlignedVector& q,
         for (const Tooth& tooth : node.teeth) {
             time.engaged[pair] += tooth.on_path * weight;
         }
-        LaneGaps own(overrides.gaps, &overrides.wear, static_cast<int>(pair), contacts_ * width);
-        add_separation(node, pair, d.data(), own, weights.data(), time.apart);
+        LaneGaps lane_gaps(overrides.gaps, &overrides.wear, static_cast<int>(pair),
+                           contacts_ * width);
+        add_separation(node, pair, d.data(), lane_gaps, weights.data(), time.apart);
     }
 }
 

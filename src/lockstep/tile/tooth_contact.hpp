@@ -70,10 +70,10 @@ class ToothContact {
     // Slice of a tooth pair at a stage node.
     struct Tooth {
         std::size_t contact = 0, tooth = 0;  // indices in the tables of springs and of tooth pairs
-        double place = 0.0;                  // on the path of contact (StiffnessNodes::tooth_place)
-        double shared = 0.0;                 // part of its gap common to all lanes, m
-        double wear = 0.0;                   // part by wear of unit depth
-        double on_path = 0.0;                // share of its face on the nominal path of contact
+        double position = 0.0;  // on the path of contact (StiffnessNodes::tooth_position)
+        double shared = 0.0;    // part of its gap common to all lanes, m
+        double wear = 0.0;      // part by wear of unit depth
+        double on_path = 0.0;   // share of its face on the nominal path of contact
     };
     // Stage node of a step, with the tooth pairs of a gear pair engaged at it.
     struct Node {
@@ -87,9 +87,9 @@ class ToothContact {
     class LaneGaps;
 
     void add_node(int pair, int step, std::size_t node);
-    void least_deflection(const Node& node, const double* at, const double* rate,
+    void least_deflection(const Node& node, const double* deflection_start, const double* rate,
                           double* least) const;
-    void add_separation(const Node& node, std::size_t pair, const double* d, LaneGaps& own,
+    void add_separation(const Node& node, std::size_t pair, const double* d, LaneGaps& lane_gaps,
                         const double* weight, machine::AlignedVector& apart) const;
     void deflect(const MeshRecord& record, int pair, double sign, std::size_t first_degree,
                  machine::AlignedVector& d) const;

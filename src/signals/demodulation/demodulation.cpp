@@ -182,9 +182,9 @@ double cyclic_coherence(std::span<const double> x, std::size_t turn, std::size_t
     std::vector<BandSums> bands((points + 1) / 2);  // 0 is not used
     for (std::size_t k = 0; k < kFramesPerMesh * (x.size() / points); ++k) {
         for (std::size_t i = 0; i < points; ++i) {
-            const std::size_t at = (k * points / kFramesPerMesh + i) % x.size();
-            frame[i] = window[i] * x[at];
-            shifted[i] = frame[i] * carrier[at % turn];
+            const std::size_t sample = (k * points / kFramesPerMesh + i) % x.size();
+            frame[i] = window[i] * x[sample];
+            shifted[i] = frame[i] * carrier[sample % turn];
         }
         transform.transform(frame, spectrum);
         transform.transform(shifted, other);

@@ -26,13 +26,13 @@ double quantile_of_normal(const boost::math::chi_squared& chi, double z) {
 template <int kPowers>
 const auto& polynomials_at_roots() {
     static const auto values = [] {
-        std::array<std::array<double, kPowers>, kPowers> at{};
+        std::array<std::array<double, kPowers>, kPowers> powers{};
         for (int k = 0; k < kPowers; ++k) {
             for (int i = 0; i < kPowers; ++i) {
-                at[k][i] = std::cos(std::numbers::pi * k * (i + 0.5) / kPowers);
+                powers[k][i] = std::cos(std::numbers::pi * k * (i + 0.5) / kPowers);
             }
         }
-        return at;
+        return powers;
     }();
     return values;
 }
@@ -96,10 +96,10 @@ ChiSquaredTransform::ChiSquaredTransform(int degrees)
         const auto powers = interpolate<kWidePowers>(
             [&](double t) { return quantile_of_normal(chi, centre + kHalfWidth * t); });
         for (int narrow = 0; narrow < kNarrowInWide; ++narrow, piece += kChiStride) {
-            const auto own = interpolate<kChiPowers>([&](double t) {
+            const auto series = interpolate<kChiPowers>([&](double t) {
                 return evaluate(powers, (2 * narrow + 1 + t) / kNarrowInWide - 1.0);
             });
-            std::copy(own.begin(), own.end(), piece);
+            std::copy(series.begin(), series.end(), piece);
         }
     }
 }

@@ -1,4 +1,4 @@
-// Kernel and table layout of ChiSquaredTransform; see chi_squared.hpp.
+// Chi-squared variates from normal ones, by a table of polynomials.
 #pragma once
 
 #include <span>

@@ -18,10 +18,10 @@ GEARPOD_INLINE void all_values(long values, const double* __restrict pieces,
         double z = value[b];
         z = z > kChiRange ? kChiRange : z;
         z = z < -kChiRange ? -kChiRange : z;
-        const double place = std::fma(z, kScale, 0.5 * kChiPieces);
-        int piece = static_cast<int>(place);
+        const double position = std::fma(z, kScale, 0.5 * kChiPieces);
+        int piece = static_cast<int>(position);
         piece = piece < kChiPieces ? piece : kChiPieces - 1;
-        const double t = std::fma(2.0, place - piece, -1.0);
+        const double t = std::fma(2.0, position - piece, -1.0);
         const double* c = pieces + static_cast<long>(piece) * kChiStride;
         value[b] = machine::horner(t, c[5], c[4], c[3], c[2], c[1], c[0]);
     }

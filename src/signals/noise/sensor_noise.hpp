@@ -1,9 +1,5 @@
-// Noise of the transmission error signal after time-synchronous averaging.
-//
-// White noise of rms sigma_e on each sample of the transmission error is averaged over Z_r
-// independent turns. The result is exactly white noise of variance sigma_e^2 / Z_r. The averaged
-// noise is generated directly, one normal variate per averaged sample, and scaled to all noise
-// levels.
+// Noise of the averaged transmission error and of the sensor: drawn at the level of averages and
+// folds, so that it costs as little as they do.
 #pragma once
 
 #include <algorithm>
@@ -17,6 +13,13 @@
 #include "signals/noise/normals.hpp"
 
 namespace gearpod::signals {
+
+// Noise of the transmission error signal after time-synchronous averaging.
+//
+// White noise of rms sigma_e on each sample of the transmission error is averaged over Z_r
+// independent turns. The result is exactly white noise of variance sigma_e^2 / Z_r. The averaged
+// noise is generated directly, one normal variate per averaged sample, and scaled to all noise
+// levels.
 
 // Fills `noise` (one gearbox, Z_p P_te samples) for sigma_e = 1 and removes its mean, as is done
 // for the signal. Engine: a 64-bit uniform random bit generator.

@@ -69,8 +69,9 @@ ToneTable::ToneTable(const Tones& tones, int lanes, int first_mesh, int meshes, 
     for (std::size_t i = 0; i < values; ++i) {
         const std::size_t lane = i % width;
         const double turns = tones.frequency_Hz[i] * tones.mesh_period_s[lane];
-        const std::size_t at = i / width * span * width + lane;
-        fill_phasors(turns, 0.0, first_mesh, meshes, width, &mesh_sine_[at], &mesh_cosine_[at]);
+        const std::size_t first = i / width * span * width + lane;
+        fill_phasors(turns, 0.0, first_mesh, meshes, width, &mesh_sine_[first],
+                     &mesh_cosine_[first]);
         fill_phasors(turns / phases, tones.phase_rad[i], 0, phases, values, &phase_sine_[i],
                      &phase_cosine_[i]);
     }
@@ -81,17 +82,17 @@ ToneTable::ToneTable(const Tones& tones, int lanes, int first_mesh, int meshes, 
 }
 
 void add_tones(const Tones& tones, int lane, int phases, std::span<double> samples) {
-    const std::size_t lanes = tones.mesh_period_s.size(), own = static_cast<std::size_t>(lane);
-    Tones one;
-    one.mesh_period_s = {tones.mesh_period_s[own]};
-    for (std::size_t i = own; i < tones.frequency_Hz.size(); i += lanes) {
-        one.frequency_Hz.push_back(tones.frequency_Hz[i]);
-        one.amplitude_m_s2.push_back(tones.amplitude_m_s2[i]);
-        one.phase_rad.push_back(tones.phase_rad[i]);
+    const std::size_t lanes = tones.mesh_period_s.size(), first = static_cast<std::size_t>(lane);
+    Tones lane_tones;
+    lane_tones.mesh_period_s = {tones.mesh_period_s[first]};
+    for (std::size_t i = first; i < tones.frequency_Hz.size(); i += lanes) {
+        lane_tones.frequency_Hz.push_back(tones.frequency_Hz[i]);
+        lane_tones.amplitude_m_s2.push_back(tones.amplitude_m_s2[i]);
+        lane_tones.phase_rad.push_back(tones.phase_rad[i]);
     }
     const std::size_t per_mesh = static_cast<std::size_t>(phases),
                       meshes = samples.size() / per_mesh;
-    const ToneTable table(one, 1, 0, static_cast<int>(meshes), phases);
+    const ToneTable table(lane_tones, 1, 0, static_cast<int>(meshes), phases);
     const auto count = static_cast<std::size_t>(table.tones());
     for (std::size_t i = 0; i < samples.size(); ++i) {
         for (std::size_t t = 0; t < count; ++t) {

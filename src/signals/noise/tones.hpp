@@ -1,5 +1,4 @@
-// Contribution of a tone to a sample. The folded signal and the time signal share it, so that both
-// give the same bits.
+// Tones of other machines in a sensor's signal.
 #pragma once
 
 #include <cmath>

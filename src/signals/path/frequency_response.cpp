@@ -37,8 +37,9 @@ std::size_t MeasuringChain::own_samples(std::size_t samples, double applied_Hz) 
     if (!sampling_Hz) {
         return samples;
     }
-    const double own = std::round(static_cast<double>(samples) * *sampling_Hz / applied_Hz);
-    return std::clamp(static_cast<std::size_t>(own), std::size_t{1}, samples);
+    const double input_samples =
+        std::round(static_cast<double>(samples) * *sampling_Hz / applied_Hz);
+    return std::clamp(static_cast<std::size_t>(input_samples), std::size_t{1}, samples);
 }
 
 using Complex = std::complex<double>;
@@ -137,8 +138,8 @@ void PeriodicResponse::add(std::span<const double> signal, double sampling_Hz,
 
 // Harmonic k of n samples has the same values at `own` of them as harmonic k modulo `own`. Both
 // signs of k contribute to a one-sided sum: at 0 and at half the rate their imaginary parts cancel.
-void PeriodicResponse::alias(std::size_t own) {
-    const std::size_t count = own * (2 * half() / samples_);
+void PeriodicResponse::alias(std::size_t input_samples) {
+    const std::size_t count = input_samples * (2 * half() / samples_);
     for (std::size_t k = count / 2 + (count % 2 == 0 ? 0 : 1); k <= half(); ++k) {
         // Half the sampling rate occurs once, half of it with each sign.
         const Complex value = k == half() ? 0.5 * sum_[k] : sum_[k];
@@ -158,9 +159,9 @@ void PeriodicResponse::alias(std::size_t own) {
 
 std::vector<double> PeriodicResponse::take(const std::optional<MeasuringChain>& chain,
                                            double sampling_Hz) {
-    const std::size_t own = chain ? chain->own_samples(samples_, sampling_Hz) : samples_;
-    if (own < samples_) {
-        alias(own);
+    const std::size_t input_samples = chain ? chain->own_samples(samples_, sampling_Hz) : samples_;
+    if (input_samples < samples_) {
+        alias(input_samples);
     }
     for (std::size_t k = 0; k < half(); ++k) {
         const Complex a = sum_[k], b = std::conj(sum_[half() - k]);

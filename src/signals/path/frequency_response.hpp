@@ -63,7 +63,6 @@ struct MeasuringChain {
 //
 // with R the product of the mode shape at the bearing and at the sensor over the modal mass, 1/kg.
 // The response to the acceleration of the shaft is H(f) = -A(f) (k + i w c) / w^2, and 0 at f = 0.
-
 struct NaturalMode {
     double frequency_Hz = 0.0, damping = 0.0;
     double participation = 0.0;  // phi; R for a bearing
@@ -121,7 +120,7 @@ class PeriodicResponse {
 
   private:
     // Replaces the sum by the aliased spectrum of `own` samples of it.
-    void alias(std::size_t own);
+    void alias(std::size_t input_samples);
     std::size_t half() const { return values_.size(); }
 
     std::size_t samples_;

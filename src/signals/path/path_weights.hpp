@@ -1,5 +1,4 @@
-// Number of planets as a template argument. With unrolled loops over planets, the sums of a sample
-// stay in registers.
+// Weights of the planets' vibration at a sensor, for W gearboxes or one.
 #pragma once
 
 #include <cmath>
@@ -11,6 +10,8 @@
 
 namespace gearpod::signals {
 
+// Number of planets as a template argument. With unrolled loops over planets, the sums of a sample
+// stay in registers.
 inline constexpr int kMaxPathPlanets = 8;
 
 // Calls task.operator()<N>() for the given number of planets, 1..kMaxPathPlanets.

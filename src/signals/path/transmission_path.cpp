@@ -51,8 +51,8 @@ long wrapped(long angle, long turn) {
     return (angle % turn + turn) % turn;
 }
 
-gears::PlanetPlaces equally_spaced(int planets) {
-    return gears::planet_places({.planets = planets});
+gears::PlanetPositions equally_spaced(int planets) {
+    return gears::planet_positions({.planets = planets});
 }
 
 // Components along the axis of a sensor, plus this part of those at right angles to it.
@@ -68,8 +68,8 @@ std::pair<double, double> with_cross_axis(std::pair<double, double> along,
 PathGrid::PathGrid(const PathWindow& window, int planets, int phases, const SpanLayout& layout)
     : PathGrid(window, equally_spaced(planets), phases, layout) {}
 
-PathGrid::PathGrid(const gears::PlanetPlaces& planets, int phases, const SpanLayout& layout)
-    : planets_(static_cast<int>(planets.place.size())),
+PathGrid::PathGrid(const gears::PlanetPositions& planets, int phases, const SpanLayout& layout)
+    : planets_(static_cast<int>(planets.step.size())),
       phases_(phases),
       positions_(layout.carrier_meshes) {
     if (planets_ < 1 || phases < 1 || positions_ < 1) {
@@ -78,18 +78,18 @@ PathGrid::PathGrid(const gears::PlanetPlaces& planets, int phases, const SpanLay
     }
 }
 
-PathGrid::PathGrid(const PathWindow& window, const gears::PlanetPlaces& planets, int phases,
-                   const SpanLayout& layout, CarrierSense sense, const SensorPlace& sensor)
+PathGrid::PathGrid(const PathWindow& window, const gears::PlanetPositions& planets, int phases,
+                   const SpanLayout& layout, CarrierSense sense, const SensorPosition& sensor)
     : PathGrid(planets, phases, layout) {
     const Turn turn = turn_of(planets, sense, sensor);
     // Planets a whole number of samples apart share their angles and window values.
-    std::vector<double> known(static_cast<std::size_t>(turn.steps / turn.places), kNan);
+    std::vector<double> known(static_cast<std::size_t>(turn.steps / turn.planet_steps), kNan);
     const auto weight = [&](int, long planet) {
         const double angle = turn.step_rad * static_cast<double>(planet);
-        if (planet % turn.places != 0) {
+        if (planet % turn.planet_steps != 0) {
             return sensor.gain * window.weight(angle);
         }
-        double& value = known[static_cast<std::size_t>(planet / turn.places)];
+        double& value = known[static_cast<std::size_t>(planet / turn.planet_steps)];
         if (std::isnan(value)) {
             value = window.weight(angle);
         }
@@ -104,8 +104,8 @@ PathGrid::PathGrid(const PathWindow& window, const gears::PlanetPlaces& planets,
     });
 }
 
-PathGrid::PathGrid(const RingLoad& load, const gears::PlanetPlaces& planets, int phases,
-                   const SpanLayout& layout, CarrierSense sense, const SensorPlace& sensor)
+PathGrid::PathGrid(const RingLoad& load, const gears::PlanetPositions& planets, int phases,
+                   const SpanLayout& layout, CarrierSense sense, const SensorPosition& sensor)
     : PathGrid(planets, phases, layout) {
     const Turn turn = turn_of(planets, sense, sensor);
     const bool along_x = load.axis == RingLoad::Axis::x;
@@ -130,40 +130,41 @@ PathGrid::PathGrid(const RingLoad& load, const gears::PlanetPlaces& planets, int
 }
 
 PathGrid::PathGrid(const BearingSource& bearing, int phases, const SpanLayout& layout,
-                   CarrierSense sense, const SensorPlace& sensor)
+                   CarrierSense sense, const SensorPosition& sensor)
     : PathGrid(path_window("rectangular"), equally_spaced(1), phases, layout, sense, sensor) {
     first_source_ = bearing.source;
 }
 
-PathGrid::Turn PathGrid::turn_of(const gears::PlanetPlaces& planets, CarrierSense sense,
-                                 const SensorPlace& sensor) const {
+PathGrid::Turn PathGrid::turn_of(const gears::PlanetPositions& planets, CarrierSense sense,
+                                 const SensorPosition& sensor) const {
     // Carrier, planet and sensor angles are whole steps of a turn, so that the wrap is exact.
     const long parts = sensor.angle_deg == 0.0 ? 1 : kSensorAngles;
     const long sensor_part = std::lround(sensor.angle_deg / 360.0 * kSensorAngles) *
                              (sense == CarrierSense::negative ? -1 : 1);
     Turn turn;
     turn.parts = parts;
-    turn.places = planets.places * parts;
-    turn.steps = turn.places * phases_ * positions_;
+    turn.planet_steps = planets.steps * parts;
+    turn.steps = turn.planet_steps * phases_ * positions_;
     turn.step_rad = 2.0 * std::numbers::pi / static_cast<double>(turn.steps);
     turn.sensor = wrapped(turn.steps / kSensorAngles * sensor_part, turn.steps);
     return turn;
 }
 
 template <class Weight, class Direction>
-void PathGrid::tabulate(const gears::PlanetPlaces& planets, CarrierSense sense, const Turn& turn,
+void PathGrid::tabulate(const gears::PlanetPositions& planets, CarrierSense sense, const Turn& turn,
                         Weight weight, Direction direction) {
-    const long places = turn.places, mesh = places * phases_;
+    const long planet_steps = turn.planet_steps, mesh = planet_steps * phases_;
     const auto position = [&](int n) {
-        const long place = planets.place[static_cast<std::size_t>(n)] * turn.parts;
+        const long step = planets.step[static_cast<std::size_t>(n)] * turn.parts;
         const bool mirrored = sense == CarrierSense::negative;
-        const long angle = turn.steps / places * (mirrored ? (places - place) % places : place);
+        const long angle =
+            turn.steps / planet_steps * (mirrored ? (planet_steps - step) % planet_steps : step);
         return wrapped(angle - turn.sensor, turn.steps);
     };
     const bool turns = positions_ > 1;
     for (int p = 0; p < phases_; ++p) {
         for (int c = 0; c < positions_; ++c) {
-            const long carrier = turns ? (static_cast<long>(c) * phases_ + p) * places : 0;
+            const long carrier = turns ? (static_cast<long>(c) * phases_ + p) * planet_steps : 0;
             const auto [sine, cosine] = direction(
                 turn.step_rad * static_cast<double>(wrapped(carrier - turn.sensor, turn.steps)));
             sine_.push_back(sine);
@@ -174,7 +175,7 @@ void PathGrid::tabulate(const gears::PlanetPlaces& planets, CarrierSense sense, 
         }
         for (int n = 0; n < planets_; ++n) {
             const long at_zero =
-                ((turns ? static_cast<long>(p) * places : 0) + position(n)) % turn.steps;
+                ((turns ? static_cast<long>(p) * planet_steps : 0) + position(n)) % turn.steps;
             const long half = positions_ / 2;
             const double odd = positions_ % 2 == 1 ? 0.5 : 0.0;
             fraction_.push_back(static_cast<double>(at_zero % mesh) / static_cast<double>(mesh) -

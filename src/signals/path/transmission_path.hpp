@@ -1,4 +1,5 @@
-// Window functions of the transmission path, by planet position.
+// Transmission paths from planets, ring and bearings to a sensor, tabulated over the mesh phases
+// and carrier positions.
 #pragma once
 
 #include <cstddef>
@@ -47,7 +48,7 @@ enum class CarrierSense { positive, negative };
 
 // Place and kind of a sensor on the housing. Without them it is Liang's: it measures along the line
 // from the centre to itself, and planet n passes it at x_n = pi.
-struct SensorPlace {
+struct SensorPosition {
     double angle_deg = 0.0;   // around the axis from that place, in the positive sense
     bool tangential = false;  // measures across the line to the centre
     double gain = 1.0;
@@ -97,15 +98,15 @@ struct BearingSource {
 class PathGrid {
   public:
     // Throws std::invalid_argument unless planets and phases are positive.
-    PathGrid(const PathWindow& window, const gears::PlanetPlaces& planets, int phases,
+    PathGrid(const PathWindow& window, const gears::PlanetPositions& planets, int phases,
              const SpanLayout& layout, CarrierSense sense = CarrierSense::positive,
-             const SensorPlace& sensor = {});
+             const SensorPosition& sensor = {});
     // Path to an elastic ring, whose weights take the place of the window.
-    PathGrid(const RingLoad& load, const gears::PlanetPlaces& planets, int phases,
-             const SpanLayout& layout, CarrierSense sense, const SensorPlace& sensor);
+    PathGrid(const RingLoad& load, const gears::PlanetPositions& planets, int phases,
+             const SpanLayout& layout, CarrierSense sense, const SensorPosition& sensor);
     // Path of a bearing, as of a single planet with constant weight.
     PathGrid(const BearingSource& bearing, int phases, const SpanLayout& layout, CarrierSense sense,
-             const SensorPlace& sensor);
+             const SensorPosition& sensor);
     // Path of equally spaced planets.
     PathGrid(const PathWindow& window, int planets, int phases, const SpanLayout& layout);
 
@@ -125,22 +126,22 @@ class PathGrid {
     const int* centre() const { return centre_.data(); }
 
   private:
-    PathGrid(const gears::PlanetPlaces& planets, int phases, const SpanLayout& layout);
+    PathGrid(const gears::PlanetPositions& planets, int phases, const SpanLayout& layout);
 
     // A turn in whole steps, which planets, samples and the sensor's angle are multiples of.
     struct Turn {
-        long parts = 0;   // per position of planets
-        long places = 0;  // per mesh period and phase
+        long parts = 0;         // per position of planets
+        long planet_steps = 0;  // per mesh period and phase
         long steps = 0;
         long sensor = 0;  // step at the sensor
         double step_rad = 0.0;
     };
-    Turn turn_of(const gears::PlanetPlaces& planets, CarrierSense sense,
-                 const SensorPlace& sensor) const;
+    Turn turn_of(const gears::PlanetPositions& planets, CarrierSense sense,
+                 const SensorPosition& sensor) const;
     // Fills the tables. weight(n, step): of planet n at x_n = step. direction(angle): sine and
     // cosine at a carrier angle.
     template <class Weight, class Direction>
-    void tabulate(const gears::PlanetPlaces& planets, CarrierSense sense, const Turn& turn,
+    void tabulate(const gears::PlanetPositions& planets, CarrierSense sense, const Turn& turn,
                   Weight weight, Direction direction);
 
     int planets_;

@@ -1,4 +1,5 @@
-// Symmetric Toeplitz equations, for linear prediction and deconvolution.
+// Inverse filters of a periodic signal: linear prediction, minimum-entropy deconvolution and
+// cepstral pre-whitening.
 #pragma once
 
 #include <complex>

@@ -18,10 +18,10 @@ constexpr double kJumpShare = 0.2, kJumpOfOthers = 3.0, kJumpTiming = 1.5;
 // Speeds of the intervals of a motion, and their differences from those of their neighbours.
 class IntervalSpeeds {
   public:
-    IntervalSpeeds(std::span<const double> at, std::span<const double> motion)
-        : at_(at), motion_(motion) {
-        for (std::size_t k = 0; k + 1 < at.size(); ++k) {
-            speed_.push_back((motion[k + 1] - motion[k]) / (at[k + 1] - at[k]));
+    IntervalSpeeds(std::span<const double> sample, std::span<const double> motion)
+        : at_(sample), motion_(motion) {
+        for (std::size_t k = 0; k + 1 < sample.size(); ++k) {
+            speed_.push_back((motion[k + 1] - motion[k]) / (sample[k + 1] - sample[k]));
         }
         usual_ = speed_;
         std::vector<double> off;
@@ -119,9 +119,9 @@ class IntervalSpeeds {
 
 }  // namespace
 
-std::optional<MotionJump> motion_jump(std::span<const double> at, std::span<const double> motion,
-                                      double timing, double least) {
-    return IntervalSpeeds(at, motion).first_jump(timing, least);
+std::optional<MotionJump> motion_jump(std::span<const double> sample,
+                                      std::span<const double> motion, double timing, double least) {
+    return IntervalSpeeds(sample, motion).first_jump(timing, least);
 }
 
 std::string phase_jump_text(std::span<const double> phase, double least) {
@@ -129,7 +129,7 @@ std::string phase_jump_text(std::span<const double> phase, double least) {
     std::iota(samples.begin(), samples.end(), 0.0);
     const auto jump = motion_jump(samples, phase, 0.0, least);
     return jump ? fmt::format("jumps by {:.3g} mesh periods at sample {}; cut the recording there",
-                              jump->excess, jump->place + 1)
+                              jump->excess, jump->index + 1)
                 : "";
 }
 
@@ -150,34 +150,34 @@ Pulses tachometer_pulses(std::span<const double> column, double least) {
             armed = true;
         } else if (armed && column[i] > half + kHysteresis * height) {
             armed = false;
-            pulses.at.push_back(crossing);
+            pulses.sample.push_back(crossing);
         }
     }
-    if (pulses.at.size() < kFewest) {
-        pulses.problem = fmt::format("{} pulse(s), but {} are needed", pulses.at.size(), kFewest);
+    if (pulses.sample.size() < kFewest) {
+        pulses.problem = fmt::format("{} pulse(s), but {} are needed", pulses.sample.size(), kFewest);
         return pulses;
     }
-    for (std::size_t i = 2; i < pulses.at.size(); ++i) {
-        const double here = pulses.at[i] - pulses.at[i - 1];
-        const double before = pulses.at[i - 1] - pulses.at[i - 2];
+    for (std::size_t i = 2; i < pulses.sample.size(); ++i) {
+        const double here = pulses.sample[i] - pulses.sample[i - 1];
+        const double before = pulses.sample[i - 1] - pulses.sample[i - 2];
         if (here > kIrregular * before || before > kIrregular * here) {
             pulses.problem = fmt::format(
                 "the pulses at samples {:.0f}, {:.0f} and {:.0f} are unevenly spaced: one is "
                 "missing or superfluous",
-                pulses.at[i - 2] + 1.0, pulses.at[i - 1] + 1.0, pulses.at[i] + 1.0);
+                pulses.sample[i - 2] + 1.0, pulses.sample[i - 1] + 1.0, pulses.sample[i] + 1.0);
             return pulses;
         }
     }
-    std::vector<double> counts(pulses.at.size());
+    std::vector<double> counts(pulses.sample.size());
     std::iota(counts.begin(), counts.end(), 0.0);
-    if (const auto jump = motion_jump(pulses.at, counts, 1.0, least)) {
-        pulses.problem_sample = static_cast<std::size_t>(pulses.at[jump->place]) + 1;
+    if (const auto jump = motion_jump(pulses.sample, counts, 1.0, least)) {
+        pulses.problem_sample = static_cast<std::size_t>(pulses.sample[jump->index]) + 1;
         pulses.problem = fmt::format(
             "jumps by {:.3g} of a pulse interval at sample {}: {:.4g} samples after the previous "
             "pulse, where the neighbours let expect {:.4g}; cut the recording there",
             jump->excess, pulses.problem_sample,
-            pulses.at[jump->place] - pulses.at[jump->place - 1],
-            (pulses.at[jump->place] - pulses.at[jump->place - 1]) / jump->expected);
+            pulses.sample[jump->index] - pulses.sample[jump->index - 1],
+            (pulses.sample[jump->index] - pulses.sample[jump->index - 1]) / jump->expected);
     }
     return pulses;
 }
@@ -193,11 +193,11 @@ PulseCount count_pulses(const std::vector<double>& pulses) {
     PulseCount out;
     out.first = static_cast<std::size_t>(std::ceil(pulses.front()));
     std::size_t p = 0;
-    for (auto at = static_cast<double>(out.first); at <= pulses.back(); at += 1.0) {
-        while (p + 2 < n && at > pulses[p + 1]) {
+    for (auto sample = static_cast<double>(out.first); sample <= pulses.back(); sample += 1.0) {
+        while (p + 2 < n && sample > pulses[p + 1]) {
             ++p;
         }
-        const double length = pulses[p + 1] - pulses[p], t = (at - pulses[p]) / length;
+        const double length = pulses[p + 1] - pulses[p], t = (sample - pulses[p]) / length;
         // Cubic Hermite interpolation between p and p + 1.
         out.count.push_back(static_cast<double>(p) + t * t * (3.0 - 2.0 * t) +
                             length * t * (1.0 - t) * (speed[p] * (1.0 - t) - speed[p + 1] * t));
@@ -228,24 +228,24 @@ void unwrap(std::vector<double>& angle) {
 void find_angle_jump(const std::vector<double>& column, bool counts, double least,
                      ShaftAngle& angle) {
     constexpr double kTurn = 2.0 * std::numbers::pi;
-    std::vector<double> at, rad;
+    std::vector<double> sample, rad;
     for (std::size_t i = 0; i < column.size(); ++i) {
         if (i > 0 && column[i] > column[i - 1]) {
-            at.push_back(static_cast<double>(i));
+            sample.push_back(static_cast<double>(i));
             rad.push_back(column[i]);
         }
     }
-    const auto jump = motion_jump(at, rad, counts ? 1.0 : 0.0, least);
+    const auto jump = motion_jump(sample, rad, counts ? 1.0 : 0.0, least);
     if (!jump) {
         return;
     }
-    angle.problem_sample = static_cast<std::size_t>(at[jump->place]) + 1;
+    angle.problem_sample = static_cast<std::size_t>(sample[jump->index]) + 1;
     angle.problem = fmt::format(
         "{} by {:.3g} turn at sample {}: it advances by {:.3g} turn in {:.0f} sample(s), where its "
         "neighbours let expect {:.3g}; no gearbox moves like this; cut the recording there",
         jump->excess > 0.0 ? "jumps ahead" : "falls behind", std::abs(jump->excess) / kTurn,
-        angle.problem_sample, (rad[jump->place] - rad[jump->place - 1]) / kTurn,
-        at[jump->place] - at[jump->place - 1], jump->expected / kTurn);
+        angle.problem_sample, (rad[jump->index] - rad[jump->index - 1]) / kTurn,
+        sample[jump->index] - sample[jump->index - 1], jump->expected / kTurn);
 }
 
 }  // namespace
@@ -274,25 +274,25 @@ ShaftAngle shaft_angle(std::vector<double> column, double least) {
     }
     // The count changes between two samples: the shaft angle half a sample before the new count is
     // the mean of both counts.
-    std::vector<double> at, half_way;
+    std::vector<double> sample, half_way;
     for (std::size_t i = 1; i < column.size(); ++i) {
         if (column[i] > column[i - 1]) {
-            at.push_back(static_cast<double>(i) - 0.5);
+            sample.push_back(static_cast<double>(i) - 0.5);
             half_way.push_back(0.5 * (column[i] + column[i - 1]));
         }
     }
-    if (at.size() < 3) {
-        angle.problem = fmt::format("changes at only {} sample(s)", at.size());
+    if (sample.size() < 3) {
+        angle.problem = fmt::format("changes at only {} sample(s)", sample.size());
         return angle;
     }
-    angle.first = static_cast<std::size_t>(std::ceil(at.front()));
+    angle.first = static_cast<std::size_t>(std::ceil(sample.front()));
     std::size_t k = 0;
-    for (auto i = static_cast<double>(angle.first); i <= at.back(); i += 1.0) {
-        while (i > at[k + 1]) {
+    for (auto i = static_cast<double>(angle.first); i <= sample.back(); i += 1.0) {
+        while (i > sample[k + 1]) {
             ++k;
         }
         angle.rad.push_back(
-            std::lerp(half_way[k], half_way[k + 1], (i - at[k]) / (at[k + 1] - at[k])));
+            std::lerp(half_way[k], half_way[k + 1], (i - sample[k]) / (sample[k + 1] - sample[k])));
     }
     return angle;
 }

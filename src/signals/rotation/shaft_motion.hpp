@@ -13,7 +13,7 @@ namespace gearpod::signals {
 // Jump of a measured motion: in the interval that ends at `place` the motion is larger by `excess`
 // than its neighbours let expect, or smaller if it is negative.
 struct MotionJump {
-    std::size_t place = 0;
+    std::size_t index = 0;
     double excess = 0.0, expected = 0.0;  // in the unit of the motion
 };
 
@@ -29,8 +29,8 @@ struct MotionJump {
 // if the motion differs by more than `least`, if the neighbours do not undo at least half of it,
 // and if it is not a count of an encoder that advances by whole counts in each sample. Motion that
 // is smooth, vibrates or is quantized thus passes; jumps smaller than these limits are not found.
-std::optional<MotionJump> motion_jump(std::span<const double> at, std::span<const double> motion,
-                                      double timing, double least);
+std::optional<MotionJump> motion_jump(std::span<const double> sample,
+                                      std::span<const double> motion, double timing, double least);
 
 // Returns "" unless a mesh phase, which rises from sample to sample, jumps by `least` or more.
 std::string phase_jump_text(std::span<const double> phase, double least);
@@ -38,7 +38,7 @@ std::string phase_jump_text(std::span<const double> phase, double least);
 // Positions, in samples, at which the pulses of a tachometer rise through half their height.
 // `problem` reports too few, missing or additional pulses, and jumps by `least` pulses or more.
 struct Pulses {
-    std::vector<double> at;
+    std::vector<double> sample;
     std::string problem;
     std::size_t problem_sample = 0;  // from 1; 0: unknown
 };

@@ -49,8 +49,8 @@ GEARPOD_INLINE void compute_mesh_response(const SensorResponseArguments& a) {
     const double* const first = a.accel + 2L * path.first_source() * W;
     const long row = 2L * a.sources * W;
     for (long p = 0; p < path.phases(); ++p) {
-        const long place = p * path.positions() + a.carrier;
-        const double sine = path.sine()[place], cosine = path.cosine()[place];
+        const long index = p * path.positions() + a.carrier;
+        const double sine = path.sine()[index], cosine = path.cosine()[index];
         const double* __restrict accel = first + p * row;
         const double* __restrict weight = a.weight + p * N * W;
         double* __restrict y = a.signal + p * W;

@@ -15,11 +15,11 @@ namespace {
 
 machine::AlignedVector lane_values(const machine::AlignedVector& values, std::size_t lanes,
                                    int lane) {
-    machine::AlignedVector own;
+    machine::AlignedVector of_lane;
     for (auto i = static_cast<std::size_t>(lane); i < values.size(); i += lanes) {
-        own.push_back(values[i]);
+        of_lane.push_back(values[i]);
     }
-    return own;
+    return of_lane;
 }
 
 Tones tones_of_lane(const Tones& tones, int lanes, int lane) {
@@ -72,18 +72,18 @@ std::vector<std::vector<double>> signals_of(const TileSignals& tile, int first,
         const double* mesh = tile.accel[timeline[k % static_cast<long>(timeline.size())]];
         copy_lanes({mesh, values * tile.lanes}, tile.lanes, first, accel);
         for (int n = 0; n < lanes; ++n) {
-            SensorResponseArguments one;
-            one.path = &path;
-            one.carrier = static_cast<int>(k % path.positions());
-            one.weight = weight[n].data() +
-                         static_cast<std::size_t>(one.carrier) * tile.phases * path.planets();
-            one.accel = accel.data() + n * values;
-            one.sources = tile.sources();
-            one.tones = table[n].tones() > 0 ? &table[n] : nullptr;
-            one.mesh = i;
-            one.meshes = mesh_count;
-            one.signal = signal[n].data() + static_cast<std::size_t>(i) * tile.phases;
-            sensor_response_of_one_lane(one);
+            SensorResponseArguments arguments;
+            arguments.path = &path;
+            arguments.carrier = static_cast<int>(k % path.positions());
+            arguments.weight = weight[n].data() + static_cast<std::size_t>(arguments.carrier) *
+                                                      tile.phases * path.planets();
+            arguments.accel = accel.data() + n * values;
+            arguments.sources = tile.sources();
+            arguments.tones = table[n].tones() > 0 ? &table[n] : nullptr;
+            arguments.mesh = i;
+            arguments.meshes = mesh_count;
+            arguments.signal = signal[n].data() + static_cast<std::size_t>(i) * tile.phases;
+            sensor_response_of_one_lane(arguments);
         }
     }
     return signal;
@@ -228,18 +228,20 @@ std::vector<double> SensorResponse::signal(int lane, int meshes) const {
     if (meshes > kept_meshes_) {
         throw std::invalid_argument("sensor response: more meshes requested than were kept");
     }
-    std::vector<double> own(samples(meshes) / lanes_);
-    copy_lane(std::span(signal_).first(samples(meshes)), static_cast<int>(lanes_), lane, own);
-    return own;
+    std::vector<double> lane_signal(samples(meshes) / lanes_);
+    copy_lane(std::span(signal_).first(samples(meshes)), static_cast<int>(lanes_), lane,
+              lane_signal);
+    return lane_signal;
 }
 
 std::vector<double> SensorResponse::te_signal(int lane, int meshes) const {
     if (te_samples(meshes) > te_signal_.size()) {
         throw std::invalid_argument("sensor response: more meshes requested than were kept");
     }
-    std::vector<double> own(te_samples(meshes) / lanes_);
-    copy_lane(std::span(te_signal_).first(te_samples(meshes)), static_cast<int>(lanes_), lane, own);
-    return own;
+    std::vector<double> lane_signal(te_samples(meshes) / lanes_);
+    copy_lane(std::span(te_signal_).first(te_samples(meshes)), static_cast<int>(lanes_), lane,
+              lane_signal);
+    return lane_signal;
 }
 
 }  // namespace gearpod::signals

@@ -35,7 +35,6 @@ std::vector<std::vector<double>> synthesize(const TileSignals& tile, const Timel
 // Records the sensor and encoder signals of a tile while it is integrated mesh by mesh. It keeps
 // the sensor signal, its folded squares and the averaged transmission error, not the motions. For a
 // mesh period of W gearboxes that is 1/2N of the data that the integration records.
-
 class SensorResponse {
   public:
     struct Tile {

@@ -43,26 +43,26 @@ struct CorrelationDerivatives {
     double slope = 0.0, bend = 0.0;
 };
 CorrelationDerivatives correlation_derivatives(const Spectrum& product, const Shift& shift) {
-    CorrelationDerivatives at;
+    CorrelationDerivatives derivatives;
     const std::size_t n = product.size();
     for (std::size_t k = 1; 2 * k < n; ++k) {
         const double angle = angle_of(k, n);
         const std::complex<double> turned = product[k] * turn_of(k, n, shift);
-        at.slope -= angle * turned.imag();
-        at.bend -= angle * angle * turned.real();
+        derivatives.slope -= angle * turned.imag();
+        derivatives.bend -= angle * angle * turned.real();
     }
-    return at;
+    return derivatives;
 }
 
 // Refines the sample with the largest correlation to the peak near it by Newton's method.
 Shift peak_near(const Spectrum& product, long sample) {
     Shift shift{sample, 0.0};
     for (int round = 0; round < 8; ++round) {
-        const CorrelationDerivatives at = correlation_derivatives(product, shift);
-        if (!(at.bend < 0.0)) {
+        const CorrelationDerivatives derivatives = correlation_derivatives(product, shift);
+        if (!(derivatives.bend < 0.0)) {
             return {sample, 0.0};
         }
-        const double step = -at.slope / at.bend;
+        const double step = -derivatives.slope / derivatives.bend;
         shift.fraction += step;
         if (std::abs(shift.fraction) > 1.0) {
             return {sample, 0.0};
@@ -80,15 +80,15 @@ Alignment align(std::span<const double> signal, std::span<const double> other) {
     check_equal_sizes(signal, other);
     const std::size_t n = signal.size();
     Spectrum product = spectrum_of(other);
-    const Spectrum own = spectrum_of(signal);
+    const Spectrum spectrum = spectrum_of(signal);
     double energy = 0.0, other_energy = 0.0;
-    const double least = kRounding * std::norm(own[0]),
+    const double least = kRounding * std::norm(spectrum[0]),
                  other_least = kRounding * std::norm(product[0]);
     product[0] = 0.0;
     for (std::size_t k = 1; k < n; ++k) {
-        energy += std::norm(own[k]);
+        energy += std::norm(spectrum[k]);
         other_energy += std::norm(product[k]);
-        product[k] *= std::conj(own[k]);
+        product[k] *= std::conj(spectrum[k]);
     }
     if (!(energy > least && other_energy > other_least)) {
         return {};
@@ -114,13 +114,13 @@ double correlation(std::span<const double> signal, std::span<const double> other
                static_cast<double>(values.size());
     };
     const double a = mean(signal), b = mean(other);
-    double both = 0.0, own = 0.0, others = 0.0;
+    double both = 0.0, energy = 0.0, others = 0.0;
     for (std::size_t i = 0; i < signal.size(); ++i) {
         both += (signal[i] - a) * (other[i] - b);
-        own += (signal[i] - a) * (signal[i] - a);
+        energy += (signal[i] - a) * (signal[i] - a);
         others += (other[i] - b) * (other[i] - b);
     }
-    return own > 0.0 && others > 0.0 ? both / std::sqrt(own * others) : 0.0;
+    return energy > 0.0 && others > 0.0 ? both / std::sqrt(energy * others) : 0.0;
 }
 
 std::vector<double> shifted(std::span<const double> periodic, const Shift& shift) {

@@ -105,8 +105,9 @@ void FourierTransform::transform(std::span<const Complex> in, std::span<Complex>
     prime_stage(a);
     for (int s = 0; s < prime_; ++s) {
         for (int k = 0; k < part_; ++k) {
-            const std::size_t at = static_cast<std::size_t>(s) * row_ + k;
-            out[static_cast<std::size_t>(s) * part_ + k] = {out_real_[at], out_imaginary_[at]};
+            const std::size_t index = static_cast<std::size_t>(s) * row_ + k;
+            out[static_cast<std::size_t>(s) * part_ + k] = {out_real_[index],
+                                                            out_imaginary_[index]};
         }
     }
 }

@@ -1,4 +1,4 @@
-// Length of a Fourier transform that is fast.
+// Fourier transforms of any length, and lengths for which they are fast.
 #pragma once
 
 #include <algorithm>

@@ -1,5 +1,4 @@
-// One-sided amplitude spectrum over one planet turn relative to the carrier. Order k is k cycles
-// per planet turn; the mesh frequency and its harmonics are orders Z_p, 2 Z_p, ...
+// Spectra of a planet turn, the separation of regular meshing from the rest, and the speed error.
 #pragma once
 
 #include <complex>
@@ -9,6 +8,9 @@
 #include "signals/spectra/fourier_transform.hpp"
 
 namespace gearpod::signals {
+
+// One-sided amplitude spectrum over one planet turn relative to the carrier. Order k is k cycles
+// per planet turn; the mesh frequency and its harmonics are orders Z_p, 2 Z_p, ...
 
 // Spectra of signal + s noise for any number of levels s from one transform. The FFT is linear, and
 // a real signal and its real noise share one complex FFT. The signal is its real part, the noise

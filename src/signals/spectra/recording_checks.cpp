@@ -177,9 +177,9 @@ Lag lag_between(std::span<const double> all, std::size_t before, std::size_t nex
     const auto best = std::max_element(values.begin(), values.end()) - values.begin();
     double part = 0.0;
     if (best > 0 && best + 1 < static_cast<std::ptrdiff_t>(values.size())) {
-        const auto at = static_cast<std::size_t>(best);
-        const double bend = values[at - 1] - 2.0 * values[at] + values[at + 1];
-        part = bend < 0.0 ? 0.5 * (values[at - 1] - values[at + 1]) / bend : 0.0;
+        const auto index = static_cast<std::size_t>(best);
+        const double bend = values[index - 1] - 2.0 * values[index] + values[index + 1];
+        part = bend < 0.0 ? 0.5 * (values[index - 1] - values[index + 1]) / bend : 0.0;
     }
     return {static_cast<double>(best) - farthest + part, values[static_cast<std::size_t>(best)]};
 }

@@ -33,7 +33,6 @@ std::optional<MeshSpeed> mesh_speed(std::span<const double> samples, int per_mes
 // early. In steady running every turn (of the carrier or the wheel) resembles the one before it.
 // Their cross-correlation peaks at a lag of zero, or at a constant small lag where the speed is
 // slightly off. A turn that lost samples is early by their number.
-
 struct LostSamples {
     double meshes = 0.0;                // missing mesh periods, modulo whole ones: -1/2 to 1/2
     int first_mesh = 0, last_mesh = 0;  // the loss lies between these

@@ -47,17 +47,17 @@ std::vector<double> OrderTracking::resample(std::span<const double> signal, int 
             ++next;
         }
         const double step = phase_[next] - phase_[next - 1];
-        const double place =
+        const double position =
             static_cast<double>(next - 1) + std::min((grid_phase - phase_[next - 1]) / step, 1.0);
-        const double nearest = std::rint(place);
-        if (std::abs(place - nearest) < kOnSample) {
+        const double nearest = std::rint(position);
+        if (std::abs(position - nearest) < kOnSample) {
             resampled[i] = signal[static_cast<std::size_t>(nearest)];
             continue;
         }
         if (!spline) {
             spline = std::make_unique<Spline>(signal.begin(), signal.end(), 0.0, 1.0);
         }
-        resampled[i] = (*spline)(place);
+        resampled[i] = (*spline)(position);
     }
     return resampled;
 }

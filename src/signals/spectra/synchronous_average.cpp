@@ -71,24 +71,25 @@ namespace {
 // Place of the timeline that tooth j meets, with the fraction of its Z_r turns at which it does.
 // Places are used rather than distinct meshes: which places share a distinct mesh differs with the
 // tile's other lanes, and a lane's sum must not depend on them.
-struct Place {
-    std::size_t place = 0;
+struct TimelineEntry {
+    std::size_t index = 0;
     double share = 0.0;
 };
 
-std::vector<Place> places_of_tooth(int j, const Timeline& timeline, const SpanLayout& layout) {
+std::vector<TimelineEntry> entries_of_tooth(int j, const Timeline& timeline,
+                                            const SpanLayout& layout) {
     std::vector<double> turns(timeline.size(), 0.0);
     for (long i = 0; i < layout.ring_teeth; ++i) {
         const long k = j + i * layout.planet_teeth;
         turns[static_cast<std::size_t>(k) % timeline.size()] += 1.0;
     }
-    std::vector<Place> places;
-    for (std::size_t place = 0; place < turns.size(); ++place) {
-        if (turns[place] > 0.0) {
-            places.push_back({place, turns[place] / layout.ring_teeth});
+    std::vector<TimelineEntry> entries;
+    for (std::size_t index = 0; index < turns.size(); ++index) {
+        if (turns[index] > 0.0) {
+            entries.push_back({index, turns[index] / layout.ring_teeth});
         }
     }
-    return places;
+    return entries;
 }
 
 }  // namespace
@@ -133,8 +134,8 @@ void average_te(const TileSignals& tile, const Timeline& timeline, const SpanLay
     te_turn.assign(static_cast<std::size_t>(layout.planet_teeth) * per_mesh, 0.0);
     for (int j = 0; j < layout.planet_teeth; ++j) {
         double* out = te_turn.data() + static_cast<std::size_t>(j) * per_mesh;
-        for (const auto& [place, share] : places_of_tooth(j, timeline, layout)) {
-            const double* te = tile.te[static_cast<std::size_t>(timeline[place])];
+        for (const auto& [index, share] : entries_of_tooth(j, timeline, layout)) {
+            const double* te = tile.te[static_cast<std::size_t>(timeline[index])];
             add_te_mesh({te, mesh}, share, te_phases, {out, per_mesh});
         }
     }

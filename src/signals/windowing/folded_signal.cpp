@@ -33,9 +33,9 @@ Occurrences occurrences_of_tooth(int j, const Timeline& timeline, const SpanLayo
     std::sort(met.begin(), met.end());
     Occurrences occurrences;
     for (std::size_t i = 0; i < met.size(); ++i) {
-        const auto [carrier, place] = met[i];
+        const auto [carrier, index] = met[i];
         if (i == 0 || met[i] != met[i - 1]) {
-            occurrences.emplace_back(code(timeline[static_cast<std::size_t>(place)], carrier), 0);
+            occurrences.emplace_back(code(timeline[static_cast<std::size_t>(index)], carrier), 0);
         }
         ++occurrences.back().second;
     }
@@ -81,8 +81,8 @@ FoldPlan::FoldPlan(const Timeline& timeline, const SpanLayout& layout) : layout_
     std::vector<Occurrences> distinct;
     for (int j = 0; j < layout.planet_teeth; ++j) {
         Occurrences sum = occurrences_of_tooth(j, timeline, layout, code);
-        const auto [place, is_new] = known.try_emplace(sum, static_cast<int>(distinct.size()));
-        sum_of_tooth_.push_back(place->second);
+        const auto [entry, is_new] = known.try_emplace(sum, static_cast<int>(distinct.size()));
+        sum_of_tooth_.push_back(entry->second);
         if (is_new) {
             distinct.push_back(std::move(sum));
         }

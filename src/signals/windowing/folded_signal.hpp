@@ -1,5 +1,4 @@
-// Pairs of distinct mesh and carrier index that contribute to a fold modulo one planet turn
-// (folded_signal.hpp).
+// Squares of the sensor signal, folded modulo one planet turn.
 #pragma once
 
 #include <span>
@@ -48,7 +47,7 @@ class FoldPlan {
     std::vector<int> pair_of_mesh_;
 };
 
-// Kernels of fold_squares, without and with tones; see folded_signal.hpp.
+// Kernels of fold_squares, without and with tones.
 
 // Number of phases whose tones are added together.
 inline constexpr int kTonePhases = 4;

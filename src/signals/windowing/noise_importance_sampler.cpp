@@ -54,7 +54,8 @@ std::vector<double> NoiseImportanceSampler::stretch_sums(std::span<const double>
 void NoiseImportanceSampler::load(std::span<const double> folded, std::span<const double> sigmas,
                                   TargetTail towards) {
     if (folded.size() != bins_) {
-        throw std::invalid_argument("importance sampling of noise: bins and layout disagree in number");
+        throw std::invalid_argument(
+            "importance sampling of noise: bins and layout disagree in number");
     }
     squares_ = stretch_sums(folded);
     root_.assign(folded.begin(), folded.end());
@@ -108,11 +109,11 @@ void NoiseImportanceSampler::sample(std::size_t kind, double pick, NoiseVariates
     if (kind == 0 || levels_.empty()) {
         return;
     }
-    const double place = pick * static_cast<double>(levels_.size());
-    const std::size_t at = std::min(levels_.size() - 1, static_cast<std::size_t>(place));
-    const Level& level = levels_[at];
+    const double position = pick * static_cast<double>(levels_.size());
+    const std::size_t index = std::min(levels_.size() - 1, static_cast<std::size_t>(position));
+    const Level& level = levels_[index];
     const std::vector<Stretch>& stretches = level.stretches[kind - 1];
-    double left = place - static_cast<double>(at);
+    double left = position - static_cast<double>(index);
     std::size_t c = 0;
     for (std::size_t i = 0; i < stretches.size(); ++i) {
         if (stretches[i].share > 0.0) {

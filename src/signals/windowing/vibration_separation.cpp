@@ -65,8 +65,8 @@ ToothStatistics tooth_statistics(std::span<const double> samples, const GearTurn
             const std::size_t mesh = static_cast<std::size_t>(i) * gear.teeth + j;
             const std::size_t first = mesh * phases + static_cast<std::size_t>(offset);
             for (std::size_t m = 0; m < phases; ++m) {
-                const std::size_t at = first + m < all ? first + m : first + m - all;
-                *out++ = window[m] * samples[at];
+                const std::size_t sample = first + m < all ? first + m : first + m - all;
+                *out++ = window[m] * samples[sample];
             }
         }
         const Moments moments = moments_of(tooth);
@@ -133,8 +133,8 @@ std::size_t best_passage(std::span<const double> folded, std::span<const std::si
         }
     }
     const double largest = *std::max_element(energy.begin(), energy.end());
-    const auto first = std::find_if(energy.begin(), energy.end(), [&](double one) {
-        return one >= (1.0 - kEqualEnergies) * largest;
+    const auto first = std::find_if(energy.begin(), energy.end(), [&](double value) {
+        return value >= (1.0 - kEqualEnergies) * largest;
     });
     return static_cast<std::size_t>(first - energy.begin());
 }
@@ -165,8 +165,8 @@ std::vector<std::vector<double>> planet_averages(std::span<const double> samples
         std::vector<double>& average = averages.emplace_back(teeth * points, 0.0);
         for (std::size_t k = 0; k < passages; ++k) {
             for (std::size_t m = 0; m < window.size(); ++m) {
-                const std::size_t at = k * carrier + first + offset + m;
-                average[at % average.size()] += share * window[m] * used[at % used.size()];
+                const std::size_t sample = k * carrier + first + offset + m;
+                average[sample % average.size()] += share * window[m] * used[sample % used.size()];
             }
         }
     }

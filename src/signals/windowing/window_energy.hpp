@@ -1,4 +1,4 @@
-// Energy of a window, or of a bin, of signal plus noise.
+// Energies of windows of signal plus noise, and the window with the largest one.
 #pragma once
 
 #include <cmath>
@@ -20,7 +20,6 @@ GEARPOD_INLINE double noisy_energy(double sigma, double signal, double cross, do
 // whole mesh periods. Element t of segment i lies at [t * kSegments + i], so that a window of every
 // segment is read in whole, aligned registers wherever it begins. kSegments is eight on every
 // instruction set, so that the bits are the same.
-
 inline constexpr int kSegments = 8;
 
 // Energies of the windows that begin at the `outputs` first bins t of each segment:

@@ -49,15 +49,15 @@ GEARPOD_INLINE void sum_flat(const WindowEnergyArguments& a, long period, int ph
     for (int l = 0; l < W; ++l) {
         sum[l] = down[l];
     }
-    int at = a.end_of_bin[from];
-    while (at < stop) {
-        const int next = a.end_of_bin[at] < stop ? a.end_of_bin[at] : stop;
+    int begin = a.end_of_bin[from];
+    while (begin < stop) {
+        const int next = a.end_of_bin[begin] < stop ? a.end_of_bin[begin] : stop;
         const double* __restrict up = a.upwards + (period + next - 1) * W;
 #pragma omp simd
         for (int l = 0; l < W; ++l) {
             sum[l] += up[l];
         }
-        at = next;
+        begin = next;
     }
 }
 
@@ -122,10 +122,10 @@ GEARPOD_INLINE void mix(long values, const double* __restrict folded, double* __
 // Searches phase by phase, and replaces the place only for a larger energy.
 template <bool kNoisy>
 GEARPOD_INLINE void search(const LargestEnergyArguments& a) {
-    alignas(64) double largest[W], place[W], most[W];
+    alignas(64) double largest[W], best_phase[W], most[W];
     for (int l = 0; l < W; ++l) {
         largest[l] = -1.0;
-        place[l] = a.phases - 1;
+        best_phase[l] = a.phases - 1;
     }
     const double* __restrict signal = a.signal;
     const double* __restrict cross = a.cross;
@@ -137,24 +137,24 @@ GEARPOD_INLINE void search(const LargestEnergyArguments& a) {
             most[l] = -1.0;
         }
         for (long period = 0; period < a.periods; ++period) {
-            const long at = (period * a.phases + p) * W;
+            const long first = (period * a.phases + p) * W;
 #pragma omp simd
             for (int l = 0; l < W; ++l) {
-                const double e =
-                    kNoisy ? noisy_energy(a.sigma, signal[at + l], cross[at + l], noise[at + l])
-                           : signal[at + l];
+                const double e = kNoisy ? noisy_energy(a.sigma, signal[first + l], cross[first + l],
+                                                       noise[first + l])
+                                        : signal[first + l];
                 most[l] = e > most[l] ? e : most[l];
             }
         }
 #pragma omp simd
         for (int l = 0; l < W; ++l) {
-            place[l] = most[l] > largest[l] ? phase : place[l];
+            best_phase[l] = most[l] > largest[l] ? phase : best_phase[l];
             largest[l] = most[l] > largest[l] ? most[l] : largest[l];
         }
     }
     for (int l = 0; l < W; ++l) {
         a.largest[l] = largest[l];
-        a.phase[l] = place[l];
+        a.phase[l] = best_phase[l];
     }
 }
 

@@ -54,9 +54,9 @@ Windowing::Windowing(const SpanLayout& layout, int phases, double taper)
     for (const double w : window) {
         weight_squared_.push_back(w * w);
     }
-    const auto place = [&](auto found) { return static_cast<int>(found - window.begin()); };
-    first_ = place(std::ranges::find_if(window, [](double w) { return w != 0.0; }));
-    flat_first_ = place(std::ranges::find_if(window, is_flat));
+    const auto index_of = [&](auto found) { return static_cast<int>(found - window.begin()); };
+    first_ = index_of(std::ranges::find_if(window, [](double w) { return w != 0.0; }));
+    flat_first_ = index_of(std::ranges::find_if(window, is_flat));
     flat_count_ = static_cast<int>(std::ranges::count_if(window, is_flat));
 
     periods_ = (layout.planet_teeth + kSegments - 1) / kSegments;
@@ -191,9 +191,9 @@ int Windowing::search(double sigma, std::span<double> tooth_rms) const {
     const double samples = static_cast<double>(phases_) * layout_.ring_teeth;
     for (int j = 0; j < layout_.planet_teeth; ++j) {
         const int t = j % periods_ * phases_ + offset;
-        const std::size_t at = static_cast<std::size_t>(t) * kSegments + j / periods_;
+        const std::size_t index = static_cast<std::size_t>(t) * kSegments + j / periods_;
         tooth_rms[j] = std::sqrt(
-            energy_at_level(sigma, signal.energy[at], cross.energy[at], noise.energy[at]) /
+            energy_at_level(sigma, signal.energy[index], cross.energy[index], noise.energy[index]) /
             samples);
     }
     return offset;

@@ -1,8 +1,4 @@
-// Compliance of the contact of two teeth, m/N.
-//     linear          1 / k_h of material.hpp, independent of the load.
-//     load_dependent  k_h = E^0.9 L^0.8 F^0.1 / 1.37 with the pair's own force F; Yang (2022),
-//                     Eq. 19. Secant stiffness: F / k_h is the approach. For helical teeth times
-//                     Material::contact_factor^1.1.
+// Compliance of tooth contacts, and the shares of the load of the tooth pairs that touch.
 #pragma once
 
 #include <array>
@@ -11,6 +7,11 @@
 
 namespace gearpod::stiffness {
 
+// Compliance of the contact of two teeth, m/N.
+//     linear          1 / k_h of material.hpp, independent of the load.
+//     load_dependent  k_h = E^0.9 L^0.8 F^0.1 / 1.37 with the pair's own force F; Yang (2022),
+//                     Eq. 19. Secant stiffness: F / k_h is the approach. For helical teeth times
+//                     Material::contact_factor^1.1.
 enum class Contact { linear, load_dependent };
 
 class HertzContact {
@@ -34,7 +35,6 @@ class HertzContact {
 //
 // Without coupling and with linear contacts the pairs are springs in parallel. Yang (2022), Eqs.
 // 21-24.
-
 struct TouchingPairs {
     static constexpr int kMost = 8;
     int count = 0;

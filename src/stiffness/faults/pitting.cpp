@@ -84,15 +84,15 @@ class PittingFault : public ToothFault {
     }
 
     // Area and moment of inertia are per unit of face width.
-    void add_section(double weight, const ToothSection& at, SectionMoments& lost) const {
-        const double t = 2 * at.half_thickness, d = family_.band_.depth_m;
+    void add_section(double weight, const ToothSection& section, SectionMoments& lost) const {
+        const double t = 2 * section.half_thickness, d = family_.band_.depth_m;
         const double area = t - width_ * d;
         const double arm = (t - d) / 2;
         const double inertia =
             t * t * t / 12 - width_ * d * d * d / 12 - width_ * d * (t / area) * arm * arm;
-        const double x = at.axial - family_.profile_.root_axial();
-        const double bending = weight * at.axial_slope * (1 / inertia - 12 / (t * t * t));
-        const double direct = weight * at.axial_slope * (1 / area - 1 / t);
+        const double x = section.axial - family_.profile_.root_axial();
+        const double bending = weight * section.axial_slope * (1 / inertia - 12 / (t * t * t));
+        const double direct = weight * section.axial_slope * (1 / area - 1 / t);
         lost.bending[0] += bending;
         lost.bending[1] += bending * x;
         lost.bending[2] += bending * x * x;

@@ -24,7 +24,7 @@ bool CrackSurface::uniform() const {
 }
 
 // q = q1 + (q2 - q1) t. q^2 is linear in z, so z / L_c = (q^2 - q1^2) / (q2^2 - q1^2).
-double CrackSurface::place(double t) const {
+double CrackSurface::z_at(double t) const {
     return length_m * t * (2 * depth_m + (end_depth_m - depth_m) * t) / (depth_m + end_depth_m);
 }
 
@@ -41,15 +41,15 @@ double CrackSurface::height(double z) const {
 }
 
 Crack CrackSurface::crack(double t) const {
-    const double z = place(t);
+    const double z = z_at(t);
     return {depth_m + (end_depth_m - depth_m) * t,
             angle_rad + (end_angle_rad - angle_rad) * z / face_width_m, height(z)};
 }
 
 CrackSurface CrackGrowth::at(double stage, double face_width_m) const {
-    const double place = std::clamp(stage, 0.0, static_cast<double>(stages()));
-    const int to = std::max(1, static_cast<int>(std::ceil(place)));  // stage, entry to - 1
-    const double share = place - (to - 1);
+    const double position = std::clamp(stage, 0.0, static_cast<double>(stages()));
+    const int to = std::max(1, static_cast<int>(std::ceil(position)));  // stage, entry to - 1
+    const double share = position - (to - 1);
     const auto between = [&](const std::vector<double>& list, bool from_nothing) {
         const double target = list[to - 1];
         const double source = to > 1 ? list[to - 2] : from_nothing ? 0 : target;
@@ -111,11 +111,11 @@ using Rule = boost::math::quadrature::gauss<double, kSlicePoints>;
 
 // Gauss abscissas on [-1, 1], ascending, and weights.
 struct GaussPoints {
-    std::array<double, kSlicePoints> at, weight;
+    std::array<double, kSlicePoints> node, weight;
     GaussPoints() {
         for (int i = 0; i < kSlicePoints / 2; ++i) {
-            at[kSlicePoints / 2 + i] = Rule::abscissa()[i];
-            at[kSlicePoints / 2 - 1 - i] = -Rule::abscissa()[i];
+            node[kSlicePoints / 2 + i] = Rule::abscissa()[i];
+            node[kSlicePoints / 2 - 1 - i] = -Rule::abscissa()[i];
             weight[kSlicePoints / 2 + i] = weight[kSlicePoints / 2 - 1 - i] = Rule::weights()[i];
         }
     }
@@ -143,7 +143,7 @@ double zero_between(const std::function<double(double)>& f, double low, double h
 
 SliceRule::SliceRule(int slices) : panels_((slices + kSlicePoints - 1) / kSlicePoints) {
     for (std::size_t panel = 0; panel < panels_; ++panel)
-        for (const double x : kGauss.at)
+        for (const double x : kGauss.node)
             points_.push_back((static_cast<double>(panel) + 0.5 * (1 + x)) /
                               static_cast<double>(panels_));
 }
@@ -185,10 +185,10 @@ void SliceRule::add_part(std::size_t panel, double from, double to,
     for (int i = 0; i < kSlicePoints; ++i) {
         // Coefficient k of the interpolant is (2 k + 1) / 2 sum_i weight P_k f. The integral of P_k
         // is (P_(k+1) - P_(k-1)) / (2 k + 1).
-        const auto at = legendre(kGauss.at[i]);
+        const auto polynomial = legendre(kGauss.node[i]);
         double sum = high[1] - low[1];
         for (int k = 1; k < kSlicePoints; ++k)
-            sum += at[k] * ((high[k + 1] - high[k - 1]) - (low[k + 1] - low[k - 1]));
+            sum += polynomial[k] * ((high[k + 1] - high[k - 1]) - (low[k + 1] - low[k - 1]));
         weights[panel * kSlicePoints + i] += 0.5 * kGauss.weight[i] * sum / (2 * scale);
     }
 }
@@ -426,7 +426,7 @@ class SpatialCrackFault : public ToothFault {
         if (height >= highest_)
             rule_.whole(weights);
         else if (height > lowest_)
-            rule_.where([&](double t) { return height - surface_.height(surface_.place(t)); },
+            rule_.where([&](double t) { return height - surface_.height(surface_.z_at(t)); },
                         samples(), weights);
         return weights;
     }

@@ -1,17 +1,5 @@
-// Shape and growth of a crack whose depth, height and angle vary along the face width. Source: Yang
-// (2022), Eqs. 61-66. The available text lacks signs and roots, so the forms are derived from their
-// limits:
-//
-//     depth    q(z) = q1 sqrt((L_c - z) / L_c)                 partial width: q1 at 0, 0 at L_c
-//              q(z) = sqrt((q2^2 - q1^2) z / L + q1^2)         full width: q1 at 0, q2 at L
-//     height   l(z) = (l2 - l1) (z / L)^2 + l1 [+ (l2 - l1) / a sin(b pi z / L)]
-//     angle    g(z) = (g2 - g1) z / L + g1
-//
-// In both depths z is quadratic in q: a parabola whose axis lies along the width. Without its root
-// the first would be a straight line, contrary to the text, and the q1^2 of the second would not be
-// a length. The square in the height is printed. The wave's (l2 - l1) is printed without the
-// brackets of the first term, as the numerator over a. One form covers both depths and the growth
-// from one to the other: a parabola from q1 at 0 to q2 at L_c, and no crack beyond.
+// Crack whose depth, height and angle vary along the face width, its growth by stages, and the
+// compliance of its tooth in slices.
 #pragma once
 
 #include <functional>
@@ -30,6 +18,21 @@
 
 namespace gearpod::stiffness {
 
+// Shape and growth of a crack whose depth, height and angle vary along the face width. Source: Yang
+// (2022), Eqs. 61-66. The available text lacks signs and roots, so the forms are derived from their
+// limits:
+//
+//     depth    q(z) = q1 sqrt((L_c - z) / L_c)                 partial width: q1 at 0, 0 at L_c
+//              q(z) = sqrt((q2^2 - q1^2) z / L + q1^2)         full width: q1 at 0, q2 at L
+//     height   l(z) = (l2 - l1) (z / L)^2 + l1 [+ (l2 - l1) / a sin(b pi z / L)]
+//     angle    g(z) = (g2 - g1) z / L + g1
+//
+// In both depths z is quadratic in q: a parabola whose axis lies along the width. Without its root
+// the first would be a straight line, contrary to the text, and the q1^2 of the second would not be
+// a length. The square in the height is printed. The wave's (l2 - l1) is printed without the
+// brackets of the first term, as the numerator over a. One form covers both depths and the growth
+// from one to the other: a parabola from q1 at 0 to q2 at L_c, and no crack beyond.
+
 // Shape of a crack along the face width. Lengths in metres. The reference section is the root
 // section, or by fracture mechanics the critical one.
 struct CrackSurface {
@@ -45,7 +48,7 @@ struct CrackSurface {
     bool uniform() const;
     // Functions of the position t along the crack's length, 0 to 1, in which the depth is linear
     // and all other quantities are smooth.
-    double place(double t) const;       // z
+    double z_at(double t) const;        // z
     double stretching(double t) const;  // dz/dt
     Crack crack(double t) const;
     double height(double z) const;  // never below the reference section
@@ -111,13 +114,13 @@ class SliceRule {
 // with q_b = q - l / cos g. It thereby increases the ratio of lever to width by the factor S / S'.
 // The added foundation compliance is included in that of the beam.
 //
-// By fracture mechanics (src/stiffness/teeth/fracture_mechanics.hpp) a slice has the whole tooth's compliance and, in
-// bending, the compliance that the crack adds in a tooth of that depth throughout
-// (src/stiffness/teeth/fracture_mechanics.hpp). This includes the deformation of the root, so the foundation is
-// unchanged. Heights are measured from the critical section. The slices of tooth, contact and mate
-// are in series and these add along the face; the mate counts as an equal healthy tooth. Added in
-// bending alone, slices without a crack would take over the load and hide a crack over part of the
-// face: solid finite elements lose up to four times as much.
+// By fracture mechanics (src/stiffness/teeth/fracture_mechanics.hpp) a slice has the whole tooth's
+// compliance and, in bending, the compliance that the crack adds in a tooth of that depth
+// throughout (src/stiffness/teeth/fracture_mechanics.hpp). This includes the deformation of the
+// root, so the foundation is unchanged. Heights are measured from the critical section. The slices
+// of tooth, contact and mate are in series and these add along the face; the mate counts as an
+// equal healthy tooth. Added in bending alone, slices without a crack would take over the load and
+// hide a crack over part of the face: solid finite elements lose up to four times as much.
 
 // Size: stage of growth, from 0 (healthy) to the number of stages.
 class SpatialCrack : public ToothFaultFamily {

@@ -184,18 +184,20 @@ ElasticRing::Stresses ElasticRing::stresses(double contact_angle) const {
 FoundationCompliance ElasticRing::self(double contact_angle) const {
     // Lever cos a1 u / R, in the direction of the force.
     const double lever = base_radius_ - std::cos(contact_angle), radial = std::sin(contact_angle);
-    const Stresses at = stresses(contact_angle);
+    const Stresses contact_stresses = stresses(contact_angle);
     // The linear stress has a part that balances the lever and a small part due to the root's
     // curvature.
     const double by_lever = 1 / (2 * (std::sin(half_angle_) - half_angle_ * std::cos(half_angle_)));
-    const double by_curvature = at[linear_normal] - by_lever * lever;
+    const double by_curvature = contact_stresses[linear_normal] - by_lever * lever;
     const double displacement =
-        displacement_by_shear_ * at[shear] + displacement_by_linear_ * by_curvature;
-    const double slope = slope_by_shear_ * at[shear] + slope_by_linear_ * by_curvature;
-    return {
-        slope_by_linear_ * by_lever * lever * lever / stretch_,
-        (base_radius_ * displacement_by_linear_ * by_lever + slope) * lever / stretch_,
-        (base_radius_ * displacement + radial * displacement_by_normal_ * at[normal]) / stretch_};
+        displacement_by_shear_ * contact_stresses[shear] + displacement_by_linear_ * by_curvature;
+    const double slope =
+        slope_by_shear_ * contact_stresses[shear] + slope_by_linear_ * by_curvature;
+    return {slope_by_linear_ * by_lever * lever * lever / stretch_,
+            (base_radius_ * displacement_by_linear_ * by_lever + slope) * lever / stretch_,
+            (base_radius_ * displacement +
+             radial * displacement_by_normal_ * contact_stresses[normal]) /
+                stretch_};
 }
 
 double ElasticRing::coupling(double angle_i, double angle_j, int teeth_apart) const {

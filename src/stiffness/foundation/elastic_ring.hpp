@@ -1,3 +1,12 @@
+// Compliance of a gear body as an elastic ring, fixed on one circle and loaded on the other.
+#pragma once
+
+#include <array>
+
+#include "stiffness/foundation/fillet_foundation.hpp"
+
+namespace gearpod::stiffness {
+
 // Elastic annulus in plane strain, fixed on one circle and loaded on the other, harmonic by
 // harmonic (Michell's solution in the form of Kolosov and Muskhelishvili). Lengths are in units of
 // the loaded circle's radius, tractions in units of Young's modulus. On the loaded circle the
@@ -6,13 +15,6 @@
 //     t_r = T_r cos n phi, t_phi = T_t sin n phi   give   u_r = U cos n phi, u_phi = V sin n phi;
 //
 // rotated by a quarter of the period, t_r = T_r sin, t_phi = -T_t cos give U sin, -V cos.
-#pragma once
-
-#include <array>
-
-#include "stiffness/foundation/fillet_foundation.hpp"
-
-namespace gearpod::stiffness {
 
 // Compliance of one harmonic: U = rr T_r + rt T_t, V = rt T_r + tt T_t, symmetric (Betti). Harmonic
 // 0 has rt = 0, and its tt is the twist u_phi under a uniform t_phi.
@@ -62,7 +64,6 @@ class Annulus {
 //
 // An internal gear is fixed at its outer circle. The longer lever of a cracked tooth
 // (FoundationCompliance) does not change the shear.
-
 class ElasticRing : public FilletFoundation {
   public:
     // Largest distance, in teeth, at which neighbours are coupled.

@@ -1,11 +1,4 @@
-// Foundation compliance of Sainsot, Velex and Duverger (2004): a fit to the elastic ring for
-// external gears fixed at the bore,
-//
-//     1/k_f = cos^2 a / (E L) [L (u/S)^2 + M (u/S) + P (1 + Q tan^2 a)],
-//
-// with a the contact angle and S the width of the tooth's root. u is the distance from the root
-// circle to the intersection of the line of action and the tooth's centre line. Yang (2022), Eq.
-// 20. The formula has no coupling between teeth.
+// Models of the gear body's compliance.
 #pragma once
 
 #include <memory>
@@ -16,6 +9,15 @@
 #include "stiffness/foundation/fillet_foundation.hpp"
 
 namespace gearpod::stiffness {
+
+// Foundation compliance of Sainsot, Velex and Duverger (2004): a fit to the elastic ring for
+// external gears fixed at the bore,
+//
+//     1/k_f = cos^2 a / (E L) [L (u/S)^2 + M (u/S) + P (1 + Q tan^2 a)],
+//
+// with a the contact angle and S the width of the tooth's root. u is the distance from the root
+// circle to the intersection of the line of action and the tooth's centre line. Yang (2022), Eq.
+// 20. The formula has no coupling between teeth.
 
 // Coefficients L*, M*, P*, Q*.
 struct SainsotCoefficients {

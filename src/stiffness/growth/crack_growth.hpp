@@ -5,10 +5,11 @@
 // Sections: the plane of the crack, from the root to the height of the other flank, is a strip of
 // the width w = 2 h_root / sin v. v is the angle between crack and centre line. The force across
 // it, and the force's moment about its middle, open a single edge crack in tension and bending
-// (src/stiffness/teeth/fracture_mechanics.hpp). Omitted: shear along the plane (mode II), the body below the plane, and
-// changes of the crack's direction.
+// (src/stiffness/teeth/fracture_mechanics.hpp). Omitted: shear along the plane (mode II), the body
+// below the plane, and changes of the crack's direction.
 //
-// Fracture mechanics: the intensity K_I of src/stiffness/teeth/fracture_mechanics.hpp, from the critical section.
+// Fracture mechanics: the intensity K_I of src/stiffness/teeth/fracture_mechanics.hpp, from the
+// critical section.
 #pragma once
 
 #include <functional>
@@ -71,7 +72,6 @@ class RootCrack {
 // (1963), 528-533. The range is proportional to the load, Delta K = load k(a), so that load and
 // depth separate. The integral of da / (C k(a)^m) from the first depth equals the sum of load^m
 // over the cycles, in any order. The model has no threshold and no retardation by overloads.
-
 struct ParisLaw {
     double factor = 0.0;    // C, m per cycle at a range of 1 Pa m^(1/2)
     double exponent = 0.0;  // m

@@ -65,9 +65,10 @@ ChebyshevSeries ChebyshevSeries::integral_of(std::span<const double> coefficient
     double at_begin = 0;
     for (std::size_t j = 1; j <= n; ++j) {
         const double before = j == 1 ? 2 * c(0) : c(j - 1);
-        const double own = 0.5 * (end - begin) * (before - c(j + 1)) / (2 * static_cast<double>(j));
-        sum.coefficients_[j] = own;
-        at_begin += j % 2 == 0 ? own : -own;
+        const double coefficient =
+            0.5 * (end - begin) * (before - c(j + 1)) / (2 * static_cast<double>(j));
+        sum.coefficients_[j] = coefficient;
+        at_begin += j % 2 == 0 ? coefficient : -coefficient;
     }
     sum.coefficients_[0] = value - at_begin;
     return sum;

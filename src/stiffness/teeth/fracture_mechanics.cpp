@@ -59,9 +59,9 @@ CrackPath::CrackPath(const ToothProfile& profile, double angle_rad, double heigh
       start_(profile.critical()) {
     if (height_m > 0)
         start_ = profile.angle_of_axial(profile.section(start_).axial + sense_ * height_m);
-    const ToothSection at = profile.section(start_);
-    axial_ = at.axial;
-    half_thickness_ = at.half_thickness;
+    const ToothSection section = profile.section(start_);
+    axial_ = section.axial;
+    half_thickness_ = section.half_thickness;
 }
 
 // The tip lies `down` below the start's section. The path ends at the height of the start on the

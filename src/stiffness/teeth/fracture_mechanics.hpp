@@ -26,7 +26,6 @@ enum class CrackLaw { sections, fracture_mechanics };
 // Paris, G. R. Irwin, The Stress Analysis of Cracks Handbook, 1985). The closed form for bending
 // often quoted from the handbook, with (1 - sin)^4, is 2.3 % lower at a / w = 0.3. Shear (K_II) is
 // the handbook's form for a uniform shear stress.
-
 double edge_crack_tension(double share);
 double edge_crack_bending(double share);
 double edge_crack_shear(double share);
@@ -112,7 +111,6 @@ double max_crack_depth(const ToothProfile& profile, CrackLaw law, double angle_r
 //
 // in plane strain, with the intensities above. The beam keeps all its sections. A crack
 // closed by the force is treated as open (linear, as in the finite elements).
-
 class CrackCompliance {
   public:
     // depth_m: along the crack, not negative.

@@ -40,7 +40,6 @@ inline PositionRange positions_within(std::span<const double> ascending, double 
 
 // Stretches of the position axis between transitions (phases in [0, 1), repeated every mesh period)
 // and jumps (positions that do not repeat).
-
 struct Stretch {
     double begin = 0, end = 0;
 };

@@ -93,9 +93,9 @@ void SectionSweep::advance(double to, bool cracked) {
     const auto thickness_at = [&](double u) { return thickness(profile_->half_thickness(u)); };
     for_panels(u_, to, thickness_at, [&](double from, double until) {
         const auto add = [&](double weight, double u) {
-            const ToothSection at = profile_->section(u);
-            add_section(weight * at.axial_slope, at.axial, thickness(at.half_thickness),
-                        2 * at.half_thickness);
+            const ToothSection section = profile_->section(u);
+            add_section(weight * section.axial_slope, section.axial,
+                        thickness(section.half_thickness), 2 * section.half_thickness);
         };
         const double ratio = thickness_at(from) / thickness_at(until);
         if (ratio < kEven && 1 < kEven * ratio && std::abs(from - until) < kShort_rad)

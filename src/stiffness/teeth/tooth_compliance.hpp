@@ -1,6 +1,5 @@
-// Integrals over a tooth's sections that do not depend on the position of the contact. With x = xi
-// - xi_root and the contact angle a1 they give the compliance directly, because the arm is (R_b -
-// xi_root cos a1) - x cos a1.
+// Compliance of a tooth as a beam: integrals over its sections, and the compliance at each contact
+// position.
 #pragma once
 
 #include "stiffness/teeth/crack.hpp"
@@ -8,6 +7,10 @@
 #include "stiffness/teeth/tooth_profile.hpp"
 
 namespace gearpod::stiffness {
+
+// Integrals over a tooth's sections that do not depend on the position of the contact. With x = xi
+// - xi_root and the contact angle a1 they give the compliance directly, because the arm is (R_b -
+// xi_root cos a1) - x cos a1.
 
 // Moments per unit of face width; x in metres.
 struct SectionMoments {

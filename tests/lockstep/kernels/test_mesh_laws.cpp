@@ -114,7 +114,7 @@ TEST_CASE("Undamped tooth pairs that touch one after another conserve energy") {
                 for (std::size_t j = 0; j < 3; ++j) {
                     nodes.tooth_stiffness.insert(nodes.tooth_stiffness.end(), {stiffness[j], 0.0});
                     nodes.tooth_gap.insert(nodes.tooth_gap.end(), {gap[j], 0.0});
-                    nodes.tooth_place.insert(nodes.tooth_place.end(), 2, 0.0);
+                    nodes.tooth_position.insert(nodes.tooth_position.end(), 2, 0.0);
                 }
             }
             masses.in.force_N[dynamics::sun] = 0.0;

@@ -60,8 +60,8 @@ TEST_CASE("Shifts of zero and the standard centre distance give the bits of omit
 TEST_CASE("A shifted gearbox works at its centre distance, its planets at assembly positions") {
     const mc::Study study = test::study_of_text(tests::kExampleStudy, kBell);
     const Scene scene(study);
-    const auto places = gears::planet_places(mc::planetary_train(study));
-    CHECK(places.place == std::vector<int>{0, 32, 63, 95});
+    const auto planets = gears::planet_positions(mc::planetary_train(study));
+    CHECK(planets.step == std::vector<int>{0, 32, 63, 95});
     const double distance = mc::centre_distance_m(study);
     CHECK(distance == 0.1000125);
     for (const mc::SceneMesh& mesh : scene.meshes()) {
@@ -87,7 +87,7 @@ TEST_CASE("A shifted gearbox works at its centre distance, its planets at assemb
     // from the planet's flanks.
     const auto& drivetrain = dynamic_cast<const mc::PlanetaryDrivetrain&>(scene.drivetrain());
     for (int n = 0; n < 4; ++n) {
-        const double turn = places.place[static_cast<std::size_t>(n)] / 126.0;
+        const double turn = planets.step[static_cast<std::size_t>(n)] / 126.0;
         CHECK(std::cos(2 * std::numbers::pi * (drivetrain.pitch_phase(n) - 27 * turn)) ==
               Approx(1).margin(1e-9));
         CHECK(std::cos(2 * std::numbers::pi *
@@ -99,7 +99,7 @@ TEST_CASE("A shifted gearbox works at its centre distance, its planets at assemb
 TEST_CASE("Standard planets that cannot be spaced equally take the nearest positions, too") {
     const auto three =
         mc::planetary_train(test::study_of_text(tests::kExampleStudy, {"gearbox.planets=3"}));
-    CHECK(gears::planet_places(three).place == std::vector<int>{0, 33, 67});
+    CHECK(gears::planet_positions(three).step == std::vector<int>{0, 33, 67});
     const auto four = mc::planetary_train(test::study_of_text(tests::kExampleStudy));
     CHECK(four.positions_rad.empty());
 }

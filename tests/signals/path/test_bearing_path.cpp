@@ -23,7 +23,7 @@ RandomTile with_bearings() {
     return {kLanes, kPlanets + 2, kPhases, 1};
 }
 
-PathGrid path_of(int source, CarrierSense sense, const SensorPlace& sensor) {
+PathGrid path_of(int source, CarrierSense sense, const SensorPosition& sensor) {
     return {BearingSource{source}, kPhases, kSpan, sense, sensor};
 }
 
@@ -40,8 +40,9 @@ TEST_CASE("A bearing's acceleration reaches the sensor as the component of a tur
     const RandomTile tile = with_bearings();
     const TileSignals views = views_of(tile);
     for (const CarrierSense sense : {CarrierSense::positive, CarrierSense::negative}) {
-        for (const SensorPlace& sensor : {SensorPlace{}, SensorPlace{.angle_deg = 72, .gain = 0.5},
-                                          SensorPlace{.angle_deg = 18, .tangential = true}}) {
+        for (const SensorPosition& sensor :
+             {SensorPosition{}, SensorPosition{.angle_deg = 72, .gain = 0.5},
+              SensorPosition{.angle_deg = 18, .tangential = true}}) {
             const PathGrid path = path_of(kPlanets + 1, sense, sensor);
             const int lane = 2;
             const auto signal = synthesize(views, lane, {0}, kSpan, path, 0.0, 0, kSpan.meshes());

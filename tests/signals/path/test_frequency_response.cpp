@@ -134,12 +134,12 @@ struct TravellingLoad {
         tile.te.push_back(te.data());
     }
 
-    std::vector<double> response(int nodal_diameters, const SensorPlace& sensor, CarrierSense sense,
-                                 const HousingResponse& of_ring) const {
+    std::vector<double> response(int nodal_diameters, const SensorPosition& sensor,
+                                 CarrierSense sense, const HousingResponse& of_ring) const {
         PeriodicResponse sum(kLayout.meshes() * kPhases);
         for (const auto axis : {RingLoad::Axis::x, RingLoad::Axis::y}) {
             const PathGrid grid(RingLoad{nodal_diameters, axis},
-                                gears::planet_places({.planets = kPlanets}), kPhases, kLayout,
+                                gears::planet_positions({.planets = kPlanets}), kPhases, kLayout,
                                 sense, sensor);
             sum.add(synthesize(tile, 0, {0}, kLayout, grid, 0.0, 0, kLayout.meshes()),
                     kMeshSampling_Hz, of_ring);

@@ -66,11 +66,11 @@ TEST_CASE("With the carrier fixed the planets keep their positions") {
 TEST_CASE("The path grid holds the angles of planets at given positions, for both directions") {
     // Planets of 16/26/68 at positions 0, 25 and 51 of 84.
     const SpanLayout layout{26, 68, 68};
-    const gears::PlanetPlaces places{{0, 25, 51}, 84};
+    const gears::PlanetPositions planets{{0, 25, 51}, 84};
     const double pi = std::numbers::pi;
     const int phases = 6;
     for (const auto sense : {CarrierSense::positive, CarrierSense::negative}) {
-        const PathGrid grid(path_window("hann"), places, phases, layout, sense);
+        const PathGrid grid(path_window("hann"), planets, phases, layout, sense);
         REQUIRE(grid.planets() == 3);
         double worst = 0.0;
         for (int p = 0; p < phases; ++p) {
@@ -81,7 +81,7 @@ TEST_CASE("The path grid holds the angles of planets at given positions, for bot
                 worst = std::max({worst, std::abs(grid.sine()[place] - std::sin(theta)),
                                   std::abs(grid.cosine()[place] - std::cos(theta))});
                 for (int n = 0; n < 3; ++n) {
-                    const double angle = theta + gears::planet_angle(places, n);
+                    const double angle = theta + gears::planet_angle(planets, n);
                     const int steps = (c - grid.centre()[p * 3 + n] + 68 + 34) % 68 - 34;
                     const double h = 2.0 * pi / 68.0;
                     const double from_sensor = h * (steps + grid.fraction()[p * 3 + n]);

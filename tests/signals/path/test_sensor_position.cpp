@@ -6,7 +6,7 @@
 
 #include "signals/path/transmission_path.hpp"
 
-namespace test_sensor_place {
+namespace test_sensor_position {
 
 using namespace gearpod;
 using namespace gearpod::signals;
@@ -16,9 +16,9 @@ namespace {
 constexpr int kPlanets = 4, kPhases = 6, kPositions = 81;
 constexpr SpanLayout kLayout{31, 81, kPositions};
 
-PathGrid grid_of(const SensorPlace& sensor, CarrierSense sense = CarrierSense::positive) {
+PathGrid grid_of(const SensorPosition& sensor, CarrierSense sense = CarrierSense::positive) {
     return {path_window("hamming"),
-            gears::planet_places({.planets = kPlanets}),
+            gears::planet_positions({.planets = kPlanets}),
             kPhases,
             kLayout,
             sense,
@@ -91,10 +91,10 @@ TEST_CASE("A tangential sensor measures at a right angle, and a gain scales its 
 
 TEST_CASE("Cross-axis sensitivity adds its part of the path at right angles") {
     constexpr double kPart = 0.05;
-    const gears::PlanetPlaces planets = gears::planet_places({.planets = kPlanets});
+    const gears::PlanetPositions planets = gears::planet_positions({.planets = kPlanets});
     for (const auto sense : {CarrierSense::positive, CarrierSense::negative}) {
         for (const bool tangential : {false, true}) {
-            const SensorPlace along{.angle_deg = 50.0, .tangential = tangential},
+            const SensorPosition along{.angle_deg = 50.0, .tangential = tangential},
                 across{.angle_deg = 50.0, .tangential = !tangential},
                 both{.angle_deg = 50.0, .tangential = tangential, .cross_axis = kPart};
             const PathGrid a = grid_of(along, sense), b = grid_of(across, sense),
@@ -105,7 +105,7 @@ TEST_CASE("Cross-axis sensitivity adds its part of the path at right angles") {
                 CHECK(window_at(sum, 1, c, 2) == window_at(a, 1, c, 2));
             }
             // The modal load of an elastic ring.
-            const auto ring = [&](const SensorPlace& sensor) {
+            const auto ring = [&](const SensorPosition& sensor) {
                 return PathGrid(RingLoad{2, RingLoad::Axis::y}, planets, kPhases, kLayout, sense,
                                 sensor);
             };
@@ -127,4 +127,4 @@ TEST_CASE("A sensor at the first one's place has the same bits") {
     CHECK(std::memcmp(first.window(), other.window(), places * kPlanets * sizeof(double)) == 0);
 }
 
-}  // namespace test_sensor_place
+}  // namespace test_sensor_position
