@@ -13,7 +13,7 @@
 #include "mc/library/stiffness_modes.hpp"
 #include "mc/numerics/numerics_choice.hpp"
 #include "mc/plan/scene_error.hpp"
-#include "mc/plan/stage_plan.hpp"
+#include "mc/plan/coupled_shafts.hpp"
 #include "mc/report/page.hpp"
 #include "mc/study/gears.hpp"
 

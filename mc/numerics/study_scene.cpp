@@ -8,7 +8,6 @@
 #include "lockstep/kernels/kernel_table.hpp"
 #include "mc/files/python/python_worker.hpp"
 #include "mc/plan/mesh_loads.hpp"
-#include "mc/plan/stage_plan.hpp"
 #include "mc/study/gears.hpp"
 #include "mc/study/other_sources.hpp"
 

@@ -13,6 +13,10 @@
 
 namespace gearpod::mc {
 
+// Samples of a sensor that are needed: none if the folded squares of its windows are enough, those
+// of the span, or those of the whole signal.
+enum class SampleNeed { none, span, signal };
+
 // Needs by the signal that they refer to: the test record, the baseline record, and the change
 // between them.
 struct ComparedNeeds {

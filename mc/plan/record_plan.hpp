@@ -43,10 +43,6 @@ int whole_turns(const RecordLength& length, const signals::SpanLayout& span,
 void check_record_length(const RecordLength& length, const signals::SpanLayout& span,
                          double mesh_frequency_Hz);
 
-// Samples of a sensor that are needed: none if the folded squares of its windows are enough, those
-// of the span, or those of the whole signal.
-enum class SampleNeed { none, span, signal };
-
 struct RecordPlan {
     // Span after which every tooth of the monitored gear has met every tooth of its mate that it
     // can meet.

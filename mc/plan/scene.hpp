@@ -117,4 +117,17 @@ class Scene {
     std::shared_ptr<const LifePlan> life_;  // null if there are problems
 };
 
+// Studies of the neighbouring stages, with the speed of their common shafts and the sensor of the
+// study. Only their vibration is used: they have no records and one feature. Throws SceneError.
+std::vector<Study> stage_studies(const Study& study);
+
+// Throws SceneError unless the steps of every stage suffice next to the slowest gearbox, and
+// coupled stages can be integrated together: all by the central difference method in double
+// precision with steps that are stable with the shafts, under steady loads of which every shaft
+// bears a part.
+void check_stages(const Study& study, const Scene& scene);
+
+// Statements of stages that have no effect, as notices about the study named `file`.
+Problems stage_notices(const Study& study, const std::string& file);
+
 }  // namespace gearpod::mc

@@ -11,7 +11,7 @@
 #include <variant>
 #include <vector>
 
-#include "mc/plan/record_plan.hpp"
+#include "mc/plan/feature_plan.hpp"
 #include "mc/plan/sampling.hpp"
 #include "mc/study/noise.hpp"
 #include "signals/noise/coloured_noise.hpp"

@@ -7,7 +7,7 @@
 
 #include "lockstep/integrators/sensor_filter.hpp"
 #include "lockstep/tile/superposed_motion.hpp"
-#include "mc/plan/stage_plan.hpp"
+#include "mc/plan/coupled_shafts.hpp"
 #include "mc/study/fluctuations.hpp"
 #include "mc/study/gears.hpp"
 

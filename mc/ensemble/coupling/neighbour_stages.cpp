@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "mc/ensemble/coupling/record_positions.hpp"
-#include "mc/plan/stage_plan.hpp"
+#include "mc/plan/coupled_shafts.hpp"
 
 namespace gearpod::mc {
 namespace {
