@@ -26,10 +26,10 @@ RootCrack::RootCrack(const gears::MeshGeometry& geometry, Profile profile, int w
         throw std::invalid_argument(
             "the crack's angle to the tooth's centre line must lie between 0 and 90 degrees");
     }
-    constexpr int kPositions = 200;
+    constexpr int kTouchPoints = 200;
     const double ratio = geometry.contact_ratio();
-    for (int i = 0; i <= kPositions; ++i) {
-        const double tau = ratio * i / kPositions;
+    for (int i = 0; i <= kTouchPoints; ++i) {
+        const double tau = ratio * i / kTouchPoints;
         // Pairs in contact at the same time are a whole number of mesh periods before and after.
         const double pairs = 1.0 + std::floor(tau) + std::floor(ratio - tau);
         ContactPoint touch = touch_at(tau);
