@@ -62,10 +62,10 @@ void TileSensorRecorder::operator()(int k, const lockstep::MeshRecord& record) {
         acceleration = amplified_acceleration_.data();
     }
     int end = signal_meshes_;
-    if (const auto part = std::ranges::find_if(
-            parts_,
-            [&](const lockstep::SpanPart& part) { return k >= part.first && k < part.end; });
-        part != parts_.end()) {
+    const auto holds = [&](const lockstep::SpanPart& part) {
+        return k >= part.first && k < part.end;
+    };
+    if (const auto part = std::ranges::find_if(parts_, holds); part != parts_.end()) {
         end = std::min(end, std::max(part->end, part->first + record_meshes_));
     }
     for (int mesh = k; mesh < end; mesh += recorded_meshes_) {
