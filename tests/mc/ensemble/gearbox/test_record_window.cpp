@@ -217,6 +217,7 @@ TEST_CASE("Parts of a baseline record include the windows of the test record and
         std::vector<std::string> keys{key};
         if (keys[0].find("speed_noise") != std::string::npos) {
             keys.emplace_back("operation.speed_noise_band_Hz=3");
+            keys.emplace_back("numerics.integrator=rk4");
         }
         CHECK(Scene(real_teeth(keys)).record().same_window == 1);
     }
