@@ -1,4 +1,4 @@
-// What a run computes and stores: batches of gearboxes, the columns of their rows, the detection
+// Ensemble of a run: batches of gearboxes, the columns of their rows, the detection
 // rates that it estimates, and when it stops.
 #pragma once
 

@@ -1,4 +1,4 @@
-// What the gearboxes of a study consist of: members, bodies, stiffness, fault, tooth errors,
+// Plan of the gearboxes of a study: members, bodies, stiffness, fault, tooth errors,
 // variable excitation and neighbouring stages. Turns the inputs of one gearbox into those of its
 // dynamic model.
 #pragma once

@@ -87,9 +87,9 @@ struct RecordSpan {
     bool whole() const { return turns % all_turns == 0; }
 };
 
-// What a results file of lives contains and how it is monitored.
+// Content of a results file of lives, and how it is monitored.
 struct CampaignPlan {
-    // Of a gearbox: its inputs are those that do not vary by record.
+    // Ensemble of the lives; its inputs are those that do not vary by record.
     EnsemblePlan ensemble;
     std::string assumptions;  // see assumptions()
     // Healthy lives that count false alarms, in addition to those that set the thresholds.
@@ -154,7 +154,7 @@ struct LifePlan {
     std::uint64_t seed;
     std::shared_ptr<const Sampler> sampler;  // inputs that vary by record are nominal
     std::shared_ptr<const Drivetrain> drivetrain;
-    // What differs between gearboxes: tooth errors, and keys of random inputs. Keys of random
+    // Differences between gearboxes: tooth errors, and keys of random inputs. Keys of random
     // inputs without effect, because the crack grows to its size.
     std::vector<std::string> gearbox_inputs, ignored_inputs;
     // Crack.

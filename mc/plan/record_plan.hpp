@@ -1,5 +1,5 @@
-// What is recorded of every gearbox: the signals that are integrated, their samples, and the
-// records that are cut from them.
+// Records of every gearbox: the signals that are integrated, their samples, and the records that
+// are cut from them.
 #pragma once
 
 #include <cstddef>

@@ -216,7 +216,7 @@ void RealizationSignals::sensor_features(double noise, features::FeatureInput& i
         range_->clip(samples_);
         windowing_.load(folded_squares(plan_, *gearbox_, samples_));
     }
-    // Of squares that do not contain it.
+    // Clipped squares contain their noise already.
     const double folded_noise = range_ != nullptr ? 0.0 : noise;
     const int offset = windowing_.search(folded_noise, tooth_rms_);
     input.get<features::ToothRms<Member::planet>>() = {tooth_rms_};

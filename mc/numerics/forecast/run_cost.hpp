@@ -53,7 +53,7 @@ struct RunCost {
     int recorded = 0, to_record = 0;
     long meshes = 0;  // total number integrated
     std::size_t lanes = 0;
-    // Of a run: motion that a tile keeps, and tiles that are integrated.
+    // Motion that a tile of the run keeps, and tiles that the run integrates.
     double motion_bytes = 0.0;
     IntegrationCounts integrations;
     MemoryUse memory;
