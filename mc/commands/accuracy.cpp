@@ -41,7 +41,7 @@ int accuracy_command(const AccuracyOptions& options) {
         request.progress = [](const std::string& text) { fmt::print(stderr, "{}\n", text); };
     }
     try {
-        const Planner planner(*made.scene);
+        const Planner& planner = *made.planner;
         planner.check_choice();
         std::vector<PeerResult> peers;
         if (!options.peers.empty()) {

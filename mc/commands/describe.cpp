@@ -251,17 +251,18 @@ int describe_command(const DescribeOptions& options) {
         scene.emplace(*made.scene);
         memory.setup_bytes = peak_memory_bytes();
         print_python_features(scene->features().python);
-        for (const DescriptionSection& section : description_of(*scene)) {
+        const Numerics& numerics = made.planner->facts().numerics;
+        for (const DescriptionSection& section : made.planner->description(numerics)) {
             print_section(section);
         }
-        print_life(*scene);
+        print_life(scene->lives());
         missing = "cost";
-        print_cost(scene->gearbox(), scene->solve(), scene->record(), scene->ensemble(),
-                   scene->study().numerics, made.choice);
+        print_cost(scene->gearbox(), scene->solve(), scene->record(), scene->ensemble(), numerics,
+                   made.choice);
         std::fflush(stdout);
         missing = "computing some gearboxes and their analysis for the forecast";
         before_bytes = peak_memory_bytes();
-        print_forecast(*scene, begun_s + setup_s, options.ranks);
+        print_forecast(*scene, *made.planner, begun_s + setup_s, options.ranks);
     } catch (const machine::Cancelled&) {
         print_omitted(missing, options);
         const double now_bytes = peak_memory_bytes();

@@ -150,7 +150,7 @@ std::optional<InterpolationChoice> prepare_lives(const RunOptions& run, StudySce
     const auto refuse = [&](const SceneError& error) {
         made.problems.push_back({run.study.path, 0, error.key(), error.what(), error.remedy()});
     };
-    for (const SceneError& error : made.scene->life_problems()) {
+    for (const SceneError& error : made.scene->lives().problems) {
         refuse(error);
     }
     if (made.problems.empty()) {
@@ -213,7 +213,7 @@ int lives_study(const LivesOptions& options, const Ranks& ranks) {
     std::optional<InterpolationChoice> choice;
     const StudyScene made =
         load_scene_on_all_ranks(ranks, run.study, interruption, [&](StudyScene& scene) {
-            const auto ignored = keys_without_effect_on_lives(scene.scene->study());
+            const auto& ignored = scene.scene->lives().ignored;
             if (ranks.leads() && !ignored.empty()) {
                 fmt::print(stderr, "{}: `lives` ignores keys that only `run` uses: {}\n",
                            run.study.path, fmt::join(ignored, ", "));
@@ -222,11 +222,8 @@ int lives_study(const LivesOptions& options, const Ranks& ranks) {
         });
     std::unique_ptr<LifeTiles> tiles;
     if (made) {
-        LifePlan plan = choice->plan;
-        // Results state the numbers of torques and speeds.
-        plan.campaign =
-            make_campaign_plan(with_loads(made.scene->study(), plan.torques, plan.speeds));
-        tiles = std::make_unique<LifeTiles>(*made.scene, std::move(plan));
+        tiles = std::make_unique<LifeTiles>(
+            *made.scene, made.planner->life(choice->plan.torques, choice->plan.speeds));
     }
     std::unique_ptr<Checkpoint> checkpoint;
     if (ranks.leads()) {

@@ -84,10 +84,10 @@ struct Prepared {
     MissRateRequest question;
     double confidence = 0.0;
     RequestedSize size;
-    StudyScene made;
 };
 
-Prepared prepare(const MissesOptions& options) {
+// Request and plan of the estimate. Throws std::runtime_error with every problem.
+std::pair<Prepared, StudyScene> prepare(const MissesOptions& options) {
     const StudyResults results = read_study_results(options.results);
     if (!results.source.fault.given()) {
         throw std::runtime_error(options.results + ": its study has no fault");
@@ -102,8 +102,8 @@ Prepared prepare(const MissesOptions& options) {
     prepared.question.size = prepared.size.si;
     prepared.question.gearboxes = options.gearboxes;
     prepared.question.records = options.records;
-    prepared.made = scene_for_results(results, miss_rate_text(results.source, prepared.question));
-    return prepared;
+    return {prepared,
+            scene_for_results(results, miss_rate_text(results.source, prepared.question))};
 }
 
 std::string rate_text(const Prepared& prepared, const MissRateResult& result) {
@@ -187,17 +187,18 @@ nlohmann::json misses_json(const MissesOptions& options, const Prepared& prepare
 int misses_command(const MissesOptions& options) {
     const Ranks ranks;
     const Interruption interruption({});
-    std::optional<Prepared> prepared;
+    Prepared prepared;
+    StudyScene made;
     if (!prepare_together(ranks, options.results, {"--json", options.json}, options.force,
-                          [&] { prepared = prepare(options); })) {
+                          [&] { std::tie(prepared, made) = prepare(options); })) {
         return kBadInput;
     }
     Progress progress(options.gearboxes * options.records, options.quiet || !ranks.leads());
     return compute_together(ranks, progress, options.json, [&] {
-        const MissRateResult result = estimate_miss_rate(*prepared->made.scene, prepared->question,
-                                                         ranks, progress, &interruption);
-        return CommandResult{misses_report(*prepared, result),
-                             misses_json(options, *prepared, result), result.failed};
+        const MissRateResult result =
+            estimate_miss_rate(*made.scene, prepared.question, ranks, progress, &interruption);
+        return CommandResult{misses_report(prepared, result),
+                             misses_json(options, prepared, result), result.failed};
     });
 }
 

@@ -34,7 +34,6 @@ struct PreparedRare {
     RareRateRequest question;
     double confidence = 0.0;
     RequestedSize size;  // if the miss rate is requested
-    StudyScene made;
 };
 
 void request_misses(const StudyResults& results, const RareOptions& options,
@@ -49,7 +48,8 @@ void request_misses(const StudyResults& results, const RareOptions& options,
     prepared.question.threshold = requested.detection->threshold;
 }
 
-PreparedRare prepare_rare(const RareOptions& options) {
+// Request and plan of the estimate. Throws std::runtime_error with every problem.
+std::pair<PreparedRare, StudyScene> prepare_rare(const RareOptions& options) {
     const StudyResults results = read_study_results(options.results);
     Problems problems;
     PreparedRare prepared;
@@ -81,8 +81,7 @@ PreparedRare prepare_rare(const RareOptions& options) {
     question.rate = options.rate;
     question.gearboxes = options.gearboxes;
     prepared.confidence = results.frame.request.confidence;
-    prepared.made = scene_for_results(results, rare_rate_text(results.source, question));
-    return prepared;
+    return {prepared, scene_for_results(results, rare_rate_text(results.source, question))};
 }
 
 std::string unknown_rate_text(const RareRateRequest& question, const RareRateResult& result) {
@@ -222,16 +221,17 @@ nlohmann::json rare_json(const RareOptions& options, const PreparedRare& prepare
 int rare_command(const RareOptions& options) {
     const Ranks ranks;
     const Interruption interruption({});
-    std::optional<PreparedRare> prepared;
+    PreparedRare prepared;
+    StudyScene made;
     if (!prepare_together(ranks, options.results, {"--json", options.json}, options.force,
-                          [&] { prepared = prepare_rare(options); })) {
+                          [&] { std::tie(prepared, made) = prepare_rare(options); })) {
         return kBadInput;
     }
-    Progress progress(largest_gearbox_count(prepared->question), options.quiet || !ranks.leads());
+    Progress progress(largest_gearbox_count(prepared.question), options.quiet || !ranks.leads());
     return compute_together(ranks, progress, options.json, [&] {
-        const RareRateResult result = estimate_rare_rate(*prepared->made.scene, prepared->question,
-                                                         ranks, progress, &interruption);
-        return CommandResult{rare_text(*prepared, result), rare_json(options, *prepared, result),
+        const RareRateResult result =
+            estimate_rare_rate(*made.scene, prepared.question, ranks, progress, &interruption);
+        return CommandResult{rare_text(prepared, result), rare_json(options, prepared, result),
                              result.failed};
     });
 }

@@ -117,14 +117,13 @@ PointState point_state(const RunOptions& run, bool lives) {
         if (!made) {
             return PointState::nothing;  // the run will print the reason
         }
-        const Study& study = made.scene->study();
         const bool are_lives = old.provenance_value("kind") == kLivesKind;
         if (are_lives != lives ||
             !why_not_extendable(old, path, made.scene->ensemble(), Part{}).empty()) {
             return PointState::nothing;  // the run will print why it does not overwrite the file
         }
         const BatchPlan plan =
-            lives ? lives_plan(make_campaign_plan(study)) : plan_of(run, made.scene->ensemble());
+            lives ? lives_plan(made.scene->life().campaign) : plan_of(run, made.scene->ensemble());
         const bool enough = FileRows(path, old).rows() >= plan.rows() ||
                             old.provenance_value("state") == "ended by ensemble.until";
         return enough ? PointState::all : PointState::some;

@@ -198,14 +198,13 @@ std::optional<SolverSetting> finer_setting(const Planner& planner, const Numeric
     return std::nullopt;
 }
 
-std::optional<NumericalError> find_numerical_error(const Scene& plan) {
-    const Planner planner(plan);
+std::optional<NumericalError> find_numerical_error(const Planner& planner) {
     const Numerics& numerics = planner.facts().numerics;
     const auto finer = planner.facts().verified ? finer_setting(planner, numerics) : std::nullopt;
     if (!finer) {
         return std::nullopt;
     }
-    const Scene fine_plan = planner.plan(finer->numerics);
+    const Scene plan = planner.plan(numerics), fine_plan = planner.plan(finer->numerics);
     const EnsemblePlan& ensemble = plan.ensemble();
     const auto pairs = static_cast<std::size_t>(numerics.paired_gearboxes);
     std::vector<GearboxId> ids, healthy;
@@ -334,11 +333,11 @@ void add_lane(const machine::AlignedVector& values, std::size_t lanes,
 
 }  // namespace
 
-std::optional<StepError> find_step_error(const Scene& plan, double most_meshes) {
+std::optional<StepError> find_step_error(const Planner& planner, double most_meshes) {
+    const Scene plan = planner.plan(planner.facts().numerics);
     if (!dynamics::separates(plan.plan().mesh_law)) {
         return std::nullopt;
     }
-    const Planner planner(plan);
     const auto finer = finer_setting(planner, planner.facts().numerics);
     if (!finer) {
         return std::nullopt;
@@ -379,10 +378,11 @@ std::optional<StepError> find_step_error(const Scene& plan, double most_meshes) 
     return error;
 }
 
-std::optional<StepError> find_step_error_of_run(const Scene& plan, std::size_t gearboxes) {
+std::optional<StepError> find_step_error_of_run(const Planner& planner, std::size_t gearboxes) {
     constexpr double kShare = 0.02;
+    const Scene plan = planner.plan(planner.facts().numerics);
     const double tiles = static_cast<double>(gearboxes) / plan.ensemble().lanes;
-    return find_step_error(plan, kShare * tiles * plan.solve().integrated_meshes);
+    return find_step_error(planner, kShare * tiles * plan.solve().integrated_meshes);
 }
 
 std::string step_error_text(const StepError& error) {

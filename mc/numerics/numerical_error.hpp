@@ -10,7 +10,7 @@
 #include "machine/fields.hpp"
 #include "mc/numerics/paired_correction.hpp"
 #include "mc/numerics/solver_setting.hpp"
-#include "mc/plan/scene.hpp"
+#include "mc/plan/planner.hpp"
 #include "mc/results/result_rows.hpp"
 #include "mc/results/results_file.hpp"
 
@@ -26,7 +26,7 @@ std::optional<SolverSetting> finer_setting(const Planner& planner, const Numeric
 // methods of order 2 and above, the difference is the error of the run's own steps to within a
 // sixteenth. Empty unless the
 // study has a tolerance, numerics.verify or numerics.paired_gearboxes (SolverFacts::verified).
-std::optional<NumericalError> find_numerical_error(const Scene& plan);
+std::optional<NumericalError> find_numerical_error(const Planner& planner);
 
 // Numerical and statistical uncertainty of one feature at one noise level.
 struct NumericalContribution {
@@ -62,10 +62,10 @@ std::vector<NumericalContribution> numerical_contributions(
 // Integrates eight test gearboxes over a few mesh periods as a run does, and again with finer
 // steps in double precision. Empty if teeth cannot separate, if the study is quasi-static, or if no
 // gearbox of the pilot succeeds. Also empty if the pilot costs more than `most_meshes` mesh periods
-// of a tile with the steps of `plan`.
-std::optional<StepError> find_step_error(const Scene& plan, double most_meshes);
+// of a tile with the steps of the run.
+std::optional<StepError> find_step_error(const Planner& planner, double most_meshes);
 // The same for a run of this many gearboxes; it may cost a fiftieth of their work.
-std::optional<StepError> find_step_error_of_run(const Scene& plan, std::size_t gearboxes);
+std::optional<StepError> find_step_error_of_run(const Planner& planner, std::size_t gearboxes);
 
 // "3.5e-03 of the sensor signal, ... (rms; 8 gearboxes, 16 mesh periods, 240 against 960 steps)".
 std::string step_error_text(const StepError& error);

@@ -71,8 +71,9 @@ StudyScene make_scene(const std::string& name, StudyReading reading) {
         StudyScene made{std::make_unique<const Scene>(planner.plan(resolved.numerics)),
                         std::move(resolved.choice),
                         {},
-                        std::move(reading.notices)};
-        check_stages(made.scene->study(), *made.scene);
+                        std::move(reading.notices),
+                        planner.with(resolved.numerics)};
+        check_stages(*reading.study, *made.scene);
         for (Problems& more :
              std::array{stage_notices(*reading.study, name), load_warnings(*reading.study, name)}) {
             std::ranges::move(more, std::back_inserter(made.notices));

@@ -14,7 +14,8 @@ struct StudyScene {
     std::unique_ptr<const Scene> scene;    // null: see `problems`
     std::optional<NumericsChoice> choice;  // of the numerics; empty without a tolerance
     Problems problems;
-    Problems notices = {};  // StudyReading::notices
+    Problems notices = {};           // StudyReading::notices
+    std::optional<Planner> planner;  // of the study with the chosen numerics
 
     explicit operator bool() const { return scene != nullptr; }
 };

@@ -75,8 +75,8 @@ std::string sizes(double amplitude, const std::string& rate, double rms, double 
 
 class Describer {
   public:
-    explicit Describer(const Scene& plan)
-        : study_(plan.study()), gearbox_(plan.gearbox()), decay_meshes_(plan.decay_meshes()) {}
+    Describer(const Study& study, const GearboxPlan& gearbox, double decay_meshes)
+        : study_(study), gearbox_(gearbox), decay_meshes_(decay_meshes) {}
 
     std::vector<DescriptionSection> sections() && {
         begin("gearbox");
@@ -819,8 +819,9 @@ DescriptionSection false_alarm_description(const Study& study) {
     return section;
 }
 
-std::vector<DescriptionSection> description_of(const Scene& plan) {
-    return Describer(plan).sections();
+std::vector<DescriptionSection> description_of(const Study& study, const GearboxPlan& gearbox,
+                                               double decay_meshes) {
+    return Describer(study, gearbox, decay_meshes).sections();
 }
 
 }  // namespace gearpod::mc

@@ -259,6 +259,8 @@ std::variant<ParisStart, DepthCurve> growth_of(const Life& life) {
 
 }  // namespace
 
+namespace {
+
 LifePlan make_life_plan(const Study& study, const GearboxPlan& gearbox) {
     const Life& life = study.life;
     std::vector<std::string> used, ignored;
@@ -289,6 +291,8 @@ LifePlan make_life_plan(const Study& study, const GearboxPlan& gearbox) {
             .fracture_toughness_Pa_m05 = life.fracture_toughness_Pa_m05};
 }
 
+}  // namespace
+
 RecordSpan LifePlan::record_span(double speed_rad_s) const {
     return span_of(length, recordings, drivetrain->span(),
                    mesh_frequency_Hz(*drivetrain, speed_rad_s));
@@ -317,8 +321,6 @@ std::string feature_problem(const Study& study, const FeaturePlan& plan, const R
     return least > meshes ? fmt::format("needs {} mesh periods, but a record has {}", least, meshes)
                           : "";
 }
-
-}  // namespace
 
 std::vector<SceneError> life_problems(const Study& study, const FeaturePlan& features,
                                       const GearboxPlan& gearbox) {
@@ -385,6 +387,7 @@ std::vector<SceneError> life_problems(const Study& study, const FeaturePlan& fea
     return problems;
 }
 
+// Keys given in the study that have no effect on lives, because they concern single records.
 std::vector<std::string> keys_without_effect_on_lives(const Study& study) {
     std::vector<std::string> keys;
     if (study.numerics.verify) {
@@ -399,10 +402,13 @@ std::vector<std::string> keys_without_effect_on_lives(const Study& study) {
     return keys;
 }
 
-Study with_loads(Study study, const LoadNumber& torques, const LoadNumber& speeds) {
-    study.life.polynomial_torques = torques.nodes;
-    study.life.polynomial_speeds = speeds.nodes;
-    return study;
-}
+}  // namespace
+
+StudyLives::StudyLives(const Study& study, const FeaturePlan& features, const GearboxPlan& gearbox)
+    : requested(study.life.interval_h),
+      ignored(keys_without_effect_on_lives(study)),
+      problems(life_problems(study, features, gearbox)),
+      plan(problems.empty() ? std::make_shared<const LifePlan>(make_life_plan(study, gearbox))
+                            : nullptr) {}
 
 }  // namespace gearpod::mc

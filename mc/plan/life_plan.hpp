@@ -166,16 +166,14 @@ struct LifePlan {
     RecordSpan record_span(double speed_rad_s) const;
 };
 
-// Precondition: life_problems() is empty.
-LifePlan make_life_plan(const Study& study, const GearboxPlan& gearbox);
+// Lives of a study, or the reasons why it has none whose records can be superposed.
+struct StudyLives {
+    StudyLives(const Study& study, const FeaturePlan& features, const GearboxPlan& gearbox);
 
-// All reasons why the study has no lives whose records can be superposed; empty if it has.
-std::vector<SceneError> life_problems(const Study& study, const FeaturePlan& features,
-                                      const GearboxPlan& gearbox);
-
-// Keys given in the study that have no effect on lives, because they concern single records.
-std::vector<std::string> keys_without_effect_on_lives(const Study& study);
-// The study with these numbers of torques and speeds.
-Study with_loads(Study study, const LoadNumber& torques, const LoadNumber& speeds);
+    bool requested;                        // the study has [life]
+    std::vector<std::string> ignored;      // given keys without effect: they concern single records
+    std::vector<SceneError> problems;      // all reasons
+    std::shared_ptr<const LifePlan> plan;  // null if there are any
+};
 
 }  // namespace gearpod::mc

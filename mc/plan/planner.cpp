@@ -46,12 +46,13 @@ struct Planner::Plans {
 
     std::shared_ptr<const Scene> with(const Numerics& numerics) {
         const auto shares = [&](const std::shared_ptr<const Scene>& plan) {
-            return share_steps(plan->study().numerics, numerics);
+            return share_steps(plan->solve().settings.numerics, numerics);
         };
         const auto known = std::ranges::find_if(graded, shares);
         const std::shared_ptr<const Scene> base = known != graded.end() ? *known : last;
-        const auto made = base ? std::make_shared<const Scene>(base->with(numerics))
-                               : std::make_shared<const Scene>(with_numerics(study, numerics));
+        const Study changed = with_numerics(study, numerics);
+        const auto made = base ? std::make_shared<const Scene>(base->with_numerics_of(changed))
+                               : std::make_shared<const Scene>(changed);
         if (numerics.grid == StepGrid::graded && known == graded.end()) {
             graded.push_back(made);
         }
@@ -64,13 +65,11 @@ struct Planner::Plans {
 
 Planner::Planner(const Study& study) : plans_(new Plans{study, facts_of(study), nullptr, {}}) {}
 
-Planner::Planner(const Scene& plan) {
-    SolverFacts facts = facts_of(plan.study());
-    facts.numerics = without_tolerance(facts.numerics);
-    plans_.reset(new Plans{with_numerics(plan.study(), facts.numerics),
-                           facts,
-                           std::make_shared<const Scene>(plan),
-                           {}});
+Planner Planner::with(const Numerics& numerics) const {
+    SolverFacts facts = facts_of(with_numerics(plans_->study, numerics));
+    facts.numerics = without_tolerance(numerics);
+    return Planner(std::make_shared<Plans>(with_numerics(plans_->study, numerics), facts,
+                                           plans_->last, plans_->graded));
 }
 
 const SolverFacts& Planner::facts() const {
@@ -116,15 +115,15 @@ void Planner::check_choice() const {
 }
 
 double Planner::fastest_mode_Hz(const Numerics& numerics) const {
-    const Scene plan = this->plan(numerics);
-    return dynamics::natural_frequencies_Hz(
-               dynamics::assemble(plan.plan().layout, plan.inputs(nominal_inputs(plans_->study)),
-                                  plan.mean_pairs()))
+    const GearboxPlan& gearbox = plans_->with(numerics)->gearbox();
+    return dynamics::natural_frequencies_Hz(dynamics::assemble(gearbox.bodies.layout,
+                                                               gearbox.inputs(gearbox.nominal),
+                                                               gearbox.stiffness->mean_pairs()))
         .back();
 }
 
 Planner Planner::with_gearboxes(long gearboxes) const {
-    Study fewer = plans_->study;
+    Study fewer = with_numerics(plans_->study, facts().numerics);
     Ensemble& e = fewer.ensemble;
     e.until = {};
     const double share =
@@ -143,7 +142,7 @@ Planner Planner::with_short_records(const signals::SpanLayout& span,
                                     double mesh_frequency_Hz) const {
     const Study plain = with_numerics(plans_->study, without_tolerance(facts().numerics));
     if (reason_not_periodic(plain).empty()) {
-        return Planner(Scene(plain));
+        return Planner(plain);
     }
     Study brief = plain;
     brief.sensor.record_turns.reset();
@@ -151,14 +150,33 @@ Planner Planner::with_short_records(const signals::SpanLayout& span,
     brief.sensor.record_s =
         (kLeastRecordTurns * span.planet_teeth + 0.5) / std::abs(mesh_frequency_Hz);
     try {
-        return Planner(Scene(brief));
+        const Planner planner(brief);
+        planner.plan(brief.numerics);
+        return planner;
     } catch (const SceneError&) {
-        return Planner(Scene(plain));
+        return Planner(plain);
     }
 }
 
 std::vector<EffectVariant> Planner::effect_variants() const {
     return mc::effect_variants(plans_->study);
+}
+
+std::vector<DescriptionSection> Planner::description(const Numerics& numerics) const {
+    const std::shared_ptr<const Scene> plan = plans_->with(numerics);
+    return description_of(with_numerics(plans_->study, numerics), plan->gearbox(),
+                          plan->decay_meshes());
+}
+
+LifePlan Planner::life(const LoadNumber& torques, const LoadNumber& speeds) const {
+    Study study = plans_->study;
+    study.life.polynomial_torques = torques.nodes;
+    study.life.polynomial_speeds = speeds.nodes;
+    LifePlan plan = plans_->with(facts().numerics)->life();
+    plan.torques = torques;
+    plan.speeds = speeds;
+    plan.campaign = make_campaign_plan(study);
+    return plan;
 }
 
 Numerics without_tolerance(Numerics numerics) {

@@ -7,9 +7,11 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "lockstep/integrators/method.hpp"
+#include "mc/plan/description.hpp"
 #include "mc/plan/scene.hpp"
 
 namespace gearpod::mc {
@@ -52,8 +54,8 @@ struct PlannedSteps {
 class Planner {
   public:
     explicit Planner(const Study& study);
-    // For the study of a plan, which is shared. Its tolerances are resolved, so it has none.
-    explicit Planner(const Scene& plan);
+    // The same study with numerics that were chosen, and without a tolerance for them.
+    Planner with(const Numerics& numerics) const;
 
     const SolverFacts& facts() const;
     // Plan with these numerics, whose tolerances are not resolved; steps(): its steps. Throw
@@ -77,9 +79,15 @@ class Planner {
     Planner with_short_records(const signals::SpanLayout& span, double mesh_frequency_Hz) const;
     // Plans of the study without each optional effect that it has, and with each that it lacks.
     std::vector<EffectVariant> effect_variants() const;
+    // What the study means for a gearbox with these numerics, in sections for people.
+    std::vector<DescriptionSection> description(const Numerics& numerics) const;
+    // Plan of the study's lives, integrated at these numbers of torques and speeds. Throws
+    // SceneError if it has none.
+    LifePlan life(const LoadNumber& torques, const LoadNumber& speeds) const;
 
   private:
     struct Plans;
+    explicit Planner(std::shared_ptr<Plans> plans) : plans_(std::move(plans)) {}
     std::shared_ptr<Plans> plans_;
 };
 

@@ -179,8 +179,7 @@ bool share_steps(Numerics a, const Numerics& b) {
 }
 
 Scene::Scene(const Study& study)
-    : study_(with_gears(study)),
-      ensemble_(std::make_shared<const EnsemblePlan>(study)),
+    : ensemble_(std::make_shared<const EnsemblePlan>(with_gears(study))),
       sampler_(std::make_shared<const Sampler>(DrawPlan(study))) {
     auto gearbox = std::make_shared<GearboxPlan>(study);
     auto steps = std::make_shared<const ScenePlan>(make_plan(study, *sampler_, *gearbox));
@@ -194,43 +193,33 @@ Scene::Scene(const Study& study)
     record_ = make_record_plan(study, *gearbox_, features_, *sensors_, samples, steps->te_samples);
     solve_ = std::make_shared<const SolvePlan>(SolveSettings(study), *gearbox_, record_,
                                                std::move(steps));
-    plan_life();
-}
-
-void Scene::plan_life() {
-    life_problems_ = mc::life_problems(study_, features_, *gearbox_);
-    if (life_problems_.empty()) {
-        life_ = std::make_shared<const LifePlan>(make_life_plan(study_, *gearbox_));
-    } else {
-        life_ = nullptr;
-    }
+    lives_ = std::make_shared<const StudyLives>(study, features_, *gearbox_);
 }
 
 const LifePlan& Scene::life() const {
-    if (!life_) {
-        throw life_problems_.front();
+    if (!lives_->plan) {
+        throw lives_->problems.front();
     }
-    return *life_;
+    return *lives_->plan;
 }
 
-Scene Scene::with(const Numerics& numerics) const {
-    const Numerics& given = study_.numerics;
+Scene Scene::with_numerics_of(const Study& study) const {
+    const Numerics &given = solve_->settings.numerics, &numerics = study.numerics;
     const bool same_stiffness = given.stiffness_tolerance == numerics.stiffness_tolerance &&
                                 given.face_slices == numerics.face_slices;
     Scene scene = *this;
-    scene.study_.numerics = numerics;
-    scene.ensemble_ = std::make_shared<const EnsemblePlan>(scene.study_);
+    scene.ensemble_ = std::make_shared<const EnsemblePlan>(study);
     if (!same_stiffness) {
-        auto gearbox = std::make_shared<GearboxPlan>(scene.study_);
+        auto gearbox = std::make_shared<GearboxPlan>(study);
         gearbox->stages = gearbox_->stages;
         scene.gearbox_ = std::move(gearbox);
     }
-    const auto steps = share_steps(given, numerics)
-                           ? solve_->steps
-                           : std::make_shared<const ScenePlan>(
-                                 make_plan(scene.study_, *sampler_, *scene.gearbox_));
-    scene.solve_ = std::make_shared<const SolvePlan>(SolveSettings(scene.study_), *scene.gearbox_,
-                                                     record_, steps);
+    const auto steps =
+        share_steps(given, numerics)
+            ? solve_->steps
+            : std::make_shared<const ScenePlan>(make_plan(study, *sampler_, *scene.gearbox_));
+    scene.solve_ =
+        std::make_shared<const SolvePlan>(SolveSettings(study), *scene.gearbox_, record_, steps);
     return scene;
 }
 

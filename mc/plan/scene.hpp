@@ -31,20 +31,17 @@ class Scene {
     Scene(const Scene&) = default;
     Scene& operator=(const Scene&) = delete;
 
-    // Scene of the same gearboxes with other numerics. The stiffness is recomputed only for another
-    // stiffness_tolerance or face_slices; the plan is shared if share_steps().
-    // Throws SceneError.
-    Scene with(const Numerics& numerics) const;
+    // Scene of this study, which is that of the scene with other numerics. The stiffness is
+    // recomputed only for another stiffness_tolerance or face_slices; the steps are shared if
+    // share_steps(). Throws SceneError.
+    Scene with_numerics_of(const Study& study) const;
     // The same scene with at most this many recorded mesh periods, which the signal repeats. Used
     // to measure the cost of time integration.
     Scene recording_at_most(int meshes) const;
 
-    const Study& study() const { return study_; }
-    // Reasons why the study has no lives whose records can be superposed; empty if it has.
-    const std::vector<SceneError>& life_problems() const { return life_problems_; }
-    // Throws the first of them.
+    const StudyLives& lives() const { return *lives_; }
+    // Throws SceneError if there are none.
     const LifePlan& life() const;
-    bool life_requested() const { return study_.life.interval_h.has_value(); }
     // Draws the gearboxes of the study.
     const Sampler& sampler() const { return *sampler_; }
     const DrawPlan& draw() const { return sampler_->plan(); }
@@ -102,9 +99,6 @@ class Scene {
     }
 
   private:
-    void plan_life();
-
-    Study study_;
     std::shared_ptr<const EnsemblePlan> ensemble_;
     std::shared_ptr<const Sampler> sampler_;
     std::shared_ptr<const GearboxPlan> gearbox_;
@@ -113,8 +107,7 @@ class Scene {
     FeaturePlan features_;
     RecordPlan record_;
     std::shared_ptr<const std::vector<SensorPlan>> sensors_;
-    std::vector<SceneError> life_problems_;
-    std::shared_ptr<const LifePlan> life_;  // null if there are problems
+    std::shared_ptr<const StudyLives> lives_;
 };
 
 // Studies of the neighbouring stages, with the speed of their common shafts and the sensor of the

@@ -112,7 +112,8 @@ std::vector<int> part_periods(const GearboxPlan& gearbox) {
 }  // namespace
 
 SolveSettings::SolveSettings(const Study& study)
-    : horizon(study.numerics.horizon),
+    : numerics(study.numerics),
+      horizon(study.numerics.horizon),
       quasi_static(study.effects.quasi_static()),
       repeats(reason_not_periodic(study).empty()),
       convergence_tolerance(resolved_tolerance(study.numerics)),

@@ -39,6 +39,7 @@ using SolutionStrategy =
 struct SolveSettings {
     explicit SolveSettings(const Study& study);
 
+    Numerics numerics;  // as the study gives them
     Horizon horizon;
     bool quasi_static;
     bool repeats;                  // all mesh periods of a healthy gearbox are equal

@@ -48,6 +48,7 @@ class Run {
         std::unique_ptr<Checkpoint> checkpoint, double setup_s)
         : options_(options),
           scene_(*made.scene),
+          planner_(made.planner),
           choice_(made.choice),
           ranks_(ranks),
           ensemble_(scene_.ensemble()),
@@ -124,9 +125,9 @@ class Run {
         try {
             all.signals = chosen_signals(options_, scene_);
             if (part_.empty()) {  // for a part, `merge` computes them
-                all.numerical = find_numerical_error(scene_);
-                all.step_error =
-                    find_step_error_of_run(scene_, plan_.threshold_gearboxes() + plan_.test_rows());
+                all.numerical = find_numerical_error(*planner_);
+                all.step_error = find_step_error_of_run(
+                    *planner_, plan_.threshold_gearboxes() + plan_.test_rows());
             }
         } catch (const machine::Cancelled&) {
             const std::string reason = interruption.reason({});
@@ -249,6 +250,7 @@ class Run {
 
     const RunOptions& options_;
     const Scene& scene_;
+    const std::optional<Planner>& planner_;
     const std::optional<NumericsChoice>& choice_;
     const Ranks& ranks_;
     const EnsemblePlan& ensemble_;

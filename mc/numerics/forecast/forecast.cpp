@@ -379,9 +379,8 @@ double gearboxes_s(const RunCost& calibration, const BatchPlan& plan,
     return last;
 }
 
-double verification_s(const Scene& plan, const RunCost& cost) {
+double verification_s(const Planner& planner, const RunCost& cost) {
     const auto start = WallClock::now();
-    const Planner planner(plan);
     const SolverFacts& facts = planner.facts();
     const auto finer = facts.verified ? finer_setting(planner, facts.numerics) : std::nullopt;
     if (!finer) {

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "mc/numerics/forecast/run_cost.hpp"
+#include "mc/plan/planner.hpp"
 #include "mc/results/results_file.hpp"
 
 namespace gearpod::mc {
@@ -60,7 +61,7 @@ double memory_bytes(const MemoryUse& memory, const IntegrationCounts& integratio
                     double motion_bytes, double analysis_bytes);
 
 // Time for integrating some gearboxes again if the run verifies its numerics; 0 otherwise.
-double verification_s(const Scene& plan, const RunCost& cost);
+double verification_s(const Planner& planner, const RunCost& cost);
 
 // Lower limit of the additional memory of a run: the motion of one tile per thread, or the columns
 // of the analysis. See memory_bytes() for an estimate.

@@ -37,7 +37,7 @@ class Simulator {
           lengths_(lengths),
           summary_(summary) {}
 
-    int lanes() const { return scene_.study().numerics.lanes; }
+    int lanes() const { return scene_.solve().settings.lanes; }
 
     // Values [item][background][record][feature]; empty for a gearbox that failed.
     std::vector<RecordValues> run(std::span<const Item> items) const {

@@ -223,8 +223,8 @@ void print_step_forecast(const Scene& scene, const PeakMemory& memory) {
     print_entry("memory", fmt::format("at least {:.0f} MB", least_bytes / 1e6));
 }
 
-void print_forecast(const Scene& scene, double setup_s, int ranks) {
-    if (ranks == 0 && scene.life_problems().empty()) {
+void print_forecast(const Scene& scene, const Planner& planner, double setup_s, int ranks) {
+    if (ranks == 0 && scene.lives().problems.empty()) {
         try {
             return print_lives_forecast(scene, setup_s);
         } catch (const SceneError&) {  // the records of some gearbox are too short
@@ -237,7 +237,7 @@ void print_forecast(const Scene& scene, double setup_s, int ranks) {
     const AnalysisTrial trial =
         measure_analysis(scene.sampler(), ensemble, calibration, plan, threads, kBudget_s);
     const RunForecast forecast =
-        forecast_run(calibration, plan, trial, verification_s(scene, calibration), setup_s);
+        forecast_run(calibration, plan, trial, verification_s(planner, calibration), setup_s);
     if (!ensemble.meshes.empty()) {
         print_heading("contact");
     }
@@ -252,7 +252,7 @@ void print_forecast(const Scene& scene, double setup_s, int ranks) {
     if (!ensemble.meshes.empty() && !scene.solve().settings.quasi_static) {
         constexpr double kMost_s = 1.0;
         const auto error = find_step_error(
-            scene,
+            planner,
             kMost_s / mesh_period_s(scene.draw(), scene.gearbox(), scene.solve(), scene.record()));
         print_entry("time step error",
                     error ? step_error_text(*error)

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "mc/numerics/forecast/forecast.hpp"
-#include "mc/plan/scene.hpp"
+#include "mc/plan/planner.hpp"
 
 namespace gearpod::mc {
 
@@ -36,8 +36,8 @@ RankForecast forecast_ranks(const RunCost& calibration, const BatchPlan& plan,
 
 // Computes some gearboxes and their analysis, for a few seconds at most. Prints the estimated time
 // and memory of a run in this process, and in `ranks` such processes unless that is 0.
-// `setup_s`: time used to start the program and build the scene.
-void print_forecast(const Scene& scene, double setup_s, int ranks);
+// `planner`: of the study of `scene`; `setup_s`: time used to start the program and build it.
+void print_forecast(const Scene& scene, const Planner& planner, double setup_s, int ranks);
 
 // Peak memory of this process.
 struct PeakMemory {

@@ -44,18 +44,18 @@ std::string load_text(const RecordDistribution& law, const LoadNumber& number, d
 
 }  // namespace
 
-void print_life(const Scene& scene) {
-    if (!scene.life_requested()) {
+void print_life(const StudyLives& lives) {
+    if (!lives.requested) {
         return;
     }
     print_heading("lives");
-    if (!scene.life_problems().empty()) {
-        const SceneError& problem = scene.life_problems().front();
+    if (!lives.problems.empty()) {
+        const SceneError& problem = lives.problems.front();
         print_entry("no lives",
                     fmt::format("{}: {}; {}", problem.key(), problem.what(), problem.remedy()));
         return;
     }
-    const LifePlan& plan = scene.life();
+    const LifePlan& plan = *lives.plan;
     const RecordDistributions& laws = plan.distributions;
     print_entry("record", plan.record);
     print_entry("random per gearbox",

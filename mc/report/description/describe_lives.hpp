@@ -9,7 +9,7 @@
 namespace gearpod::mc {
 
 // Prints nothing for a study without lives.
-void print_life(const Scene& scene);
+void print_life(const StudyLives& lives);
 
 // Forecast of a study's `lives`: time, memory and file size, before any gearbox is integrated.
 

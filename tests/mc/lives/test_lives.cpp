@@ -46,7 +46,7 @@ TEST_CASE("A record equals its gearbox integrated at that depth and torque") {
         const auto integrated_features =
             features.compute(mc::lane_signals(scene, tile, 0, scene.signal_meshes()), gearbox);
         for (std::size_t f = 0; f < integrated_features.size(); ++f) {
-            INFO(r << " " << scene.study().features.use[f]);
+            INFO(r << " " << scene.features().used[f]->name);
             CHECK(life.values[f][r] == Approx(integrated_features[f]).epsilon(1e-6));
         }
     }
@@ -163,7 +163,7 @@ TEST_CASE("A change in lives equals that of the snapshot study") {
     const auto values = features.compute(
         mc::lane_signals(snapshot, tile, 0, snapshot.signal_meshes()), tile.realizations.front());
     for (std::size_t f = 0; f < values.size(); ++f) {
-        INFO(snapshot.study().features.use[f]);
+        INFO(snapshot.features().used[f]->name);
         CHECK(life.values[f][0] == Approx(values[f]).epsilon(1e-6));
     }
 }

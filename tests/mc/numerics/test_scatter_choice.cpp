@@ -51,7 +51,7 @@ TEST_CASE("Steps for a share of the scatter keep it on other gearboxes, with few
     Numerics own = resolved.numerics;
     own.scatter_tolerance = own.mass_scaling_Hz = 0.0;
     own.steps_per_mesh = 0;
-    const Scene chosen = planner.plan(resolved.numerics), reference = chosen.with(own);
+    const Scene chosen = planner.plan(resolved.numerics), reference = planner.plan(own);
     CHECK(2 * chosen.plan().grid.steps.size() < reference.plan().grid.steps.size());
     std::vector<GearboxId> others;
     for (std::uint64_t i = 16; i < 32; ++i) {
@@ -59,7 +59,7 @@ TEST_CASE("Steps for a share of the scatter keep it on other gearboxes, with few
     }
     const BatchRows here = rows_of_gearboxes(chosen, others),
                     there = rows_of_gearboxes(reference, others);
-    for (std::size_t f = 0; f < chosen.study().features.use.size(); ++f) {
+    for (std::size_t f = 0; f < chosen.features().used.size(); ++f) {
         const std::vector<double> a = values(chosen, here, f), b = values(reference, there, f);
         std::vector<double> errors;
         for (std::size_t i = 0; i < a.size(); ++i) {
@@ -77,12 +77,13 @@ TEST_CASE("A tighter share of the scatter takes more steps, and the choice can b
         return resolved_plan(study).plan().grid.steps.size();
     };
     CHECK(steps_for("0.005") > steps_for("0.3"));
-    const Study study = resolved_plan(real_teeth({"numerics.scatter_tolerance=0.3"})).study();
+    Study study = real_teeth({"numerics.scatter_tolerance=0.3"});
+    study.numerics = resolve_numerics(Planner(study), study.numerics).numerics;
     const StudyReading back = read_study_text(resolved_text(study), "resolved");
     INFO(format(back.problems));
     REQUIRE(back.study.has_value());
     CHECK(*back.study == study);
-    CHECK(resolved_plan(*back.study).study() == study);
+    CHECK(resolve_numerics(Planner(*back.study), back.study->numerics).numerics == study.numerics);
 }
 
 TEST_CASE("Features with mass scaling have the same bits for any lanes") {
@@ -104,8 +105,7 @@ TEST_CASE("Pairs of a run with mass scaling are healthy and faulty gearboxes in 
          "numerics.paired_gearboxes=10", "sensor.noise_levels=[1]"});
     study.ensemble.threshold_instances = 40;
     study.ensemble.instances = 28;
-    const Scene scene(study);
-    const auto found = find_numerical_error(scene);
+    const auto found = find_numerical_error(Planner(study));
     REQUIRE(found);
     CHECK(found->healthy_pairs == 10);
     CHECK(found->faulty_pairs == 10);
@@ -121,7 +121,7 @@ TEST_CASE("Pairs of a run with mass scaling are healthy and faulty gearboxes in 
 
     study.ensemble.instances = 1;
     study.ensemble.threshold_instances = 1;
-    const auto few = find_numerical_error(Scene(study));
+    const auto few = find_numerical_error(Planner(study));
     REQUIRE(few);
     CHECK(few->healthy_pairs <= 1);
     CHECK(few->faulty_pairs <= 1);

@@ -32,8 +32,8 @@ double mean(const Scene& scene, std::size_t mesh) {
 // mesh.
 TEST_CASE("A mesh of gears with rims and webs has the smaller blank factor of its gears") {
     const Scene discs = scene_with({});
-    const double face_mm = 1e3 * *discs.study().gearbox.face_width_m,
-                 module_mm = 1e3 * *discs.study().gearbox.module_m;
+    const mc::Gearbox gearbox = test::study_of_text(tests::kExampleStudy, kBodies).gearbox;
+    const double face_mm = 1e3 * *gearbox.face_width_m, module_mm = 1e3 * *gearbox.module_m;
     const auto factor = [&](double web_mm, double rim_mm) {
         return 1.0 + std::log(web_mm / face_mm) / (5.0 * std::exp(rim_mm / (5.0 * module_mm)));
     };

@@ -147,38 +147,44 @@ TEST_CASE("A pilot grades the steps of a study, the same in every run") {
 
 TEST_CASE("Scenes of other numerics share unchanged parts, and integrate as if built anew") {
     const Scene scene(test::study_of_text(kFixedShaftStudy, {"numerics.grid=graded"}));
-    const auto with = [&](const std::vector<std::string>& overrides) {
-        return test::study_of_text(kFixedShaftStudy, overrides).numerics;
+    const auto study_with = [&](const std::vector<std::string>& overrides) {
+        return test::study_of_text(kFixedShaftStudy, overrides);
     };
-    const Scene other_tolerance =
-        scene.with(with({"numerics.grid=graded", "numerics.settle_tolerance=1e-4"}));
+    const std::vector<std::string> tolerance{"numerics.grid=graded",
+                                             "numerics.settle_tolerance=1e-4"};
+    const Scene other_tolerance = scene.with_numerics_of(study_with(tolerance));
     CHECK(&other_tolerance.plan() == &scene.plan());
-    CHECK(other_tolerance.study().numerics.convergence_tolerance == 1e-4);
-    const Scene uniform = scene.with(with({}));
+    CHECK(other_tolerance.solve().convergence.tolerance == 1e-4);
+    const Scene uniform = scene.with_numerics_of(study_with({}));
     CHECK(&uniform.meshes() == &scene.meshes());
     CHECK(uniform.plan().grid.steps.size() > scene.plan().grid.steps.size());
-    const Scene thin = scene.with(with({"numerics.stiffness_tolerance=1e-3"}));
+    const std::vector<std::string> coarse{"numerics.stiffness_tolerance=1e-3"};
+    const Scene thin = scene.with_numerics_of(study_with(coarse));
     CHECK(&thin.meshes() != &scene.meshes());
     CHECK(thin.mean_pairs() != scene.mean_pairs());
-    for (const Scene* other : {&other_tolerance, &uniform, &thin}) {
+    for (const auto& [other, overrides] :
+         {std::pair(&other_tolerance, tolerance), std::pair(&uniform, std::vector<std::string>{}),
+          std::pair(&thin, coarse)}) {
         const auto here = run_one(*other).integration,
-                   anew = run_one(Scene(other->study())).integration;
+                   anew = run_one(Scene(study_with(overrides))).integration;
         REQUIRE(here.records.size() == anew.records.size());
         for (std::size_t i = 0; i < here.records.size(); ++i) {
             CHECK(here.records[i].acceleration == anew.records[i].acceleration);
         }
     }
-    CHECK_THROWS_AS(scene.with(with({"numerics.integrator=rk4"})), mc::SceneError);
+    CHECK_THROWS_AS(scene.with_numerics_of(study_with({"numerics.integrator=rk4"})),
+                    mc::SceneError);
 }
 
 TEST_CASE("A scene that records less is otherwise the same") {
-    const Scene scene(test::study_of_text(kFixedShaftStudy));
+    const mc::Study study = test::study_of_text(kFixedShaftStudy);
+    const Scene scene(study);
     const Scene less = scene.recording_at_most(3);
     CHECK(less.recorded_meshes() == 3);
     CHECK(less.signal_meshes() == scene.signal_meshes());
     CHECK(&less.plan() == &scene.plan());
     CHECK(scene.recorded_meshes() == scene.signal_meshes());
-    CHECK(less.with(scene.study().numerics).recorded_meshes() == 3);
+    CHECK(less.with_numerics_of(study).recorded_meshes() == 3);
 }
 
 TEST_CASE(
@@ -270,12 +276,13 @@ TEST_CASE("The features of a fixed-shaft gearbox identify the broken tooth's rev
                                         "kind = \"chip\"\nmember = \"pinion\"\nchip_mm = 8\n"
                                         "chip_height_mm = 2",
                                         "kind = \"broken\"\nmember = \"gear\"\nbroken = 1");
-    const Scene scene(test::study_of_text(broken));
+    const mc::Study study = test::study_of_text(broken);
+    const Scene scene(study);
     CHECK(scene.span().planet_teeth == 48);
     CHECK(scene.span_meshes() == 48 * 19);
     CHECK(scene.pattern().length == 48);
     CHECK(scene.fault().largest_size() == 1.0);
-    const auto results = test::run(scene.study());
+    const auto results = test::run(study);
     const auto ratio = test::feature_index(results, "window_ratio");
     CHECK(results.features[ratio].values[0] == Approx(1.0).epsilon(1e-6));  // healthy
     CHECK(results.features[ratio].values[2] > 2.0);

@@ -36,7 +36,7 @@ mc::Study study_of(const std::string& path) {
 }
 
 // Plan with steps from transition to transition.
-lockstep::IntegrationPlan table_plan(const mc::Scene& scene) {
+lockstep::IntegrationPlan table_plan(const mc::Study& study, const mc::Scene& scene) {
     lockstep::IntegrationPlan plan = scene.plan();
     if (plan.mesh_law != dynamics::MeshLaw::linear) {
         throw std::runtime_error("only for studies without separation and transmission errors");
@@ -46,7 +46,7 @@ lockstep::IntegrationPlan table_plan(const mc::Scene& scene) {
     for (int i = 0; i < kNodes; ++i) {
         plan.grid.stage_nodes.push_back(i / (kNodes - 1.0));
     }
-    plan.nodes = lockstep::tabulate(scene.pairs(), plan.grid, scene.study().effects.mesh_damping);
+    plan.nodes = lockstep::tabulate(scene.pairs(), plan.grid, study.effects.mesh_damping);
     return plan;
 }
 
@@ -97,7 +97,7 @@ std::vector<double> lane_of(const machine::AlignedVector& values, std::size_t la
 
 void write_problem(const mc::Study& study) {
     const mc::Scene scene(study);
-    const lockstep::IntegrationPlan plan = table_plan(scene);
+    const lockstep::IntegrationPlan plan = table_plan(study, scene);
     json all{{"samples", scene.samples_per_mesh()},
              {"meshes", scene.pattern().length},
              {"low_pass_rad_s", plan.low_pass_rad_s},
@@ -186,7 +186,7 @@ Signals read_signals(const mc::Scene& scene, const std::string& argument) {
 
 void grade(const mc::Study& study, const std::vector<std::string>& arguments) {
     const mc::Scene scene(study);
-    const mc::Pilot pilot{mc::Planner(scene)};
+    const mc::Pilot pilot{mc::Planner(study)};
     const mc::Reference reference = mc::converged_reference(pilot, study.numerics, {});
     fmt::print("name,command,integration_s,mesh_s,sensor,te,{}\n",
                fmt::join(study.features.use, ","));

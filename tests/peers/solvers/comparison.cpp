@@ -21,9 +21,9 @@ mc::PilotRecord some_of(const mc::PilotRecord& all, int first, int last) {
     return some;
 }
 
-mc::PilotError error_of(const mc::Scene& scene, const std::vector<lockstep::MeshRecord>& records,
+mc::PilotError error_of(const mc::Study& study, const std::vector<lockstep::MeshRecord>& records,
                         int first, int last, const mc::PilotRecord& reference) {
-    const mc::PilotRecord all = mc::Pilot(mc::Planner(scene)).record_of_integration([&](auto) {
+    const mc::PilotRecord all = mc::Pilot(mc::Planner(study)).record_of_integration([&](auto) {
         lockstep::TileResult integration;
         integration.records = records;
         integration.content.resize(records.size());

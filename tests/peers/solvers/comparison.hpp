@@ -11,7 +11,7 @@ namespace gearpod::peers {
 
 // Error of the features of gearboxes first to last - 1 from the records, against those of
 // `reference`. The records contain the fault's whole pattern.
-mc::PilotError error_of(const mc::Scene& scene, const std::vector<lockstep::MeshRecord>& records,
+mc::PilotError error_of(const mc::Study& study, const std::vector<lockstep::MeshRecord>& records,
                         int first, int last, const mc::PilotRecord& reference);
 
 // Reference reduced to those gearboxes.

@@ -18,7 +18,8 @@ int kind(int i) {
 }  // namespace
 
 GearpodSolver::GearpodSolver(const Options& options)
-    : scene_(study_of(options, {"numerics.integrator=rk4"}).study),
+    : study_(study_of(options, {"numerics.integrator=rk4"}).study),
+      scene_(study_),
       fine_(study_of(options,
                      {"numerics.integrator=rk4", fmt::format("numerics.steps_per_mesh={}",
                                                              2 * scene_.plan().grid.steps.size())})

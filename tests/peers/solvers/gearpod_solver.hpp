@@ -15,6 +15,7 @@ class GearpodSolver {
     explicit GearpodSolver(const Options& options);
 
     const Task& task() const { return task_; }
+    const mc::Study& study() const { return study_; }
     const mc::Scene& scene() const { return scene_; }
 
     // Processor seconds per mesh period of the tile, in doubles by the scene's rk4.
@@ -24,6 +25,7 @@ class GearpodSolver {
     void start();
     double start_value(int i) const;
 
+    const mc::Study study_;
     const mc::Scene scene_, fine_;
     GearboxInputs8 gearboxes_;
     StiffnessTables tables_, fine_tables_;

@@ -14,10 +14,9 @@ namespace {
 
 void compare(const Options& options) {
     GearpodSolver own(options);
-    const mc::Pilot pilot{mc::Planner(own.scene())};
+    const mc::Pilot pilot{mc::Planner(own.study())};
     fmt::print(stderr, "reference: two methods until they agree\n");
-    const mc::Reference reference =
-        mc::converged_reference(pilot, own.scene().study().numerics, {});
+    const mc::Reference reference = mc::converged_reference(pilot, own.study().numerics, {});
     StepTable steps(own, reference);
     steps.measure_errors();
     SpanTable span(options, own, pilot, reference);

@@ -26,7 +26,7 @@ SpanTable::SpanTable(const Options& options, GearpodSolver& own, const mc::Pilot
       resolved_(study_of(options, {fmt::format("numerics.tolerance={}", options.error)})),
       chosen_(resolved_.study) {
     span_ = kRunIn + own.scene().span_meshes();
-    const mc::PilotRecord record = pilot.run(chosen_.study().numerics);
+    const mc::PilotRecord record = pilot.run(resolved_.study.numerics);
     rows_.push_back({"gearpod, " + resolved_.choice->setting.text(),
                      {},
                      record.meshes_per_tile(),
@@ -78,7 +78,7 @@ std::optional<Attempt> SpanTable::attempt(const std::string& name, const Way& wa
     }
     Attempt done{
         tolerance, run.steps,
-        error_of(own_.scene(), run.records, kLargestCrack, kLargestCrack + 1, reference_.record)};
+        error_of(own_.study(), run.records, kLargestCrack, kLargestCrack + 1, reference_.record)};
     done.within = done.error.largest_feature() <= options_.error;
     fmt::print(stderr,
                "worst feature {:.1e}, sensor {:.1e}, {:.0f} steps a mesh period, {:.1f} s\n",
@@ -174,18 +174,18 @@ void SpanTable::add_to(nlohmann::ordered_json& part) const {
 void SpanTable::write(const std::string& path) const {
     std::ofstream file(path);
     file << "name,command,integration_s,mesh_s,sensor,te";
-    for (const std::string& feature : own_.scene().study().features.use) {
+    for (const std::string& feature : own_.study().features.use) {
         file << ',' << feature;
     }
     file << '\n';
-    const int levels = static_cast<int>(own_.scene().study().sensor.noise_levels.size());
+    const int levels = static_cast<int>(own_.study().sensor.noise_levels.size());
     for (std::size_t i = 2; i < rows_.size(); ++i) {
         const Row& row = rows_[i];
         const double integration_s = median(row.times);
         file << fmt::format("\"{}\",peer_solvers,{:.6g},{:.6g},{:.6g},{:.6g}", row.name,
                             integration_s, integration_s / row.meshes, row.error->sensor,
                             row.error->te);
-        for (std::size_t f = 0; f < own_.scene().study().features.use.size(); ++f) {
+        for (std::size_t f = 0; f < own_.study().features.use.size(); ++f) {
             file << fmt::format(",{:.6g}", row.error->feature(static_cast<int>(f), levels));
         }
         file << '\n';

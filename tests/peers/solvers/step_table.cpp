@@ -51,7 +51,7 @@ void StepTable::measure_errors() {
     for (std::size_t i = 0; i < ways_.size() && !work_[i + 1].no_sensor; ++i) {
         const PeerRun run = ways_[i](own_.task(), pattern);
         rows_[i + 1].error =
-            error_of(own_.scene(), run.records, kGearbox, kGearbox + 1, reference_.record);
+            error_of(own_.study(), run.records, kGearbox, kGearbox + 1, reference_.record);
     }
 }
 

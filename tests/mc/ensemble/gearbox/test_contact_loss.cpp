@@ -87,7 +87,7 @@ TEST_CASE("The share of time out of contact has no value where teeth cannot sepa
     CHECK(contact_loss_text(summarise_contact_loss(results, ColumnRows(results))).empty());
     results.detection = detect_all(results);
     CHECK(report_json(results, ColumnRows(results), std::nullopt)["contact_loss"].is_null());
-    CHECK_FALSE(find_step_error(Scene(study), 1e9));
+    CHECK_FALSE(find_step_error(mc::Planner(study), 1e9));
 }
 
 TEST_CASE("The report's text and JSON contain the share of time out of contact") {
@@ -116,7 +116,7 @@ TEST_CASE("The numerical error decreases with the steps and matches that of fine
     const auto error = [](int steps) {
         const Study study = light_study({"numerics.precision=double", "numerics.integrator=rk4",
                                          fmt::format("numerics.steps_per_mesh={}", steps)});
-        const auto found = find_step_error(Scene(study), 1e9);
+        const auto found = find_step_error(mc::Planner(study), 1e9);
         REQUIRE(found);
         CHECK(found->gearboxes == 8);
         CHECK(found->meshes == 16);
@@ -127,7 +127,7 @@ TEST_CASE("The numerical error decreases with the steps and matches that of fine
     CHECK(coarse.sensor > 3.0 * fine.sensor);
     CHECK(coarse.te > 2.0 * fine.te);
     CHECK(fine.sensor > 0.0);
-    CHECK_FALSE(find_step_error(Scene(light_study()), 10.0));
+    CHECK_FALSE(find_step_error(mc::Planner(light_study()), 10.0));
 }
 
 }  // namespace test_contact_loss

@@ -112,9 +112,9 @@ TEST_CASE("A stage's gearbox has the torque and the speed of the gearbox next to
 TEST_CASE("The common shaft sets the speed of a stage, and the sensor is that of the study") {
     const Folder folder;
     const std::string path = stage_file(folder, "fast.toml", 66.0);
-    const mc::Scene scene(small_study(path, ""));
-    const mc::Study& own = scene.stages()[0].study();
-    CHECK(mc::nominal_inputs(own).speed_rad_s ==
+    const mc::Study study = small_study(path, "");
+    const mc::Scene scene(study);
+    CHECK(mc::nominal_inputs(mc::stage_studies(study).front()).speed_rad_s ==
           Approx(13.0 / 48.0 * scene.gearbox().nominal.speed_rad_s).epsilon(1e-6));
     const auto text =
         program("describe " + kSmall + " " + stages(path, "") + "--set sensor.low_pass_Hz=100");

@@ -85,9 +85,10 @@ TEST_CASE("An eccentric gear displaces all tooth pairs in contact, as a displace
     auto backward = forward;
     backward.insert(backward.end(), {"operation.fixed=sun", "operation.input=ring"});
     for (const auto& overrides : {forward, backward}) {
-        const Scene scene(study_with(overrides));
+        const Study study = study_with(overrides);
+        const Scene scene(study);
         lockstep::ToothErrors errors = errors_of(scene, 3);
-        const int planets = scene.study().gearbox.planets;
+        const int planets = study.gearbox.planets;
         const int teeth = errors.gears[2].teeth;
         clear_gear(errors.gears[0]);
         clear_gear(errors.gears[1]);
@@ -104,7 +105,7 @@ TEST_CASE("An eccentric gear displaces all tooth pairs in contact, as a displace
             // For a displacement a of the teeth the gap is a cos(phi - p_s) at the sun and a
             // cos(phi - p_r) at the ring, p_r - p_s = 2 alpha; phi decreases when the sun drives.
             const double lead = std::remainder(ring_phase - sun_phase, 2.0 * kPi);
-            const double expected = 2.0 * scene.study().gearbox.pressure_angle_rad;
+            const double expected = 2.0 * study.gearbox.pressure_angle_rad;
             CHECK(lead == Approx(scene.pairs().reversed ? -expected : expected).margin(0.02));
         }
     }

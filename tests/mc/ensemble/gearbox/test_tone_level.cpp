@@ -58,8 +58,9 @@ TEST_CASE("A level requires tones") {
 
 // Each background that shares an integration has its own level.
 TEST_CASE("Calibration uses the given level") {
-    const mc::StudyScene quiet = scene_with(
-        {tones(2.0), "random.sensor.tone_level={distribution='uniform',low=0.1,high=10}"});
+    const std::vector<std::string> random{
+        tones(2.0), "random.sensor.tone_level={distribution='uniform',low=0.1,high=10}"};
+    const mc::StudyScene quiet = scene_with(random);
     const mc::StudyScene loud = scene_with({tones(6.0)});
     const std::vector<const features::Feature*> used{features::find_feature("sensor_rms"),
                                                      features::find_feature("window_ratio")};
@@ -77,7 +78,7 @@ TEST_CASE("Calibration uses the given level") {
         }
     }
     const std::vector<mc::CalibratedInput> usual =
-        make_calibration_plan(quiet.scene->study(), "").default_inputs(2.0);
+        make_calibration_plan(*mc::read_study(kStudy, random).study, "").default_inputs(2.0);
     const auto level =
         std::ranges::find(usual, std::string("sensor.tone_level"), &mc::CalibratedInput::key);
     REQUIRE(level != usual.end());

@@ -59,11 +59,12 @@ TEST_CASE("The pairs of the worn gear have gaps that grow from the pitch point")
           {worn_example("\"ring\""), {"gearbox.helix_angle_deg=8"}, {4, 5, 6, 7}},
           {worn_example("\"ring\""), {}, {4, 5, 6, 7}},
           {worn_pinion(), {}, {0}}}) {
-        const Scene scene(test::study_of_text(text, more));
+        const Study study = test::study_of_text(text, more);
+        const Scene scene(study);
         CHECK(scene.fault().worn_pairs() == worn);
         const lockstep::IntegrationPlan& plan = scene.plan();
         const lockstep::StiffnessNodes& nodes = plan.nodes;
-        const bool spur = scene.study().gearbox.helix_angle_rad == 0.0;
+        const bool spur = study.gearbox.helix_angle_rad == 0.0;
         for (int pair = 0; pair < nodes.pairs; ++pair) {
             const double pitch = lockstep::phase_in_period(scene.pairs().pitch_phase(pair));
             double least_at_pitch = 1.0, largest = 0.0;

@@ -171,8 +171,8 @@ TEST_CASE("Every shipped study is measured with at most one tile per thread if t
         const AnalysisTrial trial = tried ? measure_analysis(scene.sampler(), scene.ensemble(),
                                                              calibration, plan, 1, kNoBudget_s)
                                           : AnalysisTrial{};
-        const RunForecast forecast =
-            forecast_run(calibration, plan, trial, verification_s(scene, calibration), 0.0);
+        const RunForecast forecast = forecast_run(calibration, plan, trial,
+                                                  verification_s(Planner(study), calibration), 0.0);
         ++studies;
         trials += tried ? 1 : 0;
         CHECK(calibration.to_record == scene.signal_meshes());
