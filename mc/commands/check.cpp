@@ -1,6 +1,7 @@
 // Command `check STUDY...`: reports the problems of study files; nothing is simulated or written.
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <exception>
 #include <string>
 #include <vector>
@@ -19,28 +20,26 @@ struct CheckOptions {
     StudyOptions changes;  // keys that --set changes in every study
 };
 
-// Returns true if the study can be simulated. Prints its problems and warnings.
-bool check_study(const StudyOptions& study) {
+// Prints whether the study can be simulated, with its problems and warnings. Returns the exit code.
+int check_study(const StudyOptions& study) {
     try {
         const StudyScene made = load_scene(study);
         if (made) {
             warn_of_shortage(made.scene->ensemble(), printable(study.path));
             fmt::print("{}: can be simulated\n", printable(study.path));
-            return true;
+            return kDone;
         }
     } catch (const std::exception& error) {
         fmt::print(stderr, "{}: {}\n", printable(study.path), exception_text(error));
     }
-    return false;
+    return kBadInput;
 }
 
 // Checks every study, also after a wrong one.
 int check_command(const CheckOptions& options) {
     int code = kDone;
     for (const std::string& path : options.studies) {
-        if (!check_study({path, options.changes.overrides})) {
-            code = kBadInput;
-        }
+        code = std::max(code, check_study({path, options.changes.overrides}));
     }
     return code;
 }

@@ -87,12 +87,8 @@ class Merge {
         return problems.empty() ? gaps() : problems;
     }
 
-    // Builds the scene of the study that all files share.
-    StudyScene scene() const {
-        const PartFile& first = files_.front();
-        return make_scene(first.path,
-                          read_study_text(first.frame.provenance_value("study"), first.path));
-    }
+    // Text of the study that all files share.
+    std::string study() const { return files_.front().frame.provenance_value("study"); }
 
     BatchPlan whole() const { return files_.front().ensemble.batches(); }
 
@@ -204,7 +200,8 @@ int merge_command(const MergeOptions& options) {
     if (!check_names(options) || !check_output(run) || !problems.empty()) {
         return kBadInput;
     }
-    const StudyScene made = merge.scene();
+    const std::string& first = options.results.front();
+    const StudyScene made = make_scene(first, read_study_text(merge.study(), first));
     if (!made) {
         print_problems(made.problems);
         return kBadInput;

@@ -13,7 +13,11 @@ std::optional<MeasuringFacts> measuring_facts(const std::string& study_text,
     if (!study) {
         return std::nullopt;
     }
-    return MeasuringFacts{study->title, study->features.use, study->monitoring};
+    MeasuringFacts facts{study->title, study->features.use, study->monitoring, {}};
+    for (const Member member : {Member::sun, Member::planet, Member::ring}) {
+        facts.teeth[member] = study->gearbox.bodies[member].teeth.value_or(0);
+    }
+    return facts;
 }
 
 std::optional<RunFacts> run_facts(const std::string& study_text, const std::string& name) {
@@ -33,6 +37,12 @@ std::optional<RunFacts> run_facts(const std::string& study_text, const std::stri
                                              ? std::nullopt
                                              : std::optional(sensor_noise_m_s2(*study)),
                     .encoder_noise_rad = study->sensor.encoder_noise_rad};
+}
+
+void declare_recorded_features(const std::string& text) {
+    if (text.find("\npython = [\n") != std::string::npos) {
+        read_study_text(text, "");
+    }
 }
 
 }  // namespace gearpod::mc

@@ -17,6 +17,7 @@ struct MeasuringFacts {
     std::string title;
     std::vector<std::string> features;  // used
     Monitoring monitoring;
+    MemberArray<int> teeth;  // 0: no such gear
 };
 
 // Of the study of simulated gearboxes.
@@ -38,5 +39,8 @@ struct RunFacts {
 std::optional<MeasuringFacts> measuring_facts(const std::string& study_text,
                                               const std::string& name = "");
 std::optional<RunFacts> run_facts(const std::string& study_text, const std::string& name = "");
+
+// Makes the titles of features in Python known if the text is that of a study with some.
+void declare_recorded_features(const std::string& text);
 
 }  // namespace gearpod::mc

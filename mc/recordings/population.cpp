@@ -10,8 +10,8 @@
 #include "analysis/statistics/rank_statistics.hpp"
 #include "machine/no_value.hpp"
 #include "mc/files/input/terminal_text.hpp"
+#include "mc/plan/study_facts.hpp"
 #include "mc/results/results_file.hpp"
-#include "mc/study/study.hpp"
 
 namespace gearpod::mc {
 namespace {
@@ -27,12 +27,12 @@ void check_teeth(const std::string& path, const Results& results, const MemberAr
     if (text.empty()) {
         text = results.provenance_value("measured_by_study");
     }
-    const auto theirs = read_study_text(text, path).study;
+    const auto theirs = measuring_facts(text, path);
     if (!theirs) {
         return;
     }
     for (const Member member : {Member::sun, Member::planet, Member::ring}) {
-        const int other = theirs->gearbox.bodies[member].teeth.value_or(0);
+        const int other = theirs->teeth[member];
         if (teeth[member] != other) {
             refuse(path,
                    fmt::format("has a gear with {} teeth, but the study has {}; use results of "

@@ -11,9 +11,9 @@
 #include "mc/files/input/input_file.hpp"
 #include "mc/files/input/terminal_text.hpp"
 #include "mc/files/isolated_reading.hpp"
+#include "mc/plan/study_facts.hpp"
 #include "mc/results/file_checksum.hpp"
 #include "mc/results/layout.hpp"
-#include "mc/study/study.hpp"
 
 namespace gearpod::mc {
 namespace {
@@ -77,17 +77,11 @@ class ResultsReader {
         return result;
     }
 
-    // Makes the titles of features in Python known if the text is a study that has some.
-    static void declare_python_features(const std::string& text) {
-        if (text.find("\npython = [\n") != std::string::npos) {
-            read_study_text(text, "");
-        }
-    }
     void read_provenance() {
         for (const std::string& name : attribute_names(root_)) {
             if (name != "format" && name != "format_version" && has_text(root_, name)) {
                 results_.provenance.emplace_back(name, read_text(root_, ".", name));
-                declare_python_features(results_.provenance.back().second);
+                declare_recorded_features(results_.provenance.back().second);
             }
         }
     }

@@ -205,8 +205,8 @@ class Reach:
         for member in held:
             self.held[member.owner].add(member.name)
         # Functions that return a whole study, where all functions of the name do.
-        self.makers = {f.name for f in self.functions if WHOLE.intersection(f.result)} \
-            - {f.name for f in self.functions if WHOLE.isdisjoint(f.result)}
+        self.makers = {f.name for f in self.functions if self.holders[""].intersection(f.result)} \
+            - {f.name for f in self.functions if self.holders[""].isdisjoint(f.result)}
         self.found, self.questions = self.search(held)
 
     def holds(self, file, words):

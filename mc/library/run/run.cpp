@@ -310,7 +310,8 @@ int run_study(const RunOptions& options, const Ranks& ranks) {
         const bool good_progress = check_progress(options);
         if (scene && writable && good_limit && good_progress &&
             check_part(options, scene->ensemble()) && check_watch(options, scene->ensemble()) &&
-            check_signals(options, scene->ensemble()) && check_memory(options, *scene, ranks)) {
+            check_signals(options, scene->ensemble()) &&
+            check_memory(options, scene->ensemble(), motion_bytes(*scene), ranks)) {
             try {
                 checkpoint =
                     open_checkpoint(scene->ensemble(), scene->ensemble().shape,

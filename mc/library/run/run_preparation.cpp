@@ -126,11 +126,12 @@ bool check_output(const RunOptions& options) {
     return why.empty();
 }
 
-bool check_memory(const RunOptions& options, const Scene& scene, const Ranks& ranks) {
-    const BatchPlan plan = plan_of(options, scene.ensemble());
+bool check_memory(const RunOptions& options, const EnsemblePlan& ensemble, double motion_bytes,
+                  const Ranks& ranks) {
+    const BatchPlan plan = plan_of(options, ensemble);
     const int here = ranks.on_this_machine();
-    const double needed = least_memory_bytes(motion_bytes(scene), scene.ensemble().shape, plan,
-                                             here * thread_count(scene.ensemble(), here));
+    const double needed =
+        least_memory_bytes(motion_bytes, ensemble.shape, plan, here * thread_count(ensemble, here));
     const double at_hand = available_memory_bytes();
     if (options.force || needed <= at_hand) {
         return true;

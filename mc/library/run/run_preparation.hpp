@@ -28,7 +28,9 @@ bool check_signals(const RunOptions& options, const EnsemblePlan& plan);
 // Checks the path of the results, of the temporary file and of the checkpoint.
 bool check_output(const RunOptions& options);
 // Checks the memory of this machine against the lower limit of the run's memory.
-bool check_memory(const RunOptions& options, const Scene& scene, const Ranks& ranks);
+// `motion_bytes`: memory for the motion of a tile.
+bool check_memory(const RunOptions& options, const EnsemblePlan& ensemble, double motion_bytes,
+                  const Ranks& ranks);
 
 // Ensures that all ranks of a run have the same program, study and seed.
 
