@@ -201,8 +201,8 @@ class Command {
         };
         const CalibrationResult result =
             calibrate(task, summary, first, [&](const PriorRegion& region, const SetPlan& plan) {
-                return simulate_sets(*scene, inputs_, region, plan, set_.lengths, summary, threads,
-                                     report_time);
+                return simulate_sets(scene->tile(), inputs_, region, plan, set_.lengths, summary,
+                                     threads, report_time);
             });
         return finish(text_without_distributions(*written.study, inputs_),
                       calibration_intro(scene->draw().seed, set_, result), task, result);

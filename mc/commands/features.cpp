@@ -124,7 +124,7 @@ int features_command(const FeaturesOptions& options) {
         request.noise_level = options.noise_level;
         request.against = options.against;
         request.feature = options.feature;
-        const SignalFeatures found = signal_features(request, *scene);
+        const SignalFeatures found = signal_features(request, scene->tile());
         if (!options.json.empty()) {
             const std::string text = json_text(signal_features_json(found, request), 2);
             return write_text_to(options.json, text + "\n") ? kDone : kBadInput;

@@ -155,7 +155,7 @@ std::optional<InterpolationChoice> prepare_lives(const RunOptions& run, StudySce
     }
     if (made.problems.empty()) {
         try {
-            return choose_interpolation(*made.scene);
+            return choose_interpolation(made.scene->tile(), made.scene->life());
         } catch (const SceneError& error) {
             refuse(error);
         } catch (const std::exception& error) {
@@ -223,7 +223,7 @@ int lives_study(const LivesOptions& options, const Ranks& ranks) {
     std::unique_ptr<LifeTiles> tiles;
     if (made) {
         tiles = std::make_unique<LifeTiles>(
-            *made.scene, made.planner->life(choice->plan.torques, choice->plan.speeds));
+            made.scene->tile(), made.planner->life(choice->plan.torques, choice->plan.speeds));
     }
     std::unique_ptr<Checkpoint> checkpoint;
     if (ranks.leads()) {

@@ -196,7 +196,8 @@ int misses_command(const MissesOptions& options) {
     Progress progress(options.gearboxes * options.records, options.quiet || !ranks.leads());
     return compute_together(ranks, progress, options.json, [&] {
         const MissRateResult result =
-            estimate_miss_rate(*made.scene, prepared.question, ranks, progress, &interruption);
+            estimate_miss_rate(made.scene->tile(), made.scene->ensemble(), prepared.question, ranks,
+                               progress, &interruption);
         return CommandResult{misses_report(prepared, result),
                              misses_json(options, prepared, result), result.failed};
     });

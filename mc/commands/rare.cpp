@@ -230,7 +230,8 @@ int rare_command(const RareOptions& options) {
     Progress progress(largest_gearbox_count(prepared.question), options.quiet || !ranks.leads());
     return compute_together(ranks, progress, options.json, [&] {
         const RareRateResult result =
-            estimate_rare_rate(*made.scene, prepared.question, ranks, progress, &interruption);
+            estimate_rare_rate(made.scene->tile(), made.scene->ensemble(), prepared.question, ranks,
+                               progress, &interruption);
         return CommandResult{rare_text(prepared, result), rare_json(options, prepared, result),
                              result.failed};
     });

@@ -22,16 +22,14 @@ Seconds& Seconds::operator+=(const Seconds& other) {
     return *this;
 }
 
-BatchWorker::BatchWorker(const BatchTask& task)
-    : task_(task), features_(task.scene, &task.healthy) {
+BatchWorker::BatchWorker(const BatchTask& task) : task_(task), features_(task.tile, &task.healthy) {
     for (std::size_t s = 0; s < task.additional.size(); ++s) {
-        additional_.emplace_back(task.scene, &task.additional[s], true, s + 1);
+        additional_.emplace_back(task.tile, &task.additional[s], true, s + 1);
     }
 }
 BatchRows BatchWorker::compute(const Batch& batch, Seconds& seconds) {
-    const NoiseSampling noise_sampling = batch.group == Group::threshold
-                                             ? task_.scene.draw().rows.threshold_noise
-                                             : task_.test_noise;
+    const NoiseSampling noise_sampling =
+        batch.group == Group::threshold ? task_.tile.draw().rows.threshold_noise : task_.test_noise;
     std::vector<GearboxId> ids;
     for (std::size_t i = 0; i < batch.gearboxes; ++i) {
         ids.push_back({batch.group, batch.first_index + i, Record::test, 0, noise_sampling});
@@ -42,9 +40,9 @@ BatchRows BatchWorker::compute(const Batch& batch, Seconds& seconds) {
 BatchRows BatchWorker::compute(std::span<const GearboxId> ids, std::size_t records,
                                Seconds& seconds) {
     BatchRows rows;
-    const auto lanes = static_cast<std::size_t>(task_.scene.ensemble().lanes);
+    const auto lanes = static_cast<std::size_t>(task_.tile.solve->settings.lanes);
     while (!ids.empty()) {
-        const std::size_t count = shared_records(task_.scene.record(), ids, lanes);
+        const std::size_t count = shared_records(task_.tile.record, ids, lanes);
         add_rows(ids.first(count), records, rows, seconds);
         ids = ids.subspan(count);
     }
@@ -55,18 +53,18 @@ BatchRows BatchWorker::compute(std::span<const GearboxId> ids, std::size_t recor
 void BatchWorker::add_rows(std::span<const GearboxId> ids, std::size_t records, BatchRows& rows,
                            Seconds& seconds) {
     GearboxTile computed =
-        run_gearboxes(task_.scene, ids, task_.scene.ensemble().lanes,
+        run_gearboxes(task_.tile, ids, task_.tile.solve->settings.lanes,
                       {.signal_meshes = features_.meshes(), .cache = &task_.cache});
     const auto start = WallClock::now();
     const double noise_before = features_.noise_s();
-    std::vector<LaneSignals> signals = all_lane_signals(task_.scene, computed, features_.meshes());
+    std::vector<LaneSignals> signals = all_lane_signals(task_.tile, computed, features_.meshes());
     computed.sensor_recorders.clear();  // frees memory: `signals` holds copies
-    std::vector<LaneSignals> others(ids.size());
-    const bool any_threshold = std::ranges::count(ids, Group::threshold, &GearboxId::group) > 0;
-    if (task_.scene.ensemble().has_other_fault() && any_threshold) {
-        others = with_other_fault(task_.scene, std::span(computed.realizations).first(ids.size()),
+    std::vector<LaneSignals> others;
+    if (std::ranges::count(ids, Group::threshold, &GearboxId::group) > 0) {
+        others = with_other_fault(task_.tile, std::span(computed.realizations).first(ids.size()),
                                   signals);
     }
+    others.resize(ids.size());
     for (std::size_t lane = 0; lane < ids.size(); ++lane) {
         machine::throw_if_cancelled();
         // freed when the rows of this gearbox are done
@@ -92,12 +90,12 @@ void BatchWorker::add_rows(std::span<const GearboxId> ids, std::size_t records, 
 
 std::vector<double> BatchWorker::variants_of(const Realization& record, const LaneSignals& signals,
                                              const LaneSignals& other) {
-    const EnsemblePlan& plan = task_.scene.ensemble();
+    const EnsemblePlan& plan = task_.ensemble;
     std::vector<double> all;
     for (const VariantColumns& variant : plan.variants) {
         std::vector<double> values(plan.shape.features * plan.shape.levels, kNan);
         if (variant.sensor) {
-            const SensorPlan& sensor = task_.scene.sensors()[*variant.sensor + 1];
+            const SensorPlan& sensor = (*task_.tile.sensors)[*variant.sensor + 1];
             SensorSignals measured = signals_of_sensor(sensor, signals);
             values =
                 additional_[*variant.sensor].compute(measured.linked(), sensor.realization(record));
@@ -114,7 +112,7 @@ void BatchWorker::add_row(const Realization& record, const GearboxTile& computed
     const Status status = computed.status[lane];
     rows.status.push_back(static_cast<int>(status));
 
-    const EnsemblePlan& plan = task_.scene.ensemble();
+    const EnsemblePlan& plan = task_.ensemble;
     const RowShape& shape = plan.shape;
     std::vector<double> values(shape.features * shape.levels, kNan);
     std::vector<double> variants(shape.variants * values.size(), kNan);
@@ -141,11 +139,12 @@ void BatchWorker::add_row(const Realization& record, const GearboxTile& computed
     rows.values.insert(rows.values.end(), variants.begin(), variants.end());
 }
 
-BatchRows rows_of_gearboxes(const Scene& scene, std::span<const GearboxId> gearboxes) {
-    const BatchTask task(scene);
+BatchRows rows_of_gearboxes(const TilePlan& tile, const EnsemblePlan& ensemble,
+                            std::span<const GearboxId> gearboxes) {
+    const BatchTask task(tile, ensemble);
     const std::size_t size = kBatchRows, batches = (gearboxes.size() + size - 1) / size;
     std::vector<BatchRows> parts(batches);
-    machine::for_each_index(batches, thread_count(scene.ensemble()), [&](std::size_t batch) {
+    machine::for_each_index(batches, thread_count(ensemble), [&](std::size_t batch) {
         Seconds seconds;
         const std::size_t first = batch * size;
         parts[batch] = BatchWorker(task).compute(

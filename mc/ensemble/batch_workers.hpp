@@ -37,14 +37,19 @@ GEARPOD_FIELDS(Seconds, sampling, stiffness, integration, signals, noise, featur
 
 // Data shared by all workers of a process.
 struct BatchTask {
-    explicit BatchTask(const Scene& shared_scene)
-        : scene(shared_scene), cache(scene.solve()), healthy(healthy_reference(scene)) {
-        for (std::size_t s = 1; s < scene.sensors().size(); ++s) {
-            additional.push_back(healthy_reference(scene, s));
+    // Both plans must outlive the object.
+    BatchTask(const TilePlan& tile_plan, const EnsemblePlan& ensemble_plan)
+        : tile(tile_plan),
+          ensemble(ensemble_plan),
+          cache(*tile.solve),
+          healthy(healthy_reference(tile)) {
+        for (std::size_t s = 1; s < tile.sensors->size(); ++s) {
+            additional.push_back(healthy_reference(tile, s));
         }
     }
 
-    const Scene& scene;
+    const TilePlan& tile;
+    const EnsemblePlan& ensemble;
     const IntegrationCache cache;
     const HealthyReference healthy;
     std::vector<HealthyReference> additional;  // of the additional sensors
@@ -85,7 +90,8 @@ class BatchWorker {
 
 // Rows of the given gearboxes, in their order, one record each, computed on the threads of this
 // process. They have the bits of a run with these numerics.
-BatchRows rows_of_gearboxes(const Scene& scene, std::span<const GearboxId> gearboxes);
+BatchRows rows_of_gearboxes(const TilePlan& tile, const EnsemblePlan& ensemble,
+                            std::span<const GearboxId> gearboxes);
 
 // OpenMP team of one process that computes batches. Finished batches come out in arbitrary order.
 

@@ -438,9 +438,10 @@ EnsembleOutcome run_batches(const EnsemblePlan& ensemble, const BatchPlan& plan,
     return run.ranks.leads() ? run_leader(team, plan, run) : run_follower(team, run);
 }
 
-EnsembleOutcome run_batches(const Scene& scene, const BatchPlan& plan, const EnsembleRun& run) {
-    return run_batches(scene.ensemble(), plan, run, [&scene]() -> BatchComputers {
-        const auto task = std::make_shared<const BatchTask>(scene);
+EnsembleOutcome run_batches(const TilePlan& tile, const EnsemblePlan& ensemble,
+                            const BatchPlan& plan, const EnsembleRun& run) {
+    return run_batches(ensemble, plan, run, [&]() -> BatchComputers {
+        const auto task = std::make_shared<const BatchTask>(tile, ensemble);
         return [task]() -> BatchComputer {
             const auto worker = std::make_shared<BatchWorker>(*task);
             return [task, worker](const Batch& batch, Seconds& seconds) {
@@ -450,16 +451,16 @@ EnsembleOutcome run_batches(const Scene& scene, const BatchPlan& plan, const Ens
     });
 }
 
-Results run_ensemble(const Scene& scene, Progress& progress) {
-    const BatchPlan plan = scene.ensemble().batches();
+Results run_ensemble(const TilePlan& tile, const EnsemblePlan& ensemble, Progress& progress) {
+    const BatchPlan plan = ensemble.batches();
     MemoryRows store(plan.batches());
     const Ranks alone;
     const EnsembleOutcome outcome =
-        run_batches(scene, plan, {.ranks = alone, .store = store, .progress = progress});
+        run_batches(tile, ensemble, plan, {.ranks = alone, .store = store, .progress = progress});
     if (!outcome.failure.empty()) {
         throw std::runtime_error(outcome.failure);
     }
-    Results results = results_frame(scene.ensemble());
+    Results results = results_frame(ensemble);
     fill_columns(results, StoredRows(store, plan, outcome.batches));
     results.timing = timing_of(outcome);
     return results;

@@ -11,7 +11,6 @@
 #include "mc/ensemble/progress.hpp"
 #include "mc/ensemble/ranks.hpp"
 #include "mc/ensemble/running_pd.hpp"
-#include "mc/plan/scene.hpp"
 #include "mc/results/result_rows.hpp"
 #include "mc/results/results_file.hpp"
 
@@ -68,14 +67,15 @@ EnsembleOutcome run_follower(WorkerTeam& team, const EnsembleRun& run);
 // Computes all batches that the store does not have, on the threads of all ranks. Every rank must
 // call it. Rank 0 assigns the batches in order and stores them. The outcome is empty in the other
 // ranks.
-EnsembleOutcome run_batches(const Scene& scene, const BatchPlan& plan, const EnsembleRun& run);
+EnsembleOutcome run_batches(const TilePlan& tile, const EnsemblePlan& ensemble,
+                            const BatchPlan& plan, const EnsembleRun& run);
 
 // The same for any kind of batch. `make` is called once in every rank, before the first batch.
 EnsembleOutcome run_batches(const EnsemblePlan& ensemble, const BatchPlan& plan,
                             const EnsembleRun& run, const std::function<BatchComputers()>& make);
 
 // Computes all results in memory and in this process. Detection and provenance are not filled in.
-Results run_ensemble(const Scene& scene, Progress& progress);
+Results run_ensemble(const TilePlan& tile, const EnsemblePlan& ensemble, Progress& progress);
 
 // Times summed over all threads, for the results file.
 std::vector<Timing> timing_of(const EnsembleOutcome& outcome);

@@ -43,17 +43,17 @@ double equivalent_sample_size(double rate, double variance) {
     return rate < 1.0 ? (1.0 - rate) / (rate * variance) : kNan;
 }
 
-MissRateResult estimate_miss_rate(const Scene& scene, const MissRateRequest& request,
-                                  const Ranks& ranks, Progress& progress,
-                                  const Interruption* interruption) {
+MissRateResult estimate_miss_rate(const TilePlan& tile, const EnsemblePlan& ensemble,
+                                  const MissRateRequest& request, const Ranks& ranks,
+                                  Progress& progress, const Interruption* interruption) {
     const auto records = static_cast<std::size_t>(request.records);
     const BatchPlan plan(0, request.gearboxes);
     MemoryRows store(ranks.leads() ? plan.batches() : 0);
     const EnsembleOutcome outcome = run_batches(
-        scene.ensemble(), plan,
+        ensemble, plan,
         {.ranks = ranks, .store = store, .progress = progress, .interruption = interruption},
         [&]() -> BatchComputers {
-            const auto task = std::make_shared<BatchTask>(scene);
+            const auto task = std::make_shared<BatchTask>(tile, ensemble);
             task->test_noise = NoiseSampling::towards_misses;
             return [task, records]() -> BatchComputer {
                 const auto worker = std::make_shared<BatchWorker>(*task);
@@ -70,7 +70,7 @@ MissRateResult estimate_miss_rate(const Scene& scene, const MissRateRequest& req
     if (const std::string why = failure_reason(outcome); !why.empty()) {
         throw std::runtime_error(why);
     }
-    const RowShape& shape = scene.ensemble().shape;
+    const RowShape& shape = ensemble.shape;
     MissRecords all;
     for (std::size_t batch = 0; batch < plan.batches(); ++batch) {
         all.add(store.read(batch), shape, records);
@@ -78,7 +78,7 @@ MissRateResult estimate_miss_rate(const Scene& scene, const MissRateRequest& req
     const analysis::ImportanceSample sample(
         all.values, all.weights, all.gearbox,
         analysis::opposite(features::find_feature(request.feature)->alarm));
-    result.misses = sample.at(request.threshold, scene.ensemble().request.confidence);
+    result.misses = sample.at(request.threshold, ensemble.request.confidence);
     result.gearboxes = all.gearboxes;
     result.failed = all.failed;
     result.records = static_cast<long>(all.values.size());
@@ -103,20 +103,21 @@ GearboxId id_of(const RareRateRequest& request, const analysis::SplitMember& mem
 // Computes the feature values of members on all ranks and returns them in every rank.
 class SplitRun {
   public:
-    SplitRun(const Scene& scene, const RareRateRequest& request, const Ranks& ranks,
-             Progress& progress, const Interruption* interruption)
-        : scene_(scene),
+    SplitRun(const TilePlan& tile, const EnsemblePlan& ensemble, const RareRateRequest& request,
+             const Ranks& ranks, Progress& progress, const Interruption* interruption)
+        : tile_(tile),
+          ensemble_(ensemble),
           request_(request),
           ranks_(ranks),
           progress_(progress),
           interruption_(interruption),
-          shape_(scene.ensemble().shape) {}
+          shape_(ensemble.shape) {}
 
     std::vector<double> values(std::span<const analysis::SplitMember> members) {
         const BatchPlan plan(0, static_cast<std::int64_t>(members.size()));
         MemoryRows store(ranks_.leads() ? plan.batches() : 0);
         const EnsembleOutcome outcome = run_batches(
-            scene_.ensemble(), plan,
+            ensemble_, plan,
             {.ranks = ranks_, .store = store, .progress = progress_, .interruption = interruption_},
             [&] { return computers(members); });
         std::vector<double> values(members.size());
@@ -133,7 +134,7 @@ class SplitRun {
   private:
     BatchComputers computers(std::span<const analysis::SplitMember> members) {
         if (!task_) {
-            task_ = std::make_shared<const BatchTask>(scene_);
+            task_ = std::make_shared<const BatchTask>(tile_, ensemble_);
         }
         return [this, members]() -> BatchComputer {
             const auto worker = std::make_shared<BatchWorker>(*task_);
@@ -157,7 +158,8 @@ class SplitRun {
         }
     }
 
-    const Scene& scene_;
+    const TilePlan& tile_;
+    const EnsemblePlan& ensemble_;
     const RareRateRequest& request_;
     const Ranks& ranks_;
     Progress& progress_;
@@ -225,10 +227,10 @@ long largest_gearbox_count(const RareRateRequest& request) {
                                            request.rate.value_or(kSmallestMissRate));
 }
 
-RareRateResult estimate_rare_rate(const Scene& scene, const RareRateRequest& request,
-                                  const Ranks& ranks, Progress& progress,
-                                  const Interruption* interruption) {
-    SplitRun run(scene, request, ranks, progress, interruption);
+RareRateResult estimate_rare_rate(const TilePlan& tile, const EnsemblePlan& ensemble,
+                                  const RareRateRequest& request, const Ranks& ranks,
+                                  Progress& progress, const Interruption* interruption) {
+    SplitRun run(tile, ensemble, request, ranks, progress, interruption);
     const auto values = [&](std::span<const analysis::SplitMember> members) {
         return run.values(members);
     };
@@ -236,7 +238,7 @@ RareRateResult estimate_rare_rate(const Scene& scene, const RareRateRequest& req
         request.rate ? analysis::SplitTail::to_rate(settings_of(request), *request.rate, values)
                      : analysis::SplitTail::to_value(settings_of(request), request.threshold,
                                                      kSmallestMissRate, values);
-    const double confidence = scene.ensemble().request.confidence;
+    const double confidence = ensemble.request.confidence;
     RareRateResult result;
     result.estimate = request.rate ? tail.threshold(*request.rate, confidence)
                                    : tail.at(request.threshold, confidence);
@@ -252,7 +254,7 @@ RareRateResult estimate_rare_rate(const Scene& scene, const RareRateRequest& req
                                                               result.estimate->variance)
                                      : kNan;
     if (ranks.leads() && tail.levels() > 1) {
-        result.shifted = shifted_inputs(scene.sampler(), scene.ensemble().inputs, request, tail);
+        result.shifted = shifted_inputs(*tile.sampler, ensemble.inputs, request, tail);
     }
     return result;
 }

@@ -13,7 +13,6 @@
 #include "machine/fields.hpp"
 #include "mc/ensemble/ensemble.hpp"
 #include "mc/plan/rare_event_studies.hpp"
-#include "mc/plan/scene.hpp"
 
 namespace gearpod::mc {
 
@@ -32,11 +31,11 @@ std::string failure_reason(const EnsembleOutcome& outcome);
 // Sample size of plain counting that gives this relative variance of a rate; NaN for a rate of 1.
 double equivalent_sample_size(double rate, double variance);
 
-// Every rank must call it with the scene of study_for_miss_rate(); only rank 0 gets the result.
+// Every rank must call it with the plans of study_for_miss_rate(); only rank 0 gets the result.
 // Throws std::runtime_error if a batch fails or the run is interrupted.
-MissRateResult estimate_miss_rate(const Scene& scene, const MissRateRequest& request,
-                                  const Ranks& ranks, Progress& progress,
-                                  const Interruption* interruption = nullptr);
+MissRateResult estimate_miss_rate(const TilePlan& tile, const EnsemblePlan& ensemble,
+                                  const MissRateRequest& request, const Ranks& ranks,
+                                  Progress& progress, const Interruption* interruption = nullptr);
 
 // Lower limit of miss rates that are estimated.
 inline constexpr double kSmallestMissRate = 1e-9;
@@ -65,10 +64,10 @@ struct RareRateResult {
 // Largest number of gearboxes that estimate_rare_rate() computes.
 long largest_gearbox_count(const RareRateRequest& request);
 
-// Every rank must call it with the scene of study_for_rare_rate(); only rank 0 gets the result.
+// Every rank must call it with the plans of study_for_rare_rate(); only rank 0 gets the result.
 // Throws std::runtime_error if a batch fails or the run is interrupted.
-RareRateResult estimate_rare_rate(const Scene& scene, const RareRateRequest& request,
-                                  const Ranks& ranks, Progress& progress,
-                                  const Interruption* interruption = nullptr);
+RareRateResult estimate_rare_rate(const TilePlan& tile, const EnsemblePlan& ensemble,
+                                  const RareRateRequest& request, const Ranks& ranks,
+                                  Progress& progress, const Interruption* interruption = nullptr);
 
 }  // namespace gearpod::mc

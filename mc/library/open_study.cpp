@@ -65,7 +65,7 @@ Simulation simulate_row(const Scene& scene, long row, long meshes) {
     if (!problems.empty()) {
         throw BadInput(problems);
     }
-    return simulate(scene, scene.draw().rows.id_of(row), simulated);
+    return simulate(scene.tile(), scene.draw().rows.id_of(row), simulated);
 }
 
 }  // namespace gearpod::mc

@@ -105,21 +105,21 @@ nlohmann::ordered_json decisions_json(const PopulationDecisions& against,
 }
 
 // Simulated healthy reference at a noise level; empty if the study does not have this level.
-HealthyReference reference_at(double noise_level, const Scene& scene) {
-    const std::vector<double>& levels = scene.record().noise_levels;
+HealthyReference reference_at(double noise_level, const TilePlan& tile) {
+    const std::vector<double>& levels = tile.record.noise_levels;
     const auto found = std::ranges::find(levels, noise_level);
-    if (found == levels.end() || !scene.features().sensor) {
+    if (found == levels.end() || !tile.features.sensor) {
         return {};
     }
     const auto level = static_cast<std::size_t>(found - levels.begin());
-    const HealthyReference all = simulated_reference(scene);
+    const HealthyReference all = simulated_reference(tile);
     return {{all.residual_variance[level]}, {all.envelope_variance[level]}, {all.amplitude[level]}};
 }
 
 }  // namespace
 
-SignalFeatures signal_features(const SignalRequest& request, const Scene& scene) {
-    const MeasurementPlan plan{scene.record(), scene.features(), scene.gearbox().nominal};
+SignalFeatures signal_features(const SignalRequest& request, const TilePlan& tile) {
+    const MeasurementPlan plan{tile.record, tile.features, tile.gearbox->nominal};
     SignalFeatures found;
     found.span = plan.record.span;
     found.signal = read_measured_signal(request.signal, request.columns, plan);
@@ -131,7 +131,7 @@ SignalFeatures signal_features(const SignalRequest& request, const Scene& scene)
         healthy = measured_reference(request.healthy, request.columns, plan, found.planet_turns(),
                                      found.notes);
     } else if (long_enough) {
-        healthy = reference_at(request.noise_level, scene);
+        healthy = reference_at(request.noise_level, tile);
     }
     const auto baseline = measured_baseline(request.baseline, request.columns, plan);
     if (baseline) {

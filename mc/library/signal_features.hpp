@@ -41,7 +41,7 @@ struct SignalFeatures {
 
 // Throws SignalError with one line per problem, or if no feature can be computed; other exceptions
 // for a results file that cannot be used.
-SignalFeatures signal_features(const SignalRequest& request, const Scene& scene);
+SignalFeatures signal_features(const SignalRequest& request, const TilePlan& tile);
 
 // The same as JSON; `features --json` writes it.
 nlohmann::ordered_json signal_features_json(const SignalFeatures& features,

@@ -230,8 +230,7 @@ Campaign campaign_of(const CampaignPlan& plan, const Results& frame, const RowSo
     return campaign;
 }
 
-Campaign run_campaign(const Scene& scene) {
-    const LifeTiles tiles(scene);
+Campaign run_campaign(const LifeTiles& tiles) {
     const CampaignPlan& campaign = tiles.plan().campaign;
     const BatchPlan plan = lives_plan(campaign);
     MemoryRows store(plan.batches());

@@ -8,93 +8,6 @@
 namespace gearpod::mc {
 namespace {
 
-// Rms of signal - (share_a a + share_b b).
-double rms_apart(std::span<const double> signal, std::span<const double> a, double share_a,
-                 std::span<const double> b, double share_b) {
-    double sum = 0.0;
-    for (std::size_t i = 0; i < signal.size(); ++i) {
-        const double miss = signal[i] - share_a * a[i] - share_b * b[i];
-        sum += miss * miss;
-    }
-    return std::sqrt(sum / static_cast<double>(signal.size()));
-}
-
-}  // namespace
-
-void InterpolationErrors::take(const InterpolationErrors& other) {
-    first = std::fmax(first, other.first);
-    last = std::fmax(last, other.last);
-    load = std::fmax(load, other.load);
-}
-
-void LifeTiles::InterpolationCheck::between_depths(int step, const SignalsByLoad& healthy,
-                                                   const SignalsByLoad& low,
-                                                   const SignalsByLoad& high) {
-    const CampaignPlan& campaign = tiles_.plan_.campaign;
-    const bool first = step == campaign.first_step, last = step + 1 == campaign.depth_steps;
-    if (errors_.empty() || !(first || last)) {
-        return;
-    }
-    const HealthySolution::Signals middle = solution_.with_fault(campaign.middle_m(step));
-    for (std::size_t lane = 0; lane < errors_.size(); ++lane) {
-        const auto& none = healthy[lane][0].sensor;
-        const auto& between = middle.lane[lane].sensor;
-        const auto &below = low[lane][0].sensor, &above = high[lane][0].sensor;
-        if (between.empty() || none.empty() || below.empty() || above.empty()) {
-            errors_[lane] = {};
-            continue;
-        }
-        const double error =
-            rms_apart(between, below, 0.5, above, 0.5) / rms_apart(between, none, 1.0, none, 0.0);
-        if (first) {
-            errors_[lane].first = error;
-        }
-        if (last) {
-            errors_[lane].last = error;
-        }
-    }
-}
-
-void LifeTiles::InterpolationCheck::between_loads(const SignalsByLoad& healthy) {
-    if (errors_.empty() || tiles_.gap_count() == 0) {
-        for (InterpolationErrors& errors : errors_) {
-            errors.load = 0.0;
-        }
-        return;
-    }
-    for (const double torque : tiles_.torques_.between()) {
-        for (const double speed : tiles_.speeds_.between()) {
-            at_load({torque, speed}, healthy);
-        }
-    }
-}
-
-void LifeTiles::InterpolationCheck::at_load(const Load& load, const SignalsByLoad& healthy) {
-    const HealthySolution there = tiles_.healthy_solution(gearboxes_, load);
-    const std::vector<double> load_weights = tiles_.load_weights(load);
-    for (std::size_t lane = 0; lane < errors_.size(); ++lane) {
-        const auto& integrated = there.healthy().lane[lane].sensor;
-        const bool failed = integrated.empty() ||
-                            std::ranges::any_of(healthy[lane], [](const LaneSignals& signals) {
-                                return signals.sensor.empty();
-                            });
-        if (failed) {
-            continue;
-        }
-        std::vector<double> superposed(integrated.size(), 0.0);
-        for (std::size_t l = 0; l < load_weights.size(); ++l) {
-            for (std::size_t i = 0; i < superposed.size() && load_weights[l] != 0.0; ++i) {
-                superposed[i] += load_weights[l] * healthy[lane][l].sensor[i];
-            }
-        }
-        errors_[lane].load = std::fmax(errors_[lane].load,
-                                       rms_apart(integrated, superposed, 1.0, integrated, 0.0) /
-                                           rms_apart(integrated, integrated, 0.0, integrated, 0.0));
-    }
-}
-
-namespace {
-
 using Samples = std::vector<double>;
 
 double rms(std::span<const double> values) {
@@ -215,9 +128,8 @@ struct ChosenAxis {
 
 }  // namespace
 
-InterpolationChoice choose_interpolation(const Scene& scene) {
-    const LifeTiles tiles(scene);
-    const LifePlan& plan = tiles.plan();
+InterpolationChoice choose_interpolation(const TilePlan& tile, const LifePlan& plan) {
+    const LifeTiles tiles(tile, plan);
     InterpolationChoice best{plan};
     ChosenAxis axes[]{{plan.distributions.torque, plan.torques, false},
                       {plan.distributions.speed, plan.speeds, true}};

@@ -1,5 +1,4 @@
-// Measures the errors of interpolation between crack depths and between loads (InterpolationErrors)
-// while gearboxes are integrated.
+// Chooses the number of torques and speeds at which the gearboxes of lives are integrated.
 #pragma once
 
 #include <string>
@@ -8,32 +7,6 @@
 #include "mc/lives/life_tile.hpp"
 
 namespace gearpod::mc {
-
-// All arguments must outlive the object.
-class LifeTiles::InterpolationCheck {
-  public:
-    // `solution` holds these gearboxes at the first load.
-    InterpolationCheck(const LifeTiles& tiles, std::span<const Realization> gearboxes,
-                       const HealthySolution& solution, std::span<InterpolationErrors> errors)
-        : tiles_(tiles), gearboxes_(gearboxes), solution_(solution), errors_(errors) {}
-
-    // Computes the largest error halfway between neighbouring loads.
-    void between_loads(const SignalsByLoad& healthy);
-    // Computes the error at the middle of a depth step at the first load. Only the step in which
-    // the crack begins to grow and the last step are evaluated.
-    void between_depths(int step, const SignalsByLoad& healthy, const SignalsByLoad& low,
-                        const SignalsByLoad& high);
-
-  private:
-    void at_load(const Load& load, const SignalsByLoad& healthy);
-
-    const LifeTiles& tiles_;
-    const std::span<const Realization> gearboxes_;
-    const HealthySolution& solution_;
-    const std::span<InterpolationErrors> errors_;
-};
-
-// Chooses the number of torques and speeds at which the gearboxes of lives are integrated.
 
 // Largest number of integrated loads (torques times speeds) that is chosen.
 inline constexpr std::size_t kMostLoads = 34;
@@ -50,8 +23,7 @@ struct InterpolationChoice {
 };
 
 // Raises the numbers that are not given from two until the error is at most the tolerance; if that
-// cannot be reached, the numbers of the least error are taken. Depends on the study only. Throws
-// SceneError if it has no lives.
-InterpolationChoice choose_interpolation(const Scene& scene);
+// cannot be reached, the numbers of the least error are taken. Depends on the study only.
+InterpolationChoice choose_interpolation(const TilePlan& tile, const LifePlan& plan);
 
 }  // namespace gearpod::mc

@@ -52,10 +52,8 @@ struct RecordTimes {
 
 class LifeTiles {
   public:
-    // The scene must outlive the object. Without a plan, that of the scene is used; throws
-    // SceneError if it has none.
-    explicit LifeTiles(const Scene& scene) : LifeTiles(scene, scene.life()) {}
-    LifeTiles(const Scene& scene, LifePlan plan);
+    // `tile` must outlive the object.
+    LifeTiles(const TilePlan& tile, LifePlan plan);
 
     // A gearbox without its fault. Inputs that vary by record are nominal.
     Realization draw(const GearboxId& id) const;
@@ -83,7 +81,7 @@ class LifeTiles {
     std::size_t load_count() const { return torques_.factors().size() * speeds_.factors().size(); }
     std::size_t gap_count() const;
 
-    const Scene& scene() const { return scene_; }
+    const TilePlan& tile() const { return tile_; }
     const LifePlan& plan() const { return plan_; }
     // Number of gearboxes integrated in lockstep.
     std::size_t lanes() const;
@@ -97,7 +95,7 @@ class LifeTiles {
     std::vector<Load> loads() const;
     std::vector<double> load_weights(const Load& load) const;
 
-    const Scene& scene_;
+    const TilePlan& tile_;
     const LifePlan plan_;
     const LoadAxis torques_, speeds_;
     const CrackLife crack_;

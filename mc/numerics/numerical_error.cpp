@@ -221,8 +221,8 @@ std::optional<NumericalError> find_numerical_error(const Planner& planner) {
     }
     const std::size_t test_count = ids.size();
     ids.insert(ids.end(), healthy.begin(), healthy.end());
-    const BatchRows coarse_rows = rows_of_gearboxes(plan, ids),
-                    fine_rows = rows_of_gearboxes(fine_plan, ids);
+    const BatchRows coarse_rows = rows_of_gearboxes(plan.tile(), ensemble, ids),
+                    fine_rows = rows_of_gearboxes(fine_plan.tile(), fine_plan.ensemble(), ids);
     const Values coarse = values_of(ensemble.shape, coarse_rows),
                  fine = values_of(ensemble.shape, fine_rows);
     NumericalError error{with_steps(own_setting(numerics), planner).text(),
@@ -306,13 +306,13 @@ struct Squares {
 };
 
 // Test records of the pilot's gearboxes with the numerics of a plan.
-GearboxTile pilot_tile(const Scene& plan) {
+GearboxTile pilot_tile(const TilePlan& plan) {
     std::vector<Realization> gearboxes;
     for (const GearboxId& id : pilot_gearboxes()) {
-        gearboxes.push_back(plan.sampler().draw(id));
+        gearboxes.push_back(plan.sampler->draw(id));
     }
-    const int lanes =
-        lockstep::lanes_for(plan.plan().precision, static_cast<int>(gearboxes.size()));
+    const int lanes = lockstep::lanes_for(plan.solve->integration().precision,
+                                          static_cast<int>(gearboxes.size()));
     return run_realizations(plan, std::move(gearboxes), lanes,
                             {.records = lockstep::RecordOptions{}});
 }
@@ -352,7 +352,7 @@ std::optional<StepError> find_step_error(const Planner& planner, double most_mes
     if (coarse.solve().integrated_meshes * (1.0 + ratio) > most_meshes) {
         return std::nullopt;
     }
-    const GearboxTile tile = pilot_tile(coarse), reference = pilot_tile(fine);
+    const GearboxTile tile = pilot_tile(coarse.tile()), reference = pilot_tile(fine.tile());
     Squares sensor, te;
     StepError error;
     error.meshes = std::min(kMeshes, coarse.recorded_meshes());

@@ -73,7 +73,7 @@ class ScatterChoice {
         }
         const Scene plan = planner.plan(unscaled_);
         shape_ = plan.ensemble().shape;
-        reference_ = rows_of_gearboxes(plan, ids_);
+        reference_ = rows_of_gearboxes(plan.tile(), plan.ensemble(), ids_);
         for (std::size_t value = 0; value < shape_.features * shape_.levels; ++value) {
             scatter_.push_back(standard_deviation(column(reference_, value)));
         }
@@ -130,7 +130,8 @@ class ScatterChoice {
         std::size_t feature = 0;
     };
     Error error_of(const Numerics& numerics) const {
-        const BatchRows rows = rows_of_gearboxes(planner_.plan(numerics), ids_);
+        const Scene plan = planner_.plan(numerics);
+        const BatchRows rows = rows_of_gearboxes(plan.tile(), plan.ensemble(), ids_);
         Error worst;
         for (std::size_t value = 0; value < scatter_.size(); ++value) {
             const std::vector<double> here = column(rows, value), there = column(reference_, value);

@@ -113,7 +113,7 @@ PilotRecord Pilot::run(const Numerics& numerics) const {
     const Scene plan = planner_.plan(numerics);
     const int lanes = lockstep::lanes_for(numerics.precision, full_lanes(numerics.precision));
     return record(plan, lanes, [&](std::span<const GearboxId> some) {
-        return run_gearboxes(plan, filled(some, lanes), lanes,
+        return run_gearboxes(plan.tile(), filled(some, lanes), lanes,
                              {.records = lockstep::RecordOptions{}});
     });
 }
@@ -121,7 +121,7 @@ PilotRecord Pilot::run(const Numerics& numerics) const {
 PilotRecord Pilot::record_of_integration(const ForeignIntegrator& integrate) const {
     const Scene plan = planner_.plan(planner_.facts().numerics);
     return record(plan, lockstep::kPilotLanes, [&](std::span<const GearboxId> some) {
-        return complete_tile(plan, some, integrate(some));
+        return complete_tile(plan.tile(), some, integrate(some));
     });
 }
 
@@ -130,8 +130,8 @@ PilotRecord Pilot::record(const Scene& plan, int lanes, const Tile& tile_of) con
     record.features_used = static_cast<int>(planner_.facts().features.size());
     record.levels = static_cast<int>(planner_.facts().noise_levels.size());
     record.steps = static_cast<int>(plan.plan().grid.steps.size());
-    const HealthyReference healthy = healthy_reference(plan);
-    RealizationFeatures features(plan, &healthy);
+    const HealthyReference healthy = healthy_reference(plan.tile());
+    RealizationFeatures features(plan.tile(), &healthy);
     double tiles_s = 0.0, features_s = 0.0, lanes_run = 0.0;
     for (std::size_t first = 0; first < ids_.size(); first += lockstep::kPilotLanes) {
         const auto some = std::span(ids_).subspan(
@@ -154,8 +154,8 @@ PilotRecord Pilot::record(const Scene& plan, int lanes, const Tile& tile_of) con
                 continue;
             }
             const double features_start = thread_processor_s();
-            record.features.back() =
-                features.compute(lane_signals(plan, tile, lane, features.meshes()), realization);
+            record.features.back() = features.compute(
+                lane_signals(plan.tile(), tile, lane, features.meshes()), realization);
             features_s += thread_processor_s() - features_start;
             const lockstep::SpanPart part =
                 tile.parts.empty() ? lockstep::SpanPart{0, signal_meshes_} : tile.parts.front();

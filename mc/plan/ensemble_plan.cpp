@@ -219,8 +219,4 @@ std::optional<EnsemblePlan> recorded_plan(const std::string& study_text, const s
     return EnsemblePlan(*study);
 }
 
-bool EnsemblePlan::has_other_fault() const {
-    return std::ranges::count(variants, kOtherFault, &VariantColumns::name) > 0;
-}
-
 }  // namespace gearpod::mc

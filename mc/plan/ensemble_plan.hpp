@@ -170,8 +170,6 @@ struct EnsemblePlan {
     std::vector<std::string> meshes;  // whose contact loss is stored; none if teeth cannot separate
     std::vector<std::string> integration;  // "superposed", or none
     std::vector<VariantColumns> variants;
-    // True if one of them has records of another fault than the study's.
-    bool has_other_fault() const;
     RowShape shape;
     analysis::DetectionRequest request;
     std::vector<std::string> group_names;  // sizes of the request's groups, "3 mm"

@@ -18,8 +18,8 @@
 
 namespace gearpod::mc {
 
-class Sampler;
 struct GearboxPlan;
+struct TilePlan;
 
 // Dynamic model of a gearbox at rest: degrees of freedom, masses, springs and dampers. Also defined
 // for planetary gearboxes without teeth, which have vibration modes only.
@@ -98,7 +98,7 @@ struct StagePlan {
     std::optional<std::size_t> other;  // earlier stage at the other end; empty: the study's gearbox
     std::optional<StageShaft> shaft;   // if it twists; empty: both gearboxes turn steadily
     std::shared_ptr<const GearboxPlan> gearbox;  // of the stage
-    std::shared_ptr<const Sampler> sampler;      // draws its gearboxes
+    std::shared_ptr<const TilePlan> tile;        // of the gearboxes of the stage
 };
 
 struct GearboxPlan {

@@ -125,39 +125,31 @@ void check_other_fault(const NeighbourStage& stage, const Study& study) {
     }
 }
 
-// Whole plans of the stages of a study, in its order. Throws SceneError.
-std::vector<Scene> stage_scenes(const Study& study) {
-    std::vector<Scene> scenes;
-    const std::vector<Study> studies = stage_studies(study);
-    for (std::size_t i = 0; i < studies.size(); ++i) {
-        const NeighbourStage& stage = study.sensor.stages[i];
-        try {
-            scenes.emplace_back(studies[i]);
-        } catch (const SceneError& error) {
-            throw SceneError(kStagesKey, named(stage, error.key() + ": " + error.what()),
-                             error.remedy(), error.kind());
-        }
-        check_other_fault(stage, studies[i]);
+std::shared_ptr<const TilePlan> stage_tile(const Study& study, const NeighbourStage& stage) {
+    try {
+        return std::make_shared<const TilePlan>(Scene(study).tile());
+    } catch (const SceneError& error) {
+        throw SceneError(kStagesKey, named(stage, error.key() + ": " + error.what()),
+                         error.remedy(), error.kind());
     }
-    return scenes;
 }
 
 // The stages next to that gearbox of the study. Throws SceneError.
-std::vector<StagePlan> make_stages(const Study& study, const GearboxPlan& gearbox,
-                                   const std::shared_ptr<const std::vector<Scene>>& scenes) {
+std::vector<StagePlan> make_stages(const Study& study, const GearboxPlan& gearbox) {
     const std::vector<NeighbourStage>& given = study.sensor.stages;
+    const std::vector<Study> studies = stage_studies(study);
     std::vector<StagePlan> stages;
     for (std::size_t i = 0; i < given.size(); ++i) {
         const NeighbourStage& stage = given[i];
-        const Scene& scene = (*scenes)[i];
         StagePlan& made = stages.emplace_back();
+        made.tile = stage_tile(studies[i], stage);
+        made.gearbox = made.tile->gearbox;
+        check_other_fault(stage, studies[i]);
         made.name = stage.name;
         made.gain = stage.gain;
         made.role = stage.role;
         made.member[0] = *stage.shaft;
         made.member[1] = *stage.stage_shaft;
-        made.gearbox = {scenes, &scene.gearbox()};
-        made.sampler = {scenes, &scene.sampler()};
         if (!stage.of.empty()) {
             made.other = std::ranges::find(given, stage.of, &NeighbourStage::name) - given.begin();
         }
@@ -179,21 +171,21 @@ bool share_steps(Numerics a, const Numerics& b) {
 }
 
 Scene::Scene(const Study& study)
-    : ensemble_(std::make_shared<const EnsemblePlan>(with_gears(study))),
-      sampler_(std::make_shared<const Sampler>(DrawPlan(study))) {
+    : ensemble_(std::make_shared<const EnsemblePlan>(with_gears(study))) {
+    tile_.sampler = std::make_shared<const Sampler>(DrawPlan(study));
     auto gearbox = std::make_shared<GearboxPlan>(study);
-    auto steps = std::make_shared<const ScenePlan>(make_plan(study, *sampler_, *gearbox));
-    stages_ = std::make_shared<const std::vector<Scene>>(stage_scenes(study));
-    gearbox->stages = make_stages(study, *gearbox, stages_);
-    gearbox_ = std::move(gearbox);
-    features_ = make_feature_plan(study, drivetrain().span());
+    auto steps = std::make_shared<const ScenePlan>(make_plan(study, sampler(), *gearbox));
+    gearbox->stages = make_stages(study, *gearbox);
+    tile_.gearbox = std::move(gearbox);
+    tile_.features = make_feature_plan(study, drivetrain().span());
     const int samples = steps->integration.grid.samples;
-    sensors_ = std::make_shared<const std::vector<SensorPlan>>(
+    tile_.sensors = std::make_shared<const std::vector<SensorPlan>>(
         make_sensor_plans(study, drivetrain(), samples));
-    record_ = make_record_plan(study, *gearbox_, features_, *sensors_, samples, steps->te_samples);
-    solve_ = std::make_shared<const SolvePlan>(SolveSettings(study), *gearbox_, record_,
-                                               std::move(steps));
-    lives_ = std::make_shared<const StudyLives>(study, features_, *gearbox_);
+    tile_.record =
+        make_record_plan(study, *tile_.gearbox, features(), sensors(), samples, steps->te_samples);
+    tile_.solve = std::make_shared<const SolvePlan>(SolveSettings(study), *tile_.gearbox, record(),
+                                                    std::move(steps));
+    lives_ = std::make_shared<const StudyLives>(study, features(), *tile_.gearbox);
 }
 
 const LifePlan& Scene::life() const {
@@ -204,30 +196,30 @@ const LifePlan& Scene::life() const {
 }
 
 Scene Scene::with_numerics_of(const Study& study) const {
-    const Numerics &given = solve_->settings.numerics, &numerics = study.numerics;
+    const Numerics &given = solve().settings.numerics, &numerics = study.numerics;
     const bool same_stiffness = given.stiffness_tolerance == numerics.stiffness_tolerance &&
                                 given.face_slices == numerics.face_slices;
     Scene scene = *this;
     scene.ensemble_ = std::make_shared<const EnsemblePlan>(study);
     if (!same_stiffness) {
         auto gearbox = std::make_shared<GearboxPlan>(study);
-        gearbox->stages = gearbox_->stages;
-        scene.gearbox_ = std::move(gearbox);
+        gearbox->stages = this->gearbox().stages;
+        scene.tile_.gearbox = std::move(gearbox);
     }
     const auto steps =
         share_steps(given, numerics)
-            ? solve_->steps
-            : std::make_shared<const ScenePlan>(make_plan(study, *sampler_, *scene.gearbox_));
-    scene.solve_ =
-        std::make_shared<const SolvePlan>(SolveSettings(study), *scene.gearbox_, record_, steps);
+            ? solve().steps
+            : std::make_shared<const ScenePlan>(make_plan(study, sampler(), scene.gearbox()));
+    scene.tile_.solve =
+        std::make_shared<const SolvePlan>(SolveSettings(study), scene.gearbox(), record(), steps);
     return scene;
 }
 
 Scene Scene::recording_at_most(int meshes) const {
     Scene scene = *this;
-    scene.record_.recorded_meshes = std::min(record_.signal_meshes, meshes);
-    scene.solve_ = std::make_shared<const SolvePlan>(solve_->settings, *gearbox_, scene.record_,
-                                                     solve_->steps);
+    scene.tile_.record.recorded_meshes = std::min(record().signal_meshes, meshes);
+    scene.tile_.solve = std::make_shared<const SolvePlan>(solve().settings, gearbox(),
+                                                          scene.record(), solve().steps);
     return scene;
 }
 
@@ -267,7 +259,7 @@ class TrainGearbox {
         : train_(scene.gearbox()),
           stage_(stage ? &train_.stages[*stage] : nullptr),
           study_(stage ? *study.sensor.stages[*stage].study : study),
-          integration_((stage ? scene.stages()[*stage] : scene).solve().integration()),
+          integration_((stage_ ? *stage_->tile : scene.tile()).solve->integration()),
           gearbox_(stage_ ? *stage_->gearbox : train_),
           name_(stage_ ? fmt::format("stage \"{}\": ", stage_->name) : "") {
         for (const StagePlan& other : train_.stages) {

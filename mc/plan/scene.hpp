@@ -7,15 +7,9 @@
 #include <vector>
 
 #include "mc/plan/ensemble_plan.hpp"
-#include "mc/plan/feature_plan.hpp"
-#include "mc/plan/gearbox_plan.hpp"
 #include "mc/plan/life_plan.hpp"
-#include "mc/plan/record_plan.hpp"
-#include "mc/plan/sampling.hpp"
 #include "mc/plan/scene_error.hpp"
-#include "mc/plan/scene_plan.hpp"
-#include "mc/plan/sensor_plan.hpp"
-#include "mc/plan/solve_plan.hpp"
+#include "mc/plan/tile_plan.hpp"
 #include "mc/study/study.hpp"
 
 namespace gearpod::mc {
@@ -42,71 +36,64 @@ class Scene {
     const StudyLives& lives() const { return *lives_; }
     // Throws SceneError if there are none.
     const LifePlan& life() const;
-    // Draws the gearboxes of the study.
-    const Sampler& sampler() const { return *sampler_; }
-    const DrawPlan& draw() const { return sampler_->plan(); }
     const EnsemblePlan& ensemble() const { return *ensemble_; }
-    const GearboxPlan& gearbox() const { return *gearbox_; }
-    // Plans of the neighbouring stages, in the order of the study.
-    const std::vector<Scene>& stages() const { return *stages_; }
-    const SolvePlan& solve() const { return *solve_; }
-    const Drivetrain& drivetrain() const { return *gearbox_->drivetrain; }
-    const std::vector<SceneMesh>& meshes() const { return gearbox_->stiffness->meshes(); }
-    const lockstep::PairSet& pairs() const { return gearbox_->pairs(); }
-    const SceneFault& fault() const { return gearbox_->fault(); }
-    const lockstep::IntegrationPlan& plan() const { return solve_->integration(); }
+    const TilePlan& tile() const { return tile_; }
+    // Parts of tile().
+    const Sampler& sampler() const { return *tile_.sampler; }
+    const DrawPlan& draw() const { return tile_.draw(); }
+    const GearboxPlan& gearbox() const { return *tile_.gearbox; }
+    const SolvePlan& solve() const { return *tile_.solve; }
+    const Drivetrain& drivetrain() const { return *gearbox().drivetrain; }
+    const std::vector<SceneMesh>& meshes() const { return gearbox().stiffness->meshes(); }
+    const lockstep::PairSet& pairs() const { return gearbox().pairs(); }
+    const SceneFault& fault() const { return gearbox().fault(); }
+    const lockstep::IntegrationPlan& plan() const { return solve().integration(); }
     const lockstep::FaultPattern& pattern() const { return fault().pattern(); }
     // Gear pair that the first passage of the faulty tooth weakens, or -1.
-    int faulty_pair() const { return gearbox_->faulty_pair(); }
+    int faulty_pair() const { return gearbox().faulty_pair(); }
     // Gear pair faulty_pair() with the faulty tooth of that size; null if the size is 0.
     std::shared_ptr<const stiffness::FaultyMesh> faulty_mesh(double size) const {
         return fault().mesh(0, size);
     }
     // See SceneStiffness.
     const MemberArray<gears::DeviationScales>& tooth_scales() const {
-        return gearbox_->stiffness->tooth_scales();
+        return gearbox().stiffness->tooth_scales();
     }
 
-    const FeaturePlan& features() const { return features_; }
+    const FeaturePlan& features() const { return tile_.features; }
     // The first sensor and the additional ones.
-    const std::vector<SensorPlan>& sensors() const { return *sensors_; }
+    const std::vector<SensorPlan>& sensors() const { return *tile_.sensors; }
     // What is recorded of every gearbox. Its values by earlier names:
-    const RecordPlan& record() const { return record_; }
-    const signals::SpanLayout& span() const { return record_.span; }
-    int span_meshes() const { return record_.span.meshes(); }
-    int signal_meshes() const { return record_.signal_meshes; }
-    int recorded_meshes() const { return record_.recorded_meshes; }
-    int path_meshes() const { return record_.path_meshes(); }
-    int samples_per_mesh() const { return record_.samples; }
-    int te_samples_per_mesh() const { return record_.te_samples; }
-    double nominal_mesh_frequency_Hz() const { return gearbox_->mesh_frequency_Hz; }
+    const RecordPlan& record() const { return tile_.record; }
+    const signals::SpanLayout& span() const { return tile_.record.span; }
+    int span_meshes() const { return tile_.record.span.meshes(); }
+    int signal_meshes() const { return tile_.record.signal_meshes; }
+    int recorded_meshes() const { return tile_.record.recorded_meshes; }
+    int path_meshes() const { return tile_.record.path_meshes(); }
+    int samples_per_mesh() const { return tile_.record.samples; }
+    int te_samples_per_mesh() const { return tile_.record.te_samples; }
+    double nominal_mesh_frequency_Hz() const { return gearbox().mesh_frequency_Hz; }
     // See Stepping.
-    int least_steps() const { return solve_->stepping().least; }
-    double explicit_steps() const { return solve_->stepping().explicit_steps; }
-    double longest_step() const { return solve_->stepping().longest_step; }
+    int least_steps() const { return solve().stepping().least; }
+    double explicit_steps() const { return solve().stepping().explicit_steps; }
+    double longest_step() const { return solve().stepping().longest_step; }
     // Calibration of the steps on a pilot sample; empty if there was none.
-    const std::optional<Calibration>& calibration() const { return solve_->steps->calibration; }
-    double decay_meshes() const { return solve_->stepping().decay_meshes; }
+    const std::optional<Calibration>& calibration() const { return solve().steps->calibration; }
+    double decay_meshes() const { return solve().stepping().decay_meshes; }
     // Largest number of mesh periods within which a gearbox must converge.
-    int max_meshes() const { return solve_->convergence.max_meshes; }
+    int max_meshes() const { return solve().convergence.max_meshes; }
     // See SceneStiffness.
-    std::vector<double> transitions() const { return gearbox_->stiffness->transitions(); }
-    std::vector<double> stiffest_pairs() const { return gearbox_->stiffness->stiffest_pairs(); }
-    const std::vector<double>& mean_pairs() const { return gearbox_->stiffness->mean_pairs(); }
+    std::vector<double> transitions() const { return gearbox().stiffness->transitions(); }
+    std::vector<double> stiffest_pairs() const { return gearbox().stiffness->stiffest_pairs(); }
+    const std::vector<double>& mean_pairs() const { return gearbox().stiffness->mean_pairs(); }
 
     dynamics::GearboxInputs inputs(const InstanceInputs& instance) const {
-        return gearbox_->inputs(instance);
+        return gearbox().inputs(instance);
     }
 
   private:
     std::shared_ptr<const EnsemblePlan> ensemble_;
-    std::shared_ptr<const Sampler> sampler_;
-    std::shared_ptr<const GearboxPlan> gearbox_;
-    std::shared_ptr<const std::vector<Scene>> stages_;
-    std::shared_ptr<const SolvePlan> solve_;
-    FeaturePlan features_;
-    RecordPlan record_;
-    std::shared_ptr<const std::vector<SensorPlan>> sensors_;
+    TilePlan tile_;
     std::shared_ptr<const StudyLives> lives_;
 };
 

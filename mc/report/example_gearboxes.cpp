@@ -286,44 +286,45 @@ Json engagements(const GearboxPlan& gearbox, double size) {
 // Computes example gearboxes, one at a time.
 class Examples {
   public:
-    Examples(const Scene& scene, const Results& frame)
-        : scene_(scene),
+    Examples(const TilePlan& tile, const EnsemblePlan& ensemble, const Results& frame)
+        : plan_(tile),
+          ensemble_(ensemble),
           frame_(frame),
-          healthy_(healthy_reference(scene)),
-          features_(scene, &healthy_, false),
+          healthy_(healthy_reference(tile)),
+          features_(tile, &healthy_, false),
           level_(reference_level(frame.noise_levels)) {}
 
     // Identity of the gearbox in a row. Rows of a part count from the first row of the part.
     GearboxId id_of(std::size_t row) const {
         const BatchPlan plan =
-            scene_.ensemble().batches(read_part(frame_.provenance_value("part")).value_or(Part{}));
+            ensemble_.batches(read_part(frame_.provenance_value("part")).value_or(Part{}));
         const Batch batch = plan.batch(plan.batch_of_row(row));
         const std::size_t within = row - batch.first_row;
         return {batch.group, batch.first_index + within / batch.records, Record::test,
                 within % batch.records,
-                batch.group == Group::threshold ? scene_.draw().rows.threshold_noise
+                batch.group == Group::threshold ? plan_.draw().rows.threshold_noise
                                                 : NoiseSampling::plain};
     }
 
     Json run(const ExampleRow& row) {
         const GearboxId id = id_of(row.row);
-        const GearboxTile tile = run_gearboxes(scene_, std::span(&id, 1), 1);
+        const GearboxTile tile = run_gearboxes(plan_, std::span(&id, 1), 1);
         if (tile.status[0] != Status::ok) {
             throw std::runtime_error("the gearbox in row " + std::to_string(row.row) +
                                      " failed when computed again");
         }
         std::vector<LevelSignals> levels;
-        const LaneSignals gearbox_signals = lane_signals(scene_, tile, 0, features_.meshes());
+        const LaneSignals gearbox_signals = lane_signals(plan_, tile, 0, features_.meshes());
         auto values = features_.compute(gearbox_signals, tile.realizations[0], &levels);
         std::vector<double> te_turn = features_.record().te_turn;
-        rotate_to_first_tooth(features_.record(), scene_.te_samples_per_mesh(), te_turn);
+        rotate_to_first_tooth(features_.record(), plan_.record.te_samples, te_turn);
         const RowShape shape = row_shape(frame_);
         const std::span<const double> stored(row.values.data() + shape.parameters,
                                              shape.features * shape.levels);
         // Features in Python keep their stored values.
         for (std::size_t f = 0; f < shape.features; ++f) {
             const bool external =
-                std::ranges::any_of(scene_.features().used, [&](const features::Feature* feature) {
+                std::ranges::any_of(plan_.features.used, [&](const features::Feature* feature) {
                     return feature->external && feature->name == frame_.features[f].name;
                 });
             if (external) {
@@ -332,15 +333,16 @@ class Examples {
                             values.begin() + static_cast<std::ptrdiff_t>(f * shape.levels));
             }
         }
-        const double period_s = dynamics::mesh_period_s(scene_.inputs(tile.realizations[0].inputs));
+        const double period_s =
+            dynamics::mesh_period_s(plan_.gearbox->inputs(tile.realizations[0].inputs));
         Json json{{"row", row.row},
                   {"size", row.size},
                   {"mesh_period_s", period_s},
                   {"same_bits", same_bits(values, stored)},
-                  {"engagements", engagements(scene_.gearbox(), row.size)},
+                  {"engagements", engagements(*plan_.gearbox, row.size)},
                   {"te",
-                   {{"clean", time_json(te_turn, scene_.te_samples_per_mesh())},
-                    {"noisy", time_json(levels[level_].te_turn, scene_.te_samples_per_mesh())}}},
+                   {{"clean", time_json(te_turn, plan_.record.te_samples)},
+                    {"noisy", time_json(levels[level_].te_turn, plan_.record.te_samples)}}},
                   {"sensor", nullptr},
                   {"spectrum", nullptr},
                   {"tooth_rms", nullptr}};
@@ -355,13 +357,13 @@ class Examples {
                 {{"name", frame_.features[f].name}, {"value", analysis::number(value)}});
         }
         if (!gearbox_signals.folded.empty()) {
-            const Signals signals = record_of(scene_.sensors().front(), tile.realizations[0],
+            const Signals signals = record_of(plan_.sensors->front(), tile.realizations[0],
                                               features_, whole_signals(tile));
             add_sensor(signals, json);
-            json.update(sensor_json(scene_.sensors().front(), signals, features_,
+            json.update(sensor_json(plan_.sensors->front(), signals, features_,
                                     levels[level_].tooth_rms, period_s));
             json["additional_sensors"] = additional_sensors(tile, period_s);
-            if (scene_.gearbox().excitation && scene_.gearbox().excitation->speed) {
+            if (plan_.gearbox->excitation && plan_.gearbox->excitation->speed) {
                 json["spectrogram"] = spectrogram(id);
             }
         }
@@ -380,32 +382,33 @@ class Examples {
 
     // Signals of all sensors from which records are taken.
     LaneSignals whole_signals(const GearboxTile& tile) const {
-        return lane_signals(scene_, tile, 0,
-                            scene_.record().length ? scene_.signal_meshes() : scene_.span_meshes());
+        return lane_signals(
+            plan_, tile, 0,
+            plan_.record.length ? plan_.record.signal_meshes : plan_.record.span.meshes());
     }
 
     Signals record_of(const SensorPlan& sensor, const Realization& realization,
                       const RealizationFeatures& features, LaneSignals whole) const {
         Signals signals{
-            drawn_record(scene_.record(), std::move(whole), realization), {}, scene_.span()};
+            drawn_record(plan_.record, std::move(whole), realization), {}, plan_.record.span};
         if (signals.record.turns > 0) {
             signals.layout.ring_teeth = signals.record.turns;
         }
         signals.noisy = signals.record.sensor;
-        add_noise(sample_noise(scene_.record(), sensor.noise(), realization, signals.record.sensor,
+        add_noise(sample_noise(plan_.record, sensor.noise(), realization, signals.record.sensor,
                                features.noise().sensor, signals.layout.ring_teeth),
                   noise_level() * realization.inputs.noise_m_s2, signals.noisy);
         if (const auto* range = sensor.find<RangeStage>()) {
             range->clip(signals.noisy);
             range->clip(signals.record.sensor);
-            fold_again(scene_.record(), signals.record);
+            fold_again(plan_.record, signals.record);
         }
         return signals;
     }
 
     // A turn from tooth 0 on.
     void add_sensor(const Signals& signals, Json& json) const {
-        const int samples = scene_.samples_per_mesh(), teeth = signals.layout.planet_teeth;
+        const int samples = plan_.record.samples, teeth = signals.layout.planet_teeth;
         const int before = signals.record.first_mesh % teeth;
         const std::size_t first =
                               static_cast<std::size_t>(before > 0 ? (teeth - before) * samples : 0),
@@ -420,8 +423,8 @@ class Examples {
                      const RealizationFeatures& features, const std::vector<double>& noisy_rms,
                      double period_s) const {
         std::vector<double> clean_rms(noisy_rms.size());
-        signals::Windowing windowing(signals.layout, scene_.samples_per_mesh(),
-                                     scene_.features().tukey_taper);
+        signals::Windowing windowing(signals.layout, plan_.record.samples,
+                                     plan_.features.tukey_taper);
         windowing.load(sensor.find<RangeStage>() != nullptr ? signals.record.folded
                                                             : features.record().folded);
         windowing.search(0.0, clean_rms);
@@ -435,24 +438,24 @@ class Examples {
     // Spectrogram of the sensor without noise, from the first mesh periods of the gearbox's record.
     Json spectrogram(const GearboxId& id) const {
         const long meshes =
-            std::min(scene_.span_meshes(), kSpectrogramSlices + kSpectrogramWindow - 1);
-        const Simulation simulated = simulate(scene_, id, meshes);
+            std::min(plan_.record.span.meshes(), kSpectrogramSlices + kSpectrogramWindow - 1);
+        const Simulation simulated = simulate(plan_, id, meshes);
         const auto column = [&](const char* name) -> const std::vector<double>& {
             return std::ranges::find(simulated.columns, name, &SignalColumn::name)->values;
         };
         constexpr double kBeyondBand = 1.25;  // of the low-pass
-        return spectrogram_json(column("time"), column("sensor"), scene_.samples_per_mesh(),
-                                kBeyondBand * scene_.features().low_pass_Hz);
+        return spectrogram_json(column("time"), column("sensor"), plan_.record.samples,
+                                kBeyondBand * plan_.features.low_pass_Hz);
     }
 
     Json additional_sensors(const GearboxTile& tile, double period_s) const {
         Json all = Json::array();
-        for (const SensorPlan& sensor : std::span(scene_.sensors()).subspan(1)) {
-            const HealthyReference healthy = healthy_reference(scene_, sensor.number);
-            RealizationFeatures features(scene_, &healthy, false, sensor.number);
+        for (const SensorPlan& sensor : std::span(*plan_.sensors).subspan(1)) {
+            const HealthyReference healthy = healthy_reference(plan_, sensor.number);
+            RealizationFeatures features(plan_, &healthy, false, sensor.number);
             const Realization here = sensor.realization(tile.realizations[0]);
             SensorSignals record =
-                signals_of_sensor(sensor, lane_signals(scene_, tile, 0, features.meshes()));
+                signals_of_sensor(sensor, lane_signals(plan_, tile, 0, features.meshes()));
             std::vector<LevelSignals> levels;
             features.compute(record.linked(), here, &levels);
             const Signals signals = record_of(
@@ -464,21 +467,23 @@ class Examples {
         return all;
     }
 
-    const Scene& scene_;
+    const TilePlan& plan_;
+    const EnsemblePlan& ensemble_;
     const Results& frame_;
     const HealthyReference healthy_;
     RealizationFeatures features_;
     const std::size_t level_;
 };
 
-Json gearboxes_json(const Scene& scene, const Results& frame, const RowSource& rows) {
+Json gearboxes_json(const TilePlan& tile, const EnsemblePlan& ensemble, const Results& frame,
+                    const RowSource& rows) {
     Json json{{"refusal", nullptr}, {"gearboxes", Json::array()}};
     const ExampleRows chosen = choose_rows(frame, rows);
     if (!chosen.healthy && !chosen.faulty) {
         json["refusal"] = "all gearboxes failed";
         return json;
     }
-    Examples examples(scene, frame);
+    Examples examples(tile, ensemble, frame);
     json["noise_level"] = examples.noise_level();
     for (const auto& row : {chosen.healthy, chosen.faulty}) {
         if (row) {
@@ -573,7 +578,9 @@ nlohmann::json examples_json(const Results& frame, const RowSource& rows) {
         return refusal_json("this version cannot build the study in the file: " +
                             format(made.problems));
     }
-    return {{"examples", or_refusal([&] { return gearboxes_json(*made.scene, frame, rows); })},
+    return {{"examples", or_refusal([&] {
+                 return gearboxes_json(made.scene->tile(), made.scene->ensemble(), frame, rows);
+             })},
             {"stiffness", or_refusal([&] { return stiffness_json(made.scene->gearbox()); })}};
 }
 

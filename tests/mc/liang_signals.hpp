@@ -16,7 +16,7 @@ namespace gearpod::test {
 inline mc::GearboxTile run_one(const mc::Scene& scene, bool with_motion = false,
                                std::uint64_t number = 0) {
     const mc::GearboxId id{mc::Group::test, number};
-    return mc::run_gearboxes(scene, std::span(&id, 1), 1,
+    return mc::run_gearboxes(scene.tile(), std::span(&id, 1), 1,
                              {.records = lockstep::RecordOptions{
                                   .motion_meshes = with_motion ? scene.recorded_meshes() : 0}});
 }

@@ -34,7 +34,7 @@ inline mc::Study study_of_text(const std::string& text,
 inline mc::Results run(const mc::Study& study) {
     const mc::Scene scene(study);
     mc::Progress progress(1, true);
-    return mc::run_ensemble(scene, progress);
+    return mc::run_ensemble(scene.tile(), scene.ensemble(), progress);
 }
 
 inline std::vector<std::uint64_t> feature_bits(const mc::Study& study) {

@@ -99,7 +99,7 @@ TEST_CASE("Signals and lines equal those of the simulated gearbox") {
     const Json& gearbox = example.gearbox(1);
     const long meshes = example.scene->span_meshes();
     const mc::Simulation whole =
-        mc::simulate(*example.scene, example.scene->draw().rows.id_of(2), meshes);
+        mc::simulate(example.scene->tile(), example.scene->draw().rows.id_of(2), meshes);
     const std::vector<double>& sensor = column(whole, "sensor");
     const int samples = example.scene->samples_per_mesh();
     const Json& drawn = gearbox["sensor"]["clean"];

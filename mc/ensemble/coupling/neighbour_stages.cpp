@@ -7,6 +7,7 @@
 
 #include "mc/ensemble/coupling/record_positions.hpp"
 #include "mc/plan/coupled_shafts.hpp"
+#include "mc/plan/tile_plan.hpp"
 
 namespace gearpod::mc {
 namespace {
@@ -80,7 +81,7 @@ std::vector<lockstep::CouplingShaft> coupling_shafts(const GearboxPlan& gearbox,
 Realization stage_gearbox(const GearboxPlan& gearbox, const StagePlan& stage,
                           const Realization& record, bool faulty) {
     const GearboxPlan& there = *stage.gearbox;
-    Realization next = stage.sampler->draw(id_in_stage(record.id));
+    Realization next = stage.tile->sampler->draw(id_in_stage(record.id));
     const InstanceInputs& nominal = gearbox.nominal;
     double torque = nominal.torque_N_m != 0.0 ? record.inputs.torque_N_m / nominal.torque_N_m : 1.0;
     if (stage.shaft) {

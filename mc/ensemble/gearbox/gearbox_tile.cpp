@@ -74,9 +74,8 @@ struct SolutionInputs {
     }
 };
 
-signals::Tones tones_of(const Scene& scene, std::span<const Realization> realizations) {
-    return draw_tones(scene.sensors().front().tones(), scene.gearbox(), scene.draw().seed,
-                      realizations);
+signals::Tones tones_of(const TilePlan& plan, std::span<const Realization> realizations) {
+    return draw_tones(plan.sensors->front().tones(), *plan.gearbox, plan.draw().seed, realizations);
 }
 
 // A coupled stage next to the gearboxes of a tile, and its recorder.
@@ -85,10 +84,10 @@ struct StageTask {
     const SolutionInputs inputs;
     TileSensorRecorder recorder;
 
-    StageTask(const Scene& plan, std::vector<Realization> realizations, int meshes)
-        : integration(plan.solve().integration()),
-          inputs(plan.draw(), plan.gearbox(), std::move(realizations)),
-          recorder(plan.record(), plan.sensors(), tones_of(plan, inputs.realizations),
+    StageTask(const TilePlan& plan, std::vector<Realization> realizations, int meshes)
+        : integration(plan.solve->integration()),
+          inputs(plan.draw(), *plan.gearbox, std::move(realizations)),
+          recorder(plan.record, *plan.sensors, tones_of(plan, inputs.realizations),
                    inputs.realizations, meshes, meshes) {}
 };
 
@@ -106,20 +105,19 @@ std::vector<lockstep::TileResult> run_coupled(int lanes,
 
 }  // namespace
 
-TileSolution solve(const Scene& scene, std::span<const Realization> realizations,
+TileSolution solve(const TilePlan& plan, std::span<const Realization> realizations,
                    const std::function<lockstep::Solution(const TileLoads&)>& solution_of) {
     auto start = WallClock::now();
     TileSolution solved;
-    SolutionInputs inputs(scene.draw(), scene.gearbox(),
-                          {realizations.begin(), realizations.end()});
+    SolutionInputs inputs(plan.draw(), *plan.gearbox, {realizations.begin(), realizations.end()});
     solved.stiffness_s = lap(start);
-    inputs.loads.excitation = draw_excitation(
-        scene.gearbox(), scene.draw().seed,
-        {scene.solve().longest_run_in(), scene.record().signal_meshes}, realizations);
+    inputs.loads.excitation =
+        draw_excitation(*plan.gearbox, plan.draw().seed,
+                        {plan.solve->longest_run_in(), plan.record.signal_meshes}, realizations);
     const lockstep::Solution solution = solution_of(inputs.loads);
     const double processor_start = thread_processor_s();
     solved.integration = with_lane_count(static_cast<int>(realizations.size()), [&](auto lanes) {
-        return lockstep::run_tile<lanes()>(scene.solve().integration(), inputs.gearboxes,
+        return lockstep::run_tile<lanes()>(plan.solve->integration(), inputs.gearboxes,
                                            inputs.faults, solution);
     });
     solved.integration_s = lap(start);
@@ -128,7 +126,7 @@ TileSolution solve(const Scene& scene, std::span<const Realization> realizations
     return solved;
 }
 
-TileSolution solve_coupled(const Scene& scene, const CoupledStages& coupled,
+TileSolution solve_coupled(const TilePlan& plan, const CoupledStages& coupled,
                            std::span<const Realization> realizations,
                            const lockstep::RecordOptions& options, const OnRecord& on_record,
                            std::optional<std::size_t> faulty_stage) {
@@ -136,18 +134,18 @@ TileSolution solve_coupled(const Scene& scene, const CoupledStages& coupled,
     TileSolution solved;
     const GearboxId& first = realizations.front().id;
     for (const Realization& record : realizations) {
-        if (!share_positions(record.id, first, scene.record().same_positions)) {
+        if (!share_positions(record.id, first, plan.record.same_positions)) {
             throw std::logic_error("records of a coupled tile have stages at other positions");
         }
     }
-    const SolvePlan& solve = scene.solve();
-    const GearboxPlan& gearbox = scene.gearbox();
-    const CoupledSpan span = coupled_span(scene.draw(), gearbox, scene.record(), coupled, first);
-    const SolutionInputs inputs(scene.draw(), scene.gearbox(),
+    const SolvePlan& solve = *plan.solve;
+    const GearboxPlan& gearbox = *plan.gearbox;
+    const CoupledSpan span = coupled_span(plan.draw(), gearbox, plan.record, coupled, first);
+    const SolutionInputs inputs(plan.draw(), *plan.gearbox,
                                 {realizations.begin(), realizations.end()});
     std::vector<std::unique_ptr<StageTask>> tasks;
     std::vector<lockstep::CoupledStage> stages{inputs.stage(
-        solve.integration(), {scene.record().recorded_meshes, span.run_in, options, on_record})};
+        solve.integration(), {plan.record.recorded_meshes, span.run_in, options, on_record})};
     for (const StageSpan& stage : span.stages) {
         const StagePlan& neighbour = gearbox.stages[stage.stage];
         std::vector<Realization> gearboxes;
@@ -155,8 +153,8 @@ TileSolution solve_coupled(const Scene& scene, const CoupledStages& coupled,
             gearboxes.push_back(
                 stage_gearbox(gearbox, neighbour, record, faulty_stage == stage.stage));
         }
-        tasks.push_back(std::make_unique<StageTask>(scene.stages()[stage.stage],
-                                                    std::move(gearboxes), stage.meshes));
+        tasks.push_back(
+            std::make_unique<StageTask>(*neighbour.tile, std::move(gearboxes), stage.meshes));
         StageTask& task = *tasks.back();
         lockstep::CoupledStage& added = stages.emplace_back(task.inputs.stage(
             task.integration, {stage.meshes, stage.run_in, {}, std::ref(task.recorder)}));
@@ -253,26 +251,26 @@ void keep_solution(TileSolution solved, GearboxTile& tile) {
 }
 
 // Solves the tile by the strategy of its study.
-void solve_by_choice(const Scene& scene, const lockstep::RecordOptions& records,
+void solve_by_choice(const TilePlan& plan, const lockstep::RecordOptions& records,
                      const OnRecord& on_record, const TileOptions& options, GearboxTile& tile) {
-    const auto* coupled = std::get_if<CoupledStages>(&scene.solve().strategy);
-    keep_solution(coupled != nullptr
-                      ? solve_coupled(scene, *coupled, tile.realizations, records, on_record,
-                                      options.faulty_stage)
-                      : solve(scene, tile.realizations,
-                              [&](const TileLoads& loads) {
-                                  return choose_solution(scene.solve(), scene.record(), loads,
-                                                         records, on_record, tile.parts);
-                              }),
+    const auto* coupled = std::get_if<CoupledStages>(&plan.solve->strategy);
+    keep_solution(coupled != nullptr ? solve_coupled(plan, *coupled, tile.realizations, records,
+                                                     on_record, options.faulty_stage)
+                                     : solve(plan, tile.realizations,
+                                             [&](const TileLoads& loads) {
+                                                 return choose_solution(*plan.solve, plan.record,
+                                                                        loads, records, on_record,
+                                                                        tile.parts);
+                                             }),
                   tile);
 }
 
 // Solves the tile and records its sensor signals meanwhile.
-void solve_and_record(const Scene& scene, const TileOptions& options, GearboxTile& tile) {
-    TileSensorRecorder recorder(scene.record(), scene.sensors(), tones_of(scene, tile.realizations),
+void solve_and_record(const TilePlan& plan, const TileOptions& options, GearboxTile& tile) {
+    TileSensorRecorder recorder(plan.record, *plan.sensors, tones_of(plan, tile.realizations),
                                 tile.realizations, options.signal_meshes);
     recorder.record_only(tile.parts);
-    solve_by_choice(scene, {}, std::ref(recorder), options, tile);
+    solve_by_choice(plan, {}, std::ref(recorder), options, tile);
     tile.sensor_recorders = recorder.take_recorders();
     tile.integration_s -= recorder.spent_s();
     tile.integration_cpu_s -= recorder.spent_s();
@@ -280,15 +278,15 @@ void solve_and_record(const Scene& scene, const TileOptions& options, GearboxTil
 }
 
 // Computes the signals of the sensors from an integrated tile.
-void add_signals(const Scene& scene, GearboxTile& tile) {
-    add_status(scene.gearbox(), scene.solve(), tile);
+void add_signals(const TilePlan& plan, GearboxTile& tile) {
+    add_status(*plan.gearbox, *plan.solve, tile);
     auto start = WallClock::now();
-    tile.views = views_of(scene.record(), tile);
-    if (scene.features().sensor) {
-        tile.tones = tones_of(scene, tile.realizations);
+    tile.views = views_of(plan.record, tile);
+    if (plan.features.sensor) {
+        tile.tones = tones_of(plan, tile.realizations);
     }
     if (!tile.sensor_recorders.empty()) {
-        for (const SensorPlan& sensor : scene.sensors()) {
+        for (const SensorPlan& sensor : *plan.sensors) {
             tile.folded.push_back(sensor.find<PathStage>() != nullptr
                                       ? tile.sensor_recorders[sensor.number].front()->folded()
                                       : machine::AlignedVector());
@@ -303,49 +301,49 @@ void add_signals(const Scene& scene, GearboxTile& tile) {
         }
     }
     // A quasi-static gearbox has no inertia and therefore no acceleration.
-    if (scene.features().sensor) {
-        const signals::FoldPlan plan(tile.integration.content, scene.span());
+    if (plan.features.sensor) {
+        const signals::FoldPlan fold(tile.integration.content, plan.record.span);
         const std::vector<double> exponents = path_exponents(tile.realizations, 0);
-        for (const SensorPlan& sensor : scene.sensors()) {
+        for (const SensorPlan& sensor : *plan.sensors) {
             machine::AlignedVector& folded = tile.folded.emplace_back();
             if (sensor.find<PathStage>() != nullptr) {
-                signals::fold_squares(tile.views, plan, sensor.paths.front(), exponents, tile.tones,
+                signals::fold_squares(tile.views, fold, sensor.paths.front(), exponents, tile.tones,
                                       folded);
             }
         }
     }
-    signals::average_te(tile.views, tile.integration.content, scene.span(),
-                        scene.te_samples_per_mesh(), tile.te_turn);
+    signals::average_te(tile.views, tile.integration.content, plan.record.span,
+                        plan.record.te_samples, tile.te_turn);
     tile.signals_s += lap(start);
 }
 
-void run_tile(const Scene& scene, const TileOptions& options, GearboxTile& tile) {
+void run_tile(const TilePlan& plan, const TileOptions& options, GearboxTile& tile) {
     const IntegrationCache* const cache = options.records ? nullptr : options.cache;
     auto start = WallClock::now();
     if (const auto before = cache != nullptr ? cache->find(tile.realizations) : nullptr) {
         tile.integration = *before;
         tile.integration_s = lap(start);
-    } else if (scene.solve().records_during_integration && !options.records) {
-        solve_and_record(scene, options, tile);
+    } else if (plan.solve->records_during_integration && !options.records) {
+        solve_and_record(plan, options, tile);
     } else {
-        solve_by_choice(scene, options.records.value_or(lockstep::RecordOptions{}), nullptr,
-                        options, tile);
+        solve_by_choice(plan, options.records.value_or(lockstep::RecordOptions{}), nullptr, options,
+                        tile);
         if (cache != nullptr) {
             cache->keep(tile.realizations, tile.integration);
         }
     }
-    add_signals(scene, tile);
+    add_signals(plan, tile);
 }
 
-GearboxTile run_records(const Scene& scene, std::span<const GearboxId> ids, int fewest,
+GearboxTile run_records(const TilePlan& plan, std::span<const GearboxId> ids, int fewest,
                         const TileOptions& options) {
-    GearboxTile tile = drawn_tile(
-        scene.sampler(), ids, lockstep::lanes_for(scene.solve().integration().precision, fewest));
-    const auto* every_mesh = std::get_if<EveryMeshPeriod>(&scene.solve().strategy);
+    GearboxTile tile = drawn_tile(*plan.sampler, ids,
+                                  lockstep::lanes_for(plan.solve->integration().precision, fewest));
+    const auto* every_mesh = std::get_if<EveryMeshPeriod>(&plan.solve->strategy);
     if (every_mesh != nullptr && every_mesh->records_only) {
-        tile.parts = parts_of_records(scene.record(), scene.features(), tile.realizations);
+        tile.parts = parts_of_records(plan.record, plan.features, tile.realizations);
     }
-    run_tile(scene, options, tile);
+    run_tile(plan, options, tile);
     return tile;
 }
 
@@ -375,16 +373,16 @@ std::vector<GearboxId> baselines_of(const RecordPlan& record, std::span<const Ge
 
 // Computes signals, status and times of the baseline records, at most as many at a time as there
 // are lanes. Their motion is freed before the test records are integrated.
-GearboxTile run_baselines(const Scene& scene, std::span<const GearboxId> ids, int fewest,
+GearboxTile run_baselines(const TilePlan& plan, std::span<const GearboxId> ids, int fewest,
                           const IntegrationCache* cache) {
-    const int meshes = scene.record().sensor_meshes(scene.features().needs.all());
-    const std::vector<GearboxId> earlier = baselines_of(scene.record(), ids);
-    const auto lanes = static_cast<std::size_t>(
-        lockstep::lanes_for(scene.solve().integration().precision, fewest));
+    const int meshes = plan.record.sensor_meshes(plan.features.needs.all());
+    const std::vector<GearboxId> earlier = baselines_of(plan.record, ids);
+    const auto lanes =
+        static_cast<std::size_t>(lockstep::lanes_for(plan.solve->integration().precision, fewest));
     // Order in which they are computed: records at the same positions follow each other.
     std::vector<std::size_t> order(earlier.size());
     std::iota(order.begin(), order.end(), std::size_t{0});
-    if (scene.record().same_positions > 1) {
+    if (plan.record.same_positions > 1) {
         std::ranges::stable_sort(order, {}, [&](std::size_t i) { return earlier[i].baseline; });
     }
     std::vector<GearboxId> ordered;
@@ -395,11 +393,11 @@ GearboxTile run_baselines(const Scene& scene, std::span<const GearboxId> ids, in
     all.status.resize(earlier.size());
     for (std::size_t first = 0; first < order.size();) {
         const auto left = std::span<const GearboxId>(ordered).subspan(first);
-        const auto some = left.first(shared_records(scene.record(), left, lanes));
+        const auto some = left.first(shared_records(plan.record, left, lanes));
         GearboxTile tile =
-            run_records(scene, some, fewest, {.signal_meshes = meshes, .cache = cache});
+            run_records(plan, some, fewest, {.signal_meshes = meshes, .cache = cache});
         auto start = WallClock::now();
-        std::vector<LaneSignals> signals = all_lane_signals(scene, tile, meshes);
+        std::vector<LaneSignals> signals = all_lane_signals(plan, tile, meshes);
         tile.signals_s += lap(start);
         for (std::size_t i = 0; i < some.size(); ++i) {
             all.baseline[order[first + i]] = std::move(signals[i]);
@@ -429,22 +427,21 @@ void add_baselines(GearboxTile earlier, GearboxTile& tile) {
 
 // Runs gearboxes that leave lanes free for all of their baseline records, which follow the test
 // records in the same tile.
-GearboxTile run_side_by_side(const Scene& scene, std::span<const GearboxId> ids, int lanes,
+GearboxTile run_side_by_side(const TilePlan& plan, std::span<const GearboxId> ids, int lanes,
                              TileOptions options) {
     std::vector<GearboxId> both(ids.begin(), ids.end());
-    const std::vector<GearboxId> earlier = baselines_of(scene.record(), ids);
+    const std::vector<GearboxId> earlier = baselines_of(plan.record, ids);
     both.insert(both.end(), earlier.begin(), earlier.end());
     if (options.signal_meshes >= 0) {
-        options.signal_meshes = std::max(
-            options.signal_meshes, scene.record().sensor_meshes(scene.features().needs.all()));
+        options.signal_meshes =
+            std::max(options.signal_meshes, plan.record.sensor_meshes(plan.features.needs.all()));
     }
-    GearboxTile tile = run_records(scene, both, lanes, options);
+    GearboxTile tile = run_records(plan, both, lanes, options);
     auto start = WallClock::now();
     std::vector<LaneSignals> baseline;
     for (std::size_t lane = ids.size(); lane < both.size(); ++lane) {
-        baseline.push_back(
-            lane_signals(scene, tile, static_cast<int>(lane),
-                         scene.record().sensor_meshes(scene.features().needs.all())));
+        baseline.push_back(lane_signals(plan, tile, static_cast<int>(lane),
+                                        plan.record.sensor_meshes(plan.features.needs.all())));
     }
     tile.baseline = std::move(baseline);
     tile.signals_s += lap(start);
@@ -456,19 +453,19 @@ GearboxTile run_side_by_side(const Scene& scene, std::span<const GearboxId> ids,
 
 }  // namespace
 
-GearboxTile run_gearboxes(const Scene& scene, std::span<const GearboxId> ids, int fewest,
+GearboxTile run_gearboxes(const TilePlan& plan, std::span<const GearboxId> ids, int fewest,
                           const TileOptions& options) {
-    if (scene.record().baselines == 0) {
-        return run_records(scene, ids, fewest, options);
+    if (plan.record.baselines == 0) {
+        return run_records(plan, ids, fewest, options);
     }
-    const int lanes = lockstep::lanes_for(scene.solve().integration().precision, fewest);
-    const std::size_t records = 1 + scene.record().computed_baselines;
-    if (scene.record().same_positions == 1 &&
+    const int lanes = lockstep::lanes_for(plan.solve->integration().precision, fewest);
+    const std::size_t records = 1 + plan.record.computed_baselines;
+    if (plan.record.same_positions == 1 &&
         records * ids.size() <= static_cast<std::size_t>(lanes)) {
-        return run_side_by_side(scene, ids, lanes, options);
+        return run_side_by_side(plan, ids, lanes, options);
     }
-    GearboxTile earlier = run_baselines(scene, ids, fewest, options.cache);
-    GearboxTile tile = run_records(scene, ids, fewest, options);
+    GearboxTile earlier = run_baselines(plan, ids, fewest, options.cache);
+    GearboxTile tile = run_records(plan, ids, fewest, options);
     add_baselines(std::move(earlier), tile);
     return tile;
 }
@@ -487,35 +484,34 @@ std::vector<double> contact_loss(const GearboxTile& tile, std::size_t lane, std:
     return mean;
 }
 
-GearboxTile run_realizations(const Scene& scene, std::vector<Realization> realizations, int fewest,
-                             const TileOptions& options) {
+GearboxTile run_realizations(const TilePlan& plan, std::vector<Realization> realizations,
+                             int fewest, const TileOptions& options) {
     GearboxTile tile = tile_of(std::move(realizations),
-                               lockstep::lanes_for(scene.solve().integration().precision, fewest));
-    run_tile(scene, options, tile);
+                               lockstep::lanes_for(plan.solve->integration().precision, fewest));
+    run_tile(plan, options, tile);
     return tile;
 }
 
-GearboxTile run_fault_perturbations(const Scene& scene, std::vector<Realization> realizations,
+GearboxTile run_fault_perturbations(const TilePlan& plan, std::vector<Realization> realizations,
                                     int lanes, const lockstep::SpanStates& healthy) {
     GearboxTile tile = tile_of(std::move(realizations), lanes);
-    keep_solution(solve(scene, tile.realizations,
+    keep_solution(solve(plan, tile.realizations,
                         [&](const TileLoads& loads) {
-                            return fault_perturbation(scene.solve(), loads, healthy);
+                            return fault_perturbation(*plan.solve, loads, healthy);
                         }),
                   tile);
-    add_status(scene.gearbox(), scene.solve(), tile);
+    add_status(*plan.gearbox, *plan.solve, tile);
     return tile;
 }
 
-GearboxTile complete_tile(const Scene& scene, std::span<const GearboxId> ids,
+GearboxTile complete_tile(const TilePlan& plan, std::span<const GearboxId> ids,
                           lockstep::TileResult integration) {
-    GearboxTile tile =
-        drawn_tile(scene.sampler(), ids, static_cast<int>(integration.status.size()));
+    GearboxTile tile = drawn_tile(*plan.sampler, ids, static_cast<int>(integration.status.size()));
     tile.integration = std::move(integration);
-    add_signals(scene, tile);
-    if (scene.record().baselines > 0) {
-        add_baselines(
-            run_baselines(scene, ids, static_cast<int>(tile.realizations.size()), nullptr), tile);
+    add_signals(plan, tile);
+    if (plan.record.baselines > 0) {
+        add_baselines(run_baselines(plan, ids, static_cast<int>(tile.realizations.size()), nullptr),
+                      tile);
     }
     return tile;
 }

@@ -14,7 +14,7 @@
 #include "mc/ensemble/gearbox/solution_choice.hpp"
 #include "mc/ensemble/gearbox/tile_sensors.hpp"
 #include "mc/plan/sampling.hpp"
-#include "mc/plan/scene.hpp"
+#include "mc/plan/tile_plan.hpp"
 #include "mc/results/results_file.hpp"
 #include "mc/study/noise.hpp"
 #include "signals/noise/tones.hpp"
@@ -42,7 +42,7 @@ struct TileSolution {
 // In the functions below `realizations` has one gearbox per lane.
 
 // Solves a tile by the strategy that solution_of(loads) returns.
-TileSolution solve(const Scene& scene, std::span<const Realization> realizations,
+TileSolution solve(const TilePlan& plan, std::span<const Realization> realizations,
                    const std::function<lockstep::Solution(const TileLoads&)>& solution_of);
 
 // Receives the record of a mesh period, as lockstep::RecordedSpan::on_record.
@@ -50,7 +50,7 @@ using OnRecord = std::function<void(int, const lockstep::MeshRecord&)>;
 
 // Solves a tile together with the coupled stages next to its gearboxes. The gearboxes of stage
 // `faulty_stage` have their fault. Requires check_stages().
-TileSolution solve_coupled(const Scene& scene, const CoupledStages& coupled,
+TileSolution solve_coupled(const TilePlan& plan, const CoupledStages& coupled,
                            std::span<const Realization> realizations,
                            const lockstep::RecordOptions& options, const OnRecord& on_record,
                            std::optional<std::size_t> faulty_stage);
@@ -80,7 +80,7 @@ struct LaneSignals {
     // Folded signals and samples of the additional sensors in this record; all else is the same.
     std::vector<LaneSignals> additional;
     // Window of a record that was cut from the signals (record_window.hpp): turns of the monitored
-    // gear, or 0 for the scene's span, and mesh period of the signals at which the record begins.
+    // gear, or 0 for the plan's span, and mesh period of the signals at which the record begins.
     int turns = 0, first_mesh = 0;
 };
 
@@ -127,19 +127,19 @@ struct TileOptions {
 // enough of its lanes are free. A gearbox whose baseline fails counts as failed. If every mesh
 // period is integrated, the sensor signals are recorded during integration and the motion is not
 // kept.
-GearboxTile run_gearboxes(const Scene& scene, std::span<const GearboxId> ids, int fewest,
+GearboxTile run_gearboxes(const TilePlan& plan, std::span<const GearboxId> ids, int fewest,
                           const TileOptions& options = {});
 
 // Runs the test records of these gearboxes, without baselines. Their inputs need not be those that
 // the study's distributions give.
-GearboxTile run_realizations(const Scene& scene, std::vector<Realization> realizations, int fewest,
-                             const TileOptions& options = {});
+GearboxTile run_realizations(const TilePlan& plan, std::vector<Realization> realizations,
+                             int fewest, const TileOptions& options = {});
 
 // Integrates only the mesh periods that the faults of these gearboxes change. Starts from the
 // healthy states of the same gearboxes in a tile of `lanes` lanes. Requires
 // SolvePlan::perturbation_only. Sets only realizations, integration and status of the
 // result.
-GearboxTile run_fault_perturbations(const Scene& scene, std::vector<Realization> realizations,
+GearboxTile run_fault_perturbations(const TilePlan& plan, std::vector<Realization> realizations,
                                     int lanes, const lockstep::SpanStates& healthy);
 
 // Views of the recorded motion of a tile, which must outlive them.
@@ -147,7 +147,7 @@ signals::TileSignals views_of(const RecordPlan& record, const GearboxTile& tile)
 
 // Completes a tile from a time integration made elsewhere, as run_gearboxes does. The number of
 // lanes is the number of status entries of `integration`.
-GearboxTile complete_tile(const Scene& scene, std::span<const GearboxId> ids,
+GearboxTile complete_tile(const TilePlan& plan, std::span<const GearboxId> ids,
                           lockstep::TileResult integration);
 
 // Contact loss ratio of each mesh of the gearbox: the mean over the gear pairs of that mesh.
@@ -162,9 +162,10 @@ std::vector<double> recorded_te(const RecordPlan& plan, const GearboxTile& tile,
 void remove_mean(std::vector<double>& values);
 
 // Signals of one lane. `meshes` is the number of mesh periods of sensor signal, 0 for none.
-LaneSignals lane_signals(const Scene& scene, const GearboxTile& tile, int lane, int meshes);
+LaneSignals lane_signals(const TilePlan& plan, const GearboxTile& tile, int lane, int meshes);
 // Signals of all requested gearboxes, computed together.
-std::vector<LaneSignals> all_lane_signals(const Scene& scene, const GearboxTile& tile, int meshes);
+std::vector<LaneSignals> all_lane_signals(const TilePlan& plan, const GearboxTile& tile,
+                                          int meshes);
 
 // Signals of an additional sensor of a gearbox, and those of its baseline records.
 struct SensorSignals {

@@ -45,18 +45,18 @@ void clear_failed(HealthySolution::Signals& all) {
 
 }  // namespace
 
-HealthySolution::HealthySolution(const Scene& scene, std::vector<Realization> realizations,
+HealthySolution::HealthySolution(const TilePlan& plan, std::vector<Realization> realizations,
                                  int fewest)
-    : scene_(scene), realizations_(std::move(realizations)) {
+    : plan_(plan), realizations_(std::move(realizations)) {
     for (Realization& one : realizations_) {
         one.inputs.gain = 1.0;
     }
-    const bool keep = scene.solve().perturbation_only;
+    const bool keep = plan.solve->perturbation_only;
     TileOptions options;
     if (keep) {
         options.records.emplace().states = true;
     }
-    GearboxTile tile = run_realizations(scene, with_size(0.0), fewest, options);
+    GearboxTile tile = run_realizations(plan, with_size(0.0), fewest, options);
     healthy_ = signals_of(tile);
     lanes_ = static_cast<int>(tile.realizations.size());
     if (keep) {
@@ -76,16 +76,16 @@ std::vector<Realization> HealthySolution::with_size(double size) const {
 }
 
 HealthySolution::Signals HealthySolution::signals_of(const GearboxTile& tile) const {
-    Signals all{all_lane_signals(scene_, tile, scene_.span_meshes()), tile.status};
+    Signals all{all_lane_signals(plan_, tile, plan_.record.span.meshes()), tile.status};
     clear_failed(all);
     return all;
 }
 
 HealthySolution::Signals HealthySolution::with_fault(double size) const {
     if (states_.all.empty()) {
-        return signals_of(run_realizations(scene_, with_size(size), lanes_));
+        return signals_of(run_realizations(plan_, with_size(size), lanes_));
     }
-    const GearboxTile changed = run_fault_perturbations(scene_, with_size(size), lanes_, states_);
+    const GearboxTile changed = run_fault_perturbations(plan_, with_size(size), lanes_, states_);
     Signals all = healthy_;
     for (std::size_t lane = 0; lane < realizations_.size(); ++lane) {
         all.lane[lane].folded.clear();  // the folded squares of the healthy gearbox no longer apply
@@ -101,12 +101,11 @@ HealthySolution::Signals HealthySolution::with_fault(double size) const {
 
 // Adds to the average of tooth j the mean change of its mesh periods (signals::average_te).
 void HealthySolution::change_te(const GearboxTile& changed, std::vector<LaneSignals>& lanes) const {
-    const auto per_mesh = static_cast<std::size_t>(scene_.te_samples_per_mesh());
+    const auto per_mesh = static_cast<std::size_t>(plan_.record.te_samples);
     const std::size_t width = static_cast<std::size_t>(lanes_),
-                      stride =
-                          static_cast<std::size_t>(scene_.samples_per_mesh()) / per_mesh * width;
-    const auto teeth = static_cast<std::size_t>(scene_.span().planet_teeth);
-    const double share = 1.0 / scene_.span().ring_teeth;
+                      stride = static_cast<std::size_t>(plan_.record.samples) / per_mesh * width;
+    const auto teeth = static_cast<std::size_t>(plan_.record.span.planet_teeth);
+    const double share = 1.0 / plan_.record.span.ring_teeth;
     for (std::size_t k = 0; k < changed.integration.content.size(); ++k) {
         const int record = changed.integration.content[k];
         if (record == lockstep::kUnchanged) {
@@ -135,9 +134,9 @@ void HealthySolution::change_sensor(const GearboxTile& changed,
     if (span.meshes.empty()) {
         return;
     }
-    const int phases = scene_.samples_per_mesh();
-    const auto sensor = signals::synthesize(views_of(scene_.record(), changed), span.timeline,
-                                            scene_.span(), scene_.sensors().front().paths.front(),
+    const int phases = plan_.record.samples;
+    const auto sensor = signals::synthesize(views_of(plan_.record, changed), span.timeline,
+                                            plan_.record.span, plan_.sensors->front().paths.front(),
                                             path_exponents(realizations_, 0), span.meshes);
     for (std::size_t lane = 0; lane < realizations_.size(); ++lane) {
         if (lanes[lane].sensor.empty()) {

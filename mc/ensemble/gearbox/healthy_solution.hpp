@@ -9,13 +9,13 @@
 
 namespace gearpod::mc {
 
-// Healthy reference solution of a tile, and its solutions with a fault. The scene must
+// Healthy reference solution of a tile, and its solutions with a fault. The plan must
 // outlive it.
 class HealthySolution {
   public:
     // The fault sizes of the gearboxes are ignored. The sensor gain is taken as 1, because the
     // records apply it later.
-    HealthySolution(const Scene& scene, std::vector<Realization> realizations, int fewest);
+    HealthySolution(const TilePlan& plan, std::vector<Realization> realizations, int fewest);
 
     // Sensor signal, transmission error and status of each gearbox. A gearbox that failed has no
     // signals.
@@ -34,7 +34,7 @@ class HealthySolution {
     void change_te(const GearboxTile& changed, std::vector<LaneSignals>& lanes) const;
     void change_sensor(const GearboxTile& changed, std::vector<LaneSignals>& lanes) const;
 
-    const Scene& scene_;
+    const TilePlan& plan_;
     std::vector<Realization> realizations_;
     int lanes_ = 0;
     lockstep::SpanStates states_;

@@ -37,14 +37,13 @@ std::size_t size_in_bytes(const lockstep::TileResult& result) {
 
 }  // namespace
 
-IntegrationCounts count_integrations(const Scene& scene, const BatchPlan& plan,
-                                     double motion_bytes) {
+IntegrationCounts count_integrations(const Sampler& sampler, const SolvePlan& solve,
+                                     const BatchPlan& batches, double motion_bytes) {
     // With more distinct gearboxes than this, repetitions are too rare to count.
     constexpr std::size_t kMostDistinct = 2000;
-    const auto lanes = static_cast<std::size_t>(scene.solve().settings.lanes);
-    const std::array<std::size_t, 2> rows{plan.threshold_gearboxes(), plan.test_rows()};
-    const std::size_t distinct =
-        scene.solve().settings.distinct_integrations.value_or(kMostDistinct + 1);
+    const auto lanes = static_cast<std::size_t>(solve.settings.lanes);
+    const std::array<std::size_t, 2> rows{batches.threshold_gearboxes(), batches.test_rows()};
+    const std::size_t distinct = solve.settings.distinct_integrations.value_or(kMostDistinct + 1);
     IntegrationCounts counts;
     std::set<std::string> keys;
     for (std::size_t g = 0; g < rows.size(); ++g) {
@@ -60,7 +59,7 @@ IntegrationCounts count_integrations(const Scene& scene, const BatchPlan& plan,
              t = t + 1 < distinct ? t + 1 : std::max(t + 1, tiles - 1)) {
             std::vector<Realization> gearboxes;
             for (std::size_t i = t * lanes; i < std::min(rows[g], (t + 1) * lanes); ++i) {
-                gearboxes.push_back(scene.sampler().draw({static_cast<Group>(g), i}));
+                gearboxes.push_back(sampler.draw({static_cast<Group>(g), i}));
             }
             const Realization last = gearboxes.back();
             gearboxes.resize(lanes, last);

@@ -11,21 +11,21 @@
 #include <string>
 
 #include "lockstep/tile/tile.hpp"
+#include "mc/plan/ensemble_plan.hpp"
 #include "mc/plan/sampling.hpp"
-#include "mc/plan/scene.hpp"
 #include "mc/results/result_rows.hpp"
 
 namespace gearpod::mc {
 
-// Number of tiles that a run of the plan integrates, by group. Tiles hold as many gearboxes as
+// Number of tiles that a run of these batches integrates, by group. Tiles hold as many gearboxes as
 // there are lanes; tiles found in the cache are not counted. `motion_bytes`: size of the records of
 // a tile.
 struct IntegrationCounts {
     std::array<std::size_t, 2> integrated{};
     std::size_t kept = 0;  // results in the cache at the end
 };
-IntegrationCounts count_integrations(const Scene& scene, const BatchPlan& plan,
-                                     double motion_bytes);
+IntegrationCounts count_integrations(const Sampler& sampler, const SolvePlan& solve,
+                                     const BatchPlan& batches, double motion_bytes);
 
 // Results of integrated tiles, by the inputs of their gearboxes; at most 256 MB. Results that do
 // not fit are integrated again. A cached result is bitwise equal to a new integration. Thread-safe.

@@ -244,24 +244,24 @@ class LaneSamples {
 };
 
 // Signals of `count` lanes.
-std::vector<LaneSignals> signals_of_lanes(const Scene& scene, const GearboxTile& tile,
+std::vector<LaneSignals> signals_of_lanes(const TilePlan& plan, const GearboxTile& tile,
                                           std::size_t first, std::size_t count, int meshes) {
-    const RecordPlan& plan = scene.record();
-    const std::vector<SensorPlan>& sensors = scene.sensors();
+    const RecordPlan& record = plan.record;
+    const std::vector<SensorPlan>& sensors = *plan.sensors;
     std::vector<LaneSignals> lanes;
     for (std::size_t lane = first; lane < first + count; ++lane) {
         lanes.push_back(folded_lane(sensors.size(), tile, static_cast<int>(lane)));
     }
     // Records that are cut from the signals need their transmission error, too.
-    if (plan.length && meshes == plan.sensor_meshes(scene.features().needs.all())) {
+    if (record.length && meshes == record.sensor_meshes(plan.features.needs.all())) {
         for (std::size_t i = 0; i < count; ++i) {
-            lanes[i].te = te_signal(plan, tile, static_cast<int>(first + i));
+            lanes[i].te = te_signal(record, tile, static_cast<int>(first + i));
         }
     }
     if (meshes > 0) {
         const auto realizations = std::span(tile.realizations).subspan(first, count);
-        LaneSamples samples(plan, tile, first, meshes,
-                            background_vibration(scene, realizations, lanes, meshes), lanes);
+        LaneSamples samples(record, tile, first, meshes,
+                            background_vibration(plan, realizations, lanes, meshes), lanes);
         for (const SensorPlan& sensor : sensors) {
             samples.evaluate(sensor);
         }
@@ -271,13 +271,14 @@ std::vector<LaneSignals> signals_of_lanes(const Scene& scene, const GearboxTile&
 
 }  // namespace
 
-LaneSignals lane_signals(const Scene& scene, const GearboxTile& tile, int lane, int meshes) {
+LaneSignals lane_signals(const TilePlan& plan, const GearboxTile& tile, int lane, int meshes) {
     return std::move(
-        signals_of_lanes(scene, tile, static_cast<std::size_t>(lane), 1, meshes).front());
+        signals_of_lanes(plan, tile, static_cast<std::size_t>(lane), 1, meshes).front());
 }
 
-std::vector<LaneSignals> all_lane_signals(const Scene& scene, const GearboxTile& tile, int meshes) {
-    return signals_of_lanes(scene, tile, 0, tile.status.size(), meshes);
+std::vector<LaneSignals> all_lane_signals(const TilePlan& plan, const GearboxTile& tile,
+                                          int meshes) {
+    return signals_of_lanes(plan, tile, 0, tile.status.size(), meshes);
 }
 
 SensorSignals signals_of_sensor(const SensorPlan& sensor, const LaneSignals& all) {

@@ -85,15 +85,13 @@ void add_coupled_stages(const RecordPlan& plan, std::span<const StagePlan> stage
 
 // Adds to samples of records what the fault of a coupled stage changes in them: vibration of that
 // stage, and of the study's gearbox to which the shaft carries it. NaN if a gearbox fails.
-void add_coupled_fault(const Scene& scene, std::size_t stage,
+void add_coupled_fault(const TilePlan& plan, std::size_t stage,
                        std::span<const Realization> realizations,
                        std::span<const LaneSignals> records,
                        std::vector<std::vector<double>>& samples) {
-    const GearboxTile tile =
-        run_realizations(scene, {realizations.begin(), realizations.end()},
-                         scene.solve().settings.lanes, {.faulty_stage = stage});
-    const std::vector<LaneSignals> faulty =
-        all_lane_signals(scene, tile, scene.record().signal_meshes);
+    const GearboxTile tile = run_realizations(plan, {realizations.begin(), realizations.end()},
+                                              plan.solve->settings.lanes, {.faulty_stage = stage});
+    const std::vector<LaneSignals> faulty = all_lane_signals(plan, tile, plan.record.signal_meshes);
     for (std::size_t r = 0; r < samples.size(); ++r) {
         for (std::size_t i = 0; i < samples[r].size(); ++i) {
             samples[r][i] +=
@@ -113,17 +111,18 @@ struct StageRecord {
 
 // Adds the steady vibration of the gearboxes of a stage, each from a random position on. `record`:
 // plan of the records to which it is added. Samples become NaN if the stage's gearbox fails.
-void add_stage(const RecordPlan& record, const std::string& name, const Scene& stage,
+void add_stage(const RecordPlan& record, const StagePlan& stage,
                std::span<const StageRecord> records) {
-    const auto lanes = static_cast<std::size_t>(stage.solve().settings.lanes);
+    const TilePlan& plan = *stage.tile;
+    const auto lanes = static_cast<std::size_t>(plan.solve->settings.lanes);
     for (std::size_t first = 0; first < records.size(); first += lanes) {
         const auto part = records.subspan(first, std::min(lanes, records.size() - first));
         std::vector<Realization> gearboxes;
         std::ranges::transform(part, std::back_inserter(gearboxes), &StageRecord::gearbox);
         const GearboxTile tile =
-            run_realizations(stage, gearboxes, static_cast<int>(part.size() > 1 ? lanes : 1));
+            run_realizations(plan, gearboxes, static_cast<int>(part.size() > 1 ? lanes : 1));
         const std::vector<LaneSignals> signals =
-            all_lane_signals(stage, tile, stage.record().span.meshes());
+            all_lane_signals(plan, tile, plan.record.span.meshes());
         for (std::size_t i = 0; i < part.size(); ++i) {
             machine::throw_if_cancelled();
             if (tile.status[i] != Status::ok) {
@@ -132,11 +131,11 @@ void add_stage(const RecordPlan& record, const std::string& name, const Scene& s
             }
             const std::vector<double>& vibration = signals[i].sensor;
             Philox engine = record_stream(record.seed, part[i].record->id,
-                                          with_suffix(StreamPurpose::stage_start, name));
+                                          with_suffix(StreamPurpose::stage_start, stage.name));
             const double start =
                 boost::random::uniform_01<double>()(engine) * static_cast<double>(vibration.size());
             const double step = record.sample_s(part[i].record->inputs) /
-                                stage.record().sample_s(part[i].gearbox.inputs);
+                                plan.record.sample_s(part[i].gearbox.inputs);
             add_vibration(vibration, part[i].factor, start, step, *part[i].samples);
         }
     }
@@ -144,29 +143,28 @@ void add_stage(const RecordPlan& record, const std::string& name, const Scene& s
 
 }  // namespace
 
-std::vector<std::vector<double>> background_vibration(const Scene& scene,
+std::vector<std::vector<double>> background_vibration(const TilePlan& plan,
                                                       std::span<const Realization> realizations,
                                                       std::span<const LaneSignals> records,
                                                       int meshes) {
-    const RecordPlan& plan = scene.record();
-    const std::vector<StagePlan>& stages = scene.gearbox().stages;
-    const auto* sources = scene.sensors().front().find<OtherSourcesStage>();
+    const std::vector<StagePlan>& stages = plan.gearbox->stages;
+    const auto* sources = plan.sensors->front().find<OtherSourcesStage>();
     std::vector<std::vector<double>> samples;
     if (sources == nullptr || (stages.empty() && sources->background.empty())) {
         return samples;
     }
     // Records of a coupled tile share it.
     CoupledSpan span;
-    if (const auto* coupled = std::get_if<CoupledStages>(&scene.solve().strategy)) {
-        span = coupled_span(scene.draw(), scene.gearbox(), scene.record(), *coupled,
+    if (const auto* coupled = std::get_if<CoupledStages>(&plan.solve->strategy)) {
+        span = coupled_span(plan.draw(), *plan.gearbox, plan.record, *coupled,
                             realizations.front().id);
     }
     for (std::size_t i = 0; i < records.size(); ++i) {
         samples.emplace_back(
-            static_cast<std::size_t>(meshes) * static_cast<std::size_t>(plan.samples), 0.0);
-        add_bearings(scene.gearbox(), plan, sources->background, sources->low_pass_Hz,
+            static_cast<std::size_t>(meshes) * static_cast<std::size_t>(plan.record.samples), 0.0);
+        add_bearings(*plan.gearbox, plan.record, sources->background, sources->low_pass_Hz,
                      realizations[i], samples[i]);
-        add_coupled_stages(plan, stages, span, records[i], samples[i]);
+        add_coupled_stages(plan.record, stages, span, records[i], samples[i]);
     }
     for (std::size_t stage = 0; stage < stages.size(); ++stage) {
         if (stages[stage].shaft) {
@@ -175,54 +173,58 @@ std::vector<std::vector<double>> background_vibration(const Scene& scene,
         std::vector<StageRecord> next;
         for (std::size_t i = 0; i < records.size(); ++i) {
             next.push_back({&realizations[i],
-                            stage_gearbox(scene.gearbox(), stages[stage], realizations[i]),
+                            stage_gearbox(*plan.gearbox, stages[stage], realizations[i]),
                             stages[stage].gain, &samples[i]});
         }
-        add_stage(plan, stages[stage].name, scene.stages()[stage], next);
+        add_stage(plan.record, stages[stage], next);
     }
     return samples;
 }
 
-std::vector<LaneSignals> with_other_fault(const Scene& scene,
+std::vector<LaneSignals> with_other_fault(const TilePlan& plan,
                                           std::span<const Realization> realizations,
                                           std::span<const LaneSignals> records) {
+    const auto* sources = plan.sensors->front().find<OtherSourcesStage>();
+    const std::vector<StagePlan>& stages = plan.gearbox->stages;
+    if (sources == nullptr ||
+        (sources->other_fault.empty() &&
+         std::ranges::count(stages, SourceRole::other_fault, &StagePlan::role) == 0)) {
+        return {};
+    }
     std::vector<LaneSignals> other(records.begin(), records.end());
     if (records.front().sensor.empty()) {
         return other;
     }
-    const RecordPlan& plan = scene.record();
-    const OtherSourcesStage& sources = *scene.sensors().front().find<OtherSourcesStage>();
     std::vector<std::vector<double>> samples;
     for (std::size_t i = 0; i < records.size(); ++i) {
         samples.emplace_back(records[i].sensor.size(), 0.0);
-        add_bearings(scene.gearbox(), plan, sources.other_fault, sources.low_pass_Hz,
+        add_bearings(*plan.gearbox, plan.record, sources->other_fault, sources->low_pass_Hz,
                      realizations[i], samples[i]);
     }
-    const std::vector<StagePlan>& stages = scene.gearbox().stages;
     for (std::size_t stage = 0; stage < stages.size(); ++stage) {
         if (stages[stage].role != SourceRole::other_fault) {
             continue;
         }
         if (stages[stage].shaft) {
-            add_coupled_fault(scene, stage, realizations, records, samples);
+            add_coupled_fault(plan, stage, realizations, records, samples);
             continue;
         }
         std::vector<StageRecord> next;  // the faulty stage in place of the healthy one
         for (std::size_t i = 0; i < records.size(); ++i) {
             const double gain = stages[stage].gain;
             next.push_back({&realizations[i],
-                            stage_gearbox(scene.gearbox(), stages[stage], realizations[i], true),
+                            stage_gearbox(*plan.gearbox, stages[stage], realizations[i], true),
                             gain, &samples[i]});
             next.push_back({&realizations[i],
-                            stage_gearbox(scene.gearbox(), stages[stage], realizations[i]), -gain,
+                            stage_gearbox(*plan.gearbox, stages[stage], realizations[i]), -gain,
                             &samples[i]});
         }
-        add_stage(plan, stages[stage].name, scene.stages()[stage], next);
+        add_stage(plan.record, stages[stage], next);
     }
     for (std::size_t i = 0; i < records.size(); ++i) {
         std::vector<double>& sensor = other[i].sensor;
         std::ranges::transform(sensor, samples[i], sensor.begin(), std::plus<>());
-        fold_again(plan, other[i]);
+        fold_again(plan.record, other[i]);
     }
     return other;
 }

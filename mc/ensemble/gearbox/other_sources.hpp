@@ -15,13 +15,13 @@ namespace gearpod::mc {
 // vibrated with the gearbox (LaneSignals::coupled); other stages are integrated here. Samples count
 // as evenly spaced even if the speed fluctuates. A record next to whose gearbox a stage fails
 // becomes NaN.
-std::vector<std::vector<double>> background_vibration(const Scene& scene,
+std::vector<std::vector<double>> background_vibration(const TilePlan& plan,
                                                       std::span<const Realization> realizations,
                                                       std::span<const LaneSignals> records,
                                                       int meshes);
 // The whole records of these gearboxes, with their background, and with the other fault in the
-// samples of the first sensor. Requires sources of another fault.
-std::vector<LaneSignals> with_other_fault(const Scene& scene,
+// samples of the first sensor; empty without sources of another fault.
+std::vector<LaneSignals> with_other_fault(const TilePlan& plan,
                                           std::span<const Realization> realizations,
                                           std::span<const LaneSignals> records);
 

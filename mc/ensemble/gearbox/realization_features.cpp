@@ -183,11 +183,11 @@ HealthyReference HealthyRecordsMean::mean() const {
 
 namespace {
 
-HealthyReference reference_of(const Scene& scene, const SensorPlan& sensor) {
-    const int lanes = scene.solve().settings.lanes;
-    RealizationSignals records(scene.record(), scene.features(), sensor,
+HealthyReference reference_of(const TilePlan& plan, const SensorPlan& sensor) {
+    const int lanes = plan.solve->settings.lanes;
+    RealizationSignals records(plan.record, plan.features, sensor,
                                features::SignalSet::of<features::SensorTurn>());
-    const std::size_t levels = scene.record().noise_levels.size();
+    const std::size_t levels = plan.record.noise_levels.size();
     HealthyRecordsMean mean(levels);
     for (int first = 0; first < HealthyReference::kRecords; first += lanes) {
         std::vector<GearboxId> ids;
@@ -195,8 +195,8 @@ HealthyReference reference_of(const Scene& scene, const SensorPlan& sensor) {
             ids.push_back({Group::threshold, static_cast<std::uint64_t>(i)});
         }
         const GearboxTile tile =
-            run_gearboxes(scene, ids, lanes, {.signal_meshes = records.meshes()});
-        auto signals = all_lane_signals(scene, tile, records.meshes());
+            run_gearboxes(plan, ids, lanes, {.signal_meshes = records.meshes()});
+        auto signals = all_lane_signals(plan, tile, records.meshes());
         for (std::size_t lane = 0; lane < ids.size(); ++lane) {
             machine::throw_if_cancelled();
             if (tile.status[lane] == Status::ok) {
@@ -205,7 +205,7 @@ HealthyReference reference_of(const Scene& scene, const SensorPlan& sensor) {
                     signals[lane] = signals_of_sensor(sensor, signals[lane]).record;
                 }
                 const LaneSignals record =
-                    drawn_record(scene.record(), std::move(signals[lane]), realization);
+                    drawn_record(plan.record, std::move(signals[lane]), realization);
                 records.load(record, realization);
                 for (std::size_t level = 0; level < levels; ++level) {
                     mean.add(level, records.at(level));
@@ -218,15 +218,15 @@ HealthyReference reference_of(const Scene& scene, const SensorPlan& sensor) {
 
 }  // namespace
 
-HealthyReference healthy_reference(const Scene& scene, std::uint64_t sensor) {
-    if (!scene.features().needs.all().has<features::HealthyRecords>()) {
+HealthyReference healthy_reference(const TilePlan& plan, std::uint64_t sensor) {
+    if (!plan.features.needs.all().has<features::HealthyRecords>()) {
         return {};
     }
-    return reference_of(scene, scene.sensors()[sensor]);
+    return reference_of(plan, (*plan.sensors)[sensor]);
 }
 
-HealthyReference simulated_reference(const Scene& scene) {
-    return reference_of(scene, scene.sensors().front());
+HealthyReference simulated_reference(const TilePlan& plan) {
+    return reference_of(plan, plan.sensors->front());
 }
 
 namespace {
@@ -238,23 +238,22 @@ const LaneSignals& baseline_of(const LaneSignals& gearbox, std::size_t k) {
 
 }  // namespace
 
-RealizationFeatures::RealizationFeatures(const Scene& scene, const HealthyReference* healthy,
+RealizationFeatures::RealizationFeatures(const TilePlan& plan, const HealthyReference* healthy,
                                          bool python, std::uint64_t sensor)
-    : RealizationSignals(scene.record(), scene.features(), scene.sensors()[sensor],
-                         scene.features().needs.record),
-      plan_(scene.record()),
-      rows_(scene.draw().rows),
-      features_(scene.features().used),
-      python_(scene.record(), scene.features(),
+    : RealizationSignals(plan.record, plan.features, (*plan.sensors)[sensor],
+                         plan.features.needs.record),
+      plan_(plan.record),
+      rows_(plan.draw().rows),
+      features_(plan.features.used),
+      python_(plan.record, plan.features,
               python ? features_ : std::vector<const features::Feature*>()),
       healthy_(healthy),
-      levels_(scene.record().noise_levels.size()) {
-    const ComparedNeeds& needs = scene.features().needs;
+      levels_(plan.record.noise_levels.size()) {
+    const ComparedNeeds& needs = plan.features.needs;
     const auto signals_with = [&](features::SignalSet with_needs) {
-        return RealizationSignals(scene.record(), scene.features(), scene.sensors()[sensor],
-                                  with_needs);
+        return RealizationSignals(plan.record, plan.features, (*plan.sensors)[sensor], with_needs);
     };
-    for (int k = 0; k < scene.features().baselines; ++k) {
+    for (int k = 0; k < plan.features.baselines; ++k) {
         baselines_.push_back({signals_with(needs.baseline), {}, {}});
     }
     if (!needs.change.empty()) {

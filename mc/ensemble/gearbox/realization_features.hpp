@@ -12,7 +12,7 @@
 #include "mc/ensemble/gearbox/gearbox_tile.hpp"
 #include "mc/ensemble/gearbox/realization_signals.hpp"
 #include "mc/ensemble/gearbox/record_window.hpp"
-#include "mc/plan/scene.hpp"
+#include "mc/plan/tile_plan.hpp"
 
 namespace gearpod::mc {
 
@@ -87,10 +87,10 @@ class HealthyRecordsMean {
 
 // Mean over the first eight gearboxes of the threshold sample, with their own noise. Gearboxes that
 // failed are left out.
-HealthyReference simulated_reference(const Scene& scene);
+HealthyReference simulated_reference(const TilePlan& plan);
 // The same mean, of the first sensor or of an additional one (GearboxId::sensor); empty unless a
 // feature of the study needs it.
-HealthyReference healthy_reference(const Scene& scene, std::uint64_t sensor = 0);
+HealthyReference healthy_reference(const TilePlan& plan, std::uint64_t sensor = 0);
 
 // Signals from which features are computed at one noise level.
 struct LevelSignals {
@@ -103,7 +103,7 @@ class RealizationFeatures : public RealizationSignals {
   public:
     // `healthy` comes from healthy_reference() and must outlive the object. Without `python`,
     // features in Python are NaN, and their files are not needed. `sensor` as in GearboxId.
-    RealizationFeatures(const Scene& scene, const HealthyReference* healthy, bool python = true,
+    RealizationFeatures(const TilePlan& plan, const HealthyReference* healthy, bool python = true,
                         std::uint64_t sensor = 0);
 
     // Values of all used features, [feature * noise levels + level]. If `signals` is not null, one

@@ -1,4 +1,4 @@
-// Samples of a scene's records, which are folded over planet turns, and records that are shorter
+// Samples of records, which are folded over planet turns, and records that are shorter
 // than the span: part of a gearbox's signals, from a random tooth position.
 #pragma once
 

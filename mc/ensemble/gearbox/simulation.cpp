@@ -88,29 +88,27 @@ void add_sensor(const RecordPlan& plan, const SensorPlan& sensor, const Realizat
 }
 
 // Adds the samples of all sensors. `features` are those of the first one.
-void add_sensors(const Scene& scene, const GearboxTile& tile, const RealizationFeatures& features,
+void add_sensors(const TilePlan& plan, const GearboxTile& tile, const RealizationFeatures& features,
                  std::size_t rows, Simulation& out) {
     const Realization& realization = tile.realizations[0];
-    const LaneSignals all = lane_signals(scene, tile, 0, scene.record().signal_meshes);
-    add_sensor(scene.record(), scene.sensors().front(), realization, all, features, "sensor", rows,
-               out);
-    if (scene.ensemble().has_other_fault()) {
-        LaneSignals other =
-            with_other_fault(scene, std::span(&realization, 1), std::span(&all, 1)).front();
+    const LaneSignals all = lane_signals(plan, tile, 0, plan.record.signal_meshes);
+    add_sensor(plan.record, plan.sensors->front(), realization, all, features, "sensor", rows, out);
+    for (LaneSignals& other :
+         with_other_fault(plan, std::span(&realization, 1), std::span(&all, 1))) {
         std::ranges::transform(other.sensor, all.sensor, other.sensor.begin(), std::minus<>());
         std::vector<double> samples =
-            drawn_record(scene.record(), std::move(other), realization).sensor;
+            drawn_record(plan.record, std::move(other), realization).sensor;
         samples.resize(rows);
         out.columns.push_back({kOtherFault, "m/s^2", std::move(samples)});
     }
-    for (const SensorPlan& sensor : std::span(scene.sensors()).subspan(1)) {
-        const HealthyReference healthy = healthy_reference(scene, sensor.number);
-        RealizationFeatures sensor_features(scene, &healthy, false, sensor.number);
+    for (const SensorPlan& sensor : std::span(*plan.sensors).subspan(1)) {
+        const HealthyReference healthy = healthy_reference(plan, sensor.number);
+        RealizationFeatures sensor_features(plan, &healthy, false, sensor.number);
         const Realization here = sensor.realization(realization);
         SensorSignals signals =
-            signals_of_sensor(sensor, lane_signals(scene, tile, 0, sensor_features.meshes()));
+            signals_of_sensor(sensor, lane_signals(plan, tile, 0, sensor_features.meshes()));
         sensor_features.compute(signals.linked(), here);
-        add_sensor(scene.record(), sensor, here, signals_of_sensor(sensor, all).record,
+        add_sensor(plan.record, sensor, here, signals_of_sensor(sensor, all).record,
                    sensor_features, kSensorVariant + sensor.name, rows, out);
     }
 }
@@ -155,32 +153,32 @@ std::vector<double> sample_times(const GearboxPlan& gearbox, const SolvePlan& so
 
 }  // namespace
 
-Simulation simulate(const Scene& scene, const GearboxId& id, long meshes) {
-    const MeshRange range{scene.record().length
-                              ? record_window(scene.record(), id,
-                                              scene.record().turns(scene.sampler().draw(id).inputs))
-                                    .first_mesh
-                              : 0,
-                          meshes};
+Simulation simulate(const TilePlan& plan, const GearboxId& id, long meshes) {
+    const MeshRange range{
+        plan.record.length
+            ? record_window(plan.record, id, plan.record.turns(plan.sampler->draw(id).inputs))
+                  .first_mesh
+            : 0,
+        meshes};
     const GearboxTile tile =
-        run_gearboxes(scene, std::span(&id, 1), 1,
+        run_gearboxes(plan, std::span(&id, 1), 1,
                       {.records = lockstep::RecordOptions{
                            .motion_meshes = static_cast<int>(range.first + range.count)}});
     if (tile.status[0] != Status::ok) {
         throw std::runtime_error(fmt::format("this gearbox {}", failure_text(tile.status[0])));
     }
-    const HealthyReference healthy = healthy_reference(scene);
-    RealizationFeatures features(scene, &healthy);
+    const HealthyReference healthy = healthy_reference(plan);
+    RealizationFeatures features(plan, &healthy);
     Simulation out;
-    out.noise_levels = scene.record().noise_levels;
-    for (const features::Feature* feature : scene.features().used) {
+    out.noise_levels = plan.record.noise_levels;
+    for (const features::Feature* feature : plan.features.used) {
         out.feature_names.emplace_back(feature->name);
     }
     out.features =
-        features.compute(lane_signals(scene, tile, 0, features.meshes()), tile.realizations[0]);
+        features.compute(lane_signals(plan, tile, 0, features.meshes()), tile.realizations[0]);
 
-    const int samples = scene.record().samples;
-    const auto inputs = scene.inputs(tile.realizations[0].inputs);
+    const int samples = plan.record.samples;
+    const auto inputs = plan.gearbox->inputs(tile.realizations[0].inputs);
     const auto rows = static_cast<std::size_t>(meshes) * static_cast<std::size_t>(samples);
     Column time{"time", "s", {}}, phase{"mesh_phase", "mesh periods", {}},
         angle{"carrier_angle", "rad", {}};
@@ -191,17 +189,17 @@ Simulation simulate(const Scene& scene, const GearboxId& id, long meshes) {
         angle.values.push_back(mesh * period_s * dynamics::frame_speed_rad_s(inputs));
     }
     time.values =
-        sample_times(scene.gearbox(), scene.solve(), scene.record(), tile.realizations[0], range);
+        sample_times(*plan.gearbox, *plan.solve, plan.record, tile.realizations[0], range);
     out.columns = {time, phase};
-    if (scene.gearbox().kind == GearboxKind::planetary) {
+    if (plan.gearbox->kind == GearboxKind::planetary) {
         out.columns.push_back(angle);
     }
-    if (scene.features().sensor) {
-        add_sensors(scene, tile, features, rows, out);
+    if (plan.features.sensor) {
+        add_sensors(plan, tile, features, rows, out);
     }
-    add_motion(scene.solve().integration(), scene.drivetrain(), tile, range, out);
+    add_motion(plan.solve->integration(), *plan.gearbox->drivetrain, tile, range, out);
     if (!tile.integration.contact_loss.empty()) {
-        const auto meshes_of_kind = scene.gearbox().meshes();
+        const auto meshes_of_kind = plan.gearbox->meshes();
         const auto loss = contact_loss(tile, 0, meshes_of_kind.size());
         for (std::size_t m = 0; m < loss.size(); ++m) {
             out.contact_loss.push_back({mesh_name(meshes_of_kind[m]), {loss[m]}});

@@ -19,6 +19,6 @@ struct Simulation {
 
 // Simulates the first `meshes` mesh periods of the gearbox's record, which begins at mesh phase 0
 // unless the study gives the length of records. Throws std::runtime_error if the gearbox fails.
-Simulation simulate(const Scene& scene, const GearboxId& id, long meshes);
+Simulation simulate(const TilePlan& plan, const GearboxId& id, long meshes);
 
 }  // namespace gearpod::mc

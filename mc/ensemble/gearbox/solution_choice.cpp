@@ -71,16 +71,16 @@ lockstep::IntegrationPlan explicit_plan(lockstep::IntegrationPlan plan,
 
 }  // namespace
 
-double motion_bytes(const Scene& scene) {
-    const SolvePlan& solve = scene.solve();
+double motion_bytes(const TilePlan& plan) {
+    const SolvePlan& solve = *plan.solve;
     if (!solve.records_during_integration) {
         return solve.record_bytes;
     }
     // Copies: samples as recorded and by lane, plus those of the baseline records.
-    const double copies = 2.0 + static_cast<double>(scene.record().baselines);
+    const double copies = 2.0 + static_cast<double>(plan.record.baselines);
     const double samples =
-        static_cast<double>(scene.record().sensor_meshes(scene.features().needs.all())) *
-        scene.samples_per_mesh();
+        static_cast<double>(plan.record.sensor_meshes(plan.features.needs.all())) *
+        plan.record.samples;
     return copies * 8.0 * samples * solve.settings.lanes +
            (std::holds_alternative<Superposed>(solve.strategy) ? solve.record_bytes
                                                                : 2.0 * solve.mesh_record_bytes);

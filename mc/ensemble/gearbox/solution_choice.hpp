@@ -6,7 +6,7 @@
 
 #include "features/signals.hpp"
 #include "lockstep/strategies/solution.hpp"
-#include "mc/plan/scene.hpp"
+#include "mc/plan/tile_plan.hpp"
 
 namespace gearpod::mc {
 
@@ -26,7 +26,7 @@ auto with_lane_count(int lanes, Call call) {
 }
 
 // Memory in bytes for the motion that a tile keeps.
-double motion_bytes(const Scene& scene);
+double motion_bytes(const TilePlan& plan);
 
 // Processor seconds of one thread for one healthy mesh period of a full tile with the study's
 // excitation: the minimum of several integrations from rest.

@@ -8,7 +8,7 @@
 #include "lockstep/plan/excitation.hpp"
 #include "lockstep/plan/tooth_pairs.hpp"
 #include "mc/plan/sampling.hpp"
-#include "mc/plan/scene.hpp"
+#include "mc/plan/tile_plan.hpp"
 #include "signals/noise/tones.hpp"
 
 namespace gearpod::mc {

@@ -194,7 +194,7 @@ std::string features(mc::OpenStudy& study, const py::object& signal, const py::o
     request.feature = feature;
     return unlocked([&] {
         return mc::json_text(
-            mc::signal_features_json(mc::signal_features(request, study.scene()), request));
+            mc::signal_features_json(mc::signal_features(request, study.scene().tile()), request));
     });
 }
 

@@ -33,7 +33,8 @@ std::vector<RowSignals> chosen_signals(const RunOptions& options, const Scene& s
         try {
             all.push_back(
                 {static_cast<std::size_t>(row),
-                 simulate(scene, scene.draw().rows.id_of(row), scene.span().planet_teeth).columns});
+                 simulate(scene.tile(), scene.draw().rows.id_of(row), scene.span().planet_teeth)
+                     .columns});
         } catch (const std::runtime_error& error) {
             fmt::print(stderr, "--signals {}: {}\n", row, error.what());
         }
@@ -69,7 +70,7 @@ class Run {
         Progress progress(static_cast<long>(plan_.rows()), options_.quiet, checkpoint_->rows_done(),
                           options_.progress == "json" ? Progress::Form::json : Progress::Form::text,
                           plan_.counted());
-        const EnsembleOutcome outcome = run_batches(scene_, plan_,
+        const EnsembleOutcome outcome = run_batches(scene_.tile(), ensemble_, plan_,
                                                     {.ranks = ranks_,
                                                      .store = *checkpoint_,
                                                      .progress = progress,
@@ -268,11 +269,12 @@ class Run {
 // Work of the other ranks: computing batches.
 void compute_for_leader(const RunOptions& options, const Scene& scene, const Ranks& ranks,
                         const Interruption& interruption) {
-    const BatchPlan plan = plan_of(options, scene.ensemble());
+    const EnsemblePlan& ensemble = scene.ensemble();
+    const BatchPlan plan = plan_of(options, ensemble);
     MemoryRows nothing(0);
     Progress silent(1, true);
     run_batches(
-        scene, plan,
+        scene.tile(), ensemble, plan,
         {.ranks = ranks, .store = nothing, .progress = silent, .interruption = &interruption});
 }
 
@@ -311,7 +313,7 @@ int run_study(const RunOptions& options, const Ranks& ranks) {
         if (scene && writable && good_limit && good_progress &&
             check_part(options, scene->ensemble()) && check_watch(options, scene->ensemble()) &&
             check_signals(options, scene->ensemble()) &&
-            check_memory(options, scene->ensemble(), motion_bytes(*scene), ranks)) {
+            check_memory(options, scene->ensemble(), motion_bytes(scene->tile()), ranks)) {
             try {
                 checkpoint =
                     open_checkpoint(scene->ensemble(), scene->ensemble().shape,

@@ -85,7 +85,7 @@ void compare_sizes(const analysis::Reliability& here, const analysis::Reliabilit
 PilotEnsemble run_pilot_ensemble(const Scene& plan) {
     Progress silent(1, true);
     PilotEnsemble pilot;
-    pilot.results = run_ensemble(plan, silent);
+    pilot.results = run_ensemble(plan.tile(), plan.ensemble(), silent);
     pilot.results.detection = detect_all(pilot.results);
     pilot.reliability =
         reliability_of(pilot.results, ColumnRows(pilot.results), "", thread_count(plan.ensemble()));

@@ -276,7 +276,7 @@ int affordable_meshes(const TileMeshes& whole, double mesh_s, double budget_s) {
 
 void measure(const Scene& plan, const BatchPlan& batches, double budget_s, RunCost& result) {
     auto start = WallClock::now();
-    const BatchTask task(plan);
+    const BatchTask task(plan.tile(), plan.ensemble());
     result.task_s = seconds_since(start);
     const bool reusable = plan.solve().settings.distinct_integrations.has_value();
     const auto computers = [&task]() -> BatchComputer {
@@ -298,7 +298,7 @@ void measure(const Scene& plan, const BatchPlan& batches, double budget_s, RunCo
     result.memory.fragments = kFragmentsOfThread * result.threads +
                               (measurement.few_tiles() ? kShareAfterFew : kFragmentShare) *
                                   (result.memory.peak - result.memory.before);
-    result.memory.kept = -motion_bytes(plan) * static_cast<double>(task.cache.kept());
+    result.memory.kept = -motion_bytes(plan.tile()) * static_cast<double>(task.cache.kept());
 
     std::array<GroupCost, 2>& cost = result.cost;
     for (const Group group : {Group::threshold, Group::test}) {
@@ -343,7 +343,7 @@ RunCost measure_run_cost(const Scene& whole, const BatchPlan& batches, int threa
     result.recorded = solve.settings.horizon == Horizon::periodic || mesh_s == 0.0
                           ? all.recorded
                           : affordable_meshes(all, mesh_s, 0.5 * budget_s);
-    result.motion_bytes = motion_bytes(whole);
+    result.motion_bytes = motion_bytes(whole.tile());
     const Scene part = whole.recording_at_most(result.recorded);
     const TileMeshes measured{part.solve().test_record_meshes, part.solve().integrated_meshes};
     result.memory.before = peak_memory_bytes();
@@ -358,13 +358,13 @@ RunCost measure_run_cost(const Scene& whole, const BatchPlan& batches, int threa
         result.memory.records = result.threads * result.motion_bytes;
     } else {
         measure(part, batches, budget_s, result);
-        result.memory.records = result.threads * (result.motion_bytes - motion_bytes(part));
+        result.memory.records = result.threads * (result.motion_bytes - motion_bytes(part.tile()));
         for (GroupCost& group : result.cost) {
             complete(group.integrated, measured, all);
             complete(group.reused, measured, all);
         }
     }
-    result.integrations = count_integrations(whole, batches, result.motion_bytes);
+    result.integrations = count_integrations(whole.sampler(), solve, batches, result.motion_bytes);
     return result;
 }
 

@@ -31,24 +31,24 @@ struct Item {
 
 class Simulator {
   public:
-    Simulator(const Scene& scene, const RecordLengths& lengths, const SetSummary& summary)
-        : scene_(scene),
-          plan_{scene.record(), scene.features(), scene.gearbox().nominal},
+    Simulator(const TilePlan& tile, const RecordLengths& lengths, const SetSummary& summary)
+        : tile_(tile),
+          plan_{tile.record, tile.features, tile.gearbox->nominal},
           lengths_(lengths),
           summary_(summary) {}
 
-    int lanes() const { return scene_.solve().settings.lanes; }
+    int lanes() const { return tile_.solve->settings.lanes; }
 
     // Values [item][background][record][feature]; empty for a gearbox that failed.
     std::vector<RecordValues> run(std::span<const Item> items) const {
         std::vector<Realization> realizations;
         for (const Item& item : items) {
-            realizations.push_back(scene_.sampler().draw(id_of(item), item.given.front()));
+            realizations.push_back(tile_.sampler->draw(id_of(item), item.given.front()));
             // gain and tone level are applied for each background
             InstanceInputs& inputs = realizations.back().inputs;
             inputs.gain = inputs.tone_level = 1.0;
         }
-        const GearboxTile tile = run_realizations(scene_, std::move(realizations), lanes(),
+        const GearboxTile tile = run_realizations(tile_, std::move(realizations), lanes(),
                                                   {.records = lockstep::RecordOptions{}});
         std::vector<RecordValues> values(items.size());
         for (std::size_t lane = 0; lane < items.size(); ++lane) {
@@ -67,7 +67,7 @@ class Simulator {
     std::vector<double> synthesize(const GearboxTile& tile, int lane, double exponent,
                                    const signals::Tones& tones) const {
         return signals::synthesize(tile.views, lane, tile.integration.content, plan_.record.span,
-                                   scene_.sensors().front().paths.front(), exponent, 0,
+                                   tile_.sensors->front().paths.front(), exponent, 0,
                                    plan_.record.signal_meshes, tones);
     }
 
@@ -78,7 +78,7 @@ class Simulator {
         std::vector<double> bare, tones;
         std::optional<double> exponent;
         for (std::size_t k = 0; k < item.given.size(); ++k) {
-            const InstanceInputs inputs = scene_.sampler().draw(id, item.given[k]).inputs;
+            const InstanceInputs inputs = tile_.sampler->draw(id, item.given[k]).inputs;
             if (exponent != inputs.path_exponent) {
                 exponent = inputs.path_exponent;
                 bare = synthesize(tile, lane, *exponent, {});
@@ -92,7 +92,7 @@ class Simulator {
             values.emplace_back();
             const std::vector<int>& lengths = lengths_[item.gearbox];
             for (std::size_t record = 0; record < lengths.size(); ++record) {
-                Philox engine = gearbox_stream(scene_.draw().seed, id,
+                Philox engine = gearbox_stream(tile_.draw().seed, id,
                                                with_suffix(StreamPurpose::calibration_record,
                                                            fmt::format("{}.{}", k, record)));
                 values.back().push_back(measured_values(
@@ -116,8 +116,8 @@ class Simulator {
         MeasuredSignal signal;
         signal.has_sensor = true;
         signal.sensor.resize(count);
-        if (const NoiseStage& noise = scene_.sensors().front().noise(); noise.by_density()) {
-            draw_unit_noise(noise, noise_of(inputs), scene_.record().sample_s(inputs),
+        if (const NoiseStage& noise = tile_.sensors->front().noise(); noise.by_density()) {
+            draw_unit_noise(noise, noise_of(inputs), tile_.record.sample_s(inputs),
                             NoiseEngines<Philox>{engine, engine, engine}, std::span(signal.sensor));
         } else {
             signals::draw_normals(engine, std::span(signal.sensor));
@@ -132,7 +132,7 @@ class Simulator {
         return signal;
     }
 
-    const Scene& scene_;
+    const TilePlan& tile_;
     const MeasurementPlan plan_;
     const RecordLengths& lengths_;
     const SetSummary& summary_;
@@ -160,7 +160,8 @@ std::vector<std::vector<double>> prior_quantiles(std::uint64_t seed,
 
 }  // namespace
 
-std::vector<SimulatedSet> simulate_sets(const Scene& scene, std::span<const CalibratedInput> inputs,
+std::vector<SimulatedSet> simulate_sets(const TilePlan& tile,
+                                        std::span<const CalibratedInput> inputs,
                                         const PriorRegion& region, const SetPlan& plan,
                                         const RecordLengths& lengths, const SetSummary& summary,
                                         int threads,
@@ -171,7 +172,7 @@ std::vector<SimulatedSet> simulate_sets(const Scene& scene, std::span<const Cali
     for (std::size_t d = 0; d < plan.integrated; ++d) {
         const std::size_t number = plan.first + d;
         const auto units =
-            prior_quantiles(scene.draw().seed, inputs, region, number, plan.backgrounds);
+            prior_quantiles(tile.draw().seed, inputs, region, number, plan.backgrounds);
         std::vector<std::vector<GivenInput>> given;
         for (const auto& unit : units) {
             sets.push_back({unit, number, {}});
@@ -181,12 +182,12 @@ std::vector<SimulatedSet> simulate_sets(const Scene& scene, std::span<const Cali
             items.push_back({number, g, given});
         }
     }
-    const Simulator simulator(scene, lengths, summary);
+    const Simulator simulator(tile, lengths, summary);
     std::vector<RecordValues> set_records(items.size());
     const auto lanes = static_cast<std::size_t>(simulator.lanes());
     const std::size_t tiles = (items.size() + lanes - 1) / lanes;
-    const auto run = [&](std::size_t tile) {
-        const std::size_t first = tile * lanes;
+    const auto run = [&](std::size_t number) {
+        const std::size_t first = number * lanes;
         auto of_tile =
             simulator.run(std::span(items).subspan(first, std::min(lanes, items.size() - first)));
         std::move(of_tile.begin(), of_tile.end(),
@@ -195,7 +196,7 @@ std::vector<SimulatedSet> simulate_sets(const Scene& scene, std::span<const Cali
     const double start = thread_processor_s();
     run(0);
     report_time((thread_processor_s() - start) * static_cast<double>(tiles));
-    machine::for_each_index(tiles - 1, threads, [&](std::size_t tile) { run(tile + 1); });
+    machine::for_each_index(tiles - 1, threads, [&](std::size_t number) { run(number + 1); });
     for (std::size_t d = 0; d < plan.integrated; ++d) {
         const std::span<const RecordValues> of_set =
             std::span(set_records).subspan(d * gearboxes, gearboxes);
@@ -214,9 +215,10 @@ std::vector<SimulatedSet> simulate_sets(const Scene& scene, std::span<const Cali
     return sets;
 }
 
-RecordValues simulate_set(const Scene& scene, std::span<const GivenInput> given, std::size_t number,
-                          const RecordLengths& lengths, const SetSummary& summary) {
-    const Simulator simulator(scene, lengths, summary);
+RecordValues simulate_set(const TilePlan& tile, std::span<const GivenInput> given,
+                          std::size_t number, const RecordLengths& lengths,
+                          const SetSummary& summary) {
+    const Simulator simulator(tile, lengths, summary);
     RecordValues values;
     std::vector<Item> items;
     for (std::size_t g = 0; g < lengths.size(); ++g) {

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "mc/plan/calibration_plan.hpp"
-#include "mc/plan/scene.hpp"
+#include "mc/plan/tile_plan.hpp"
 #include "mc/recordings/calibration/healthy_records.hpp"
 
 namespace gearpod::mc {
@@ -33,10 +33,11 @@ struct SimulatedSet {
     std::vector<double> summary;  // empty if a gearbox failed or a feature has no value
 };
 
-// Simulates the sets of a plan. Each input must be random in the scene's study. `report_time` is
+// Simulates the sets of a plan. Each input must be random in the study of `tile`. `report_time` is
 // called once, after the first tile, with the estimated time of one thread for all sets, s. The
 // sets do not depend on the number of threads.
-std::vector<SimulatedSet> simulate_sets(const Scene& scene, std::span<const CalibratedInput> inputs,
+std::vector<SimulatedSet> simulate_sets(const TilePlan& tile,
+                                        std::span<const CalibratedInput> inputs,
                                         const PriorRegion& region, const SetPlan& plan,
                                         const RecordLengths& lengths, const SetSummary& summary,
                                         int threads,
@@ -44,7 +45,8 @@ std::vector<SimulatedSet> simulate_sets(const Scene& scene, std::span<const Cali
 
 // Features of one set: records of simulated gearboxes with `given` inputs and the random numbers of
 // set `number`. Empty if a gearbox failed.
-RecordValues simulate_set(const Scene& scene, std::span<const GivenInput> given, std::size_t number,
-                          const RecordLengths& lengths, const SetSummary& summary);
+RecordValues simulate_set(const TilePlan& tile, std::span<const GivenInput> given,
+                          std::size_t number, const RecordLengths& lengths,
+                          const SetSummary& summary);
 
 }  // namespace gearpod::mc

@@ -217,8 +217,8 @@ void print_step_forecast(const Scene& scene, const PeakMemory& memory) {
                 tiles, ensemble.lanes, meshes, scene.plan().grid.steps.size()));
     }
     const double least_bytes =
-        std::max(memory.setup_bytes + least_memory_bytes(motion_bytes(scene), ensemble.shape, plan,
-                                                         static_cast<int>(threads)),
+        std::max(memory.setup_bytes + least_memory_bytes(motion_bytes(scene.tile()), ensemble.shape,
+                                                         plan, static_cast<int>(threads)),
                  memory.computed_bytes);
     print_entry("memory", fmt::format("at least {:.0f} MB", least_bytes / 1e6));
 }
@@ -226,7 +226,7 @@ void print_step_forecast(const Scene& scene, const PeakMemory& memory) {
 void print_forecast(const Scene& scene, const Planner& planner, double setup_s, int ranks) {
     if (ranks == 0 && scene.lives().problems.empty()) {
         try {
-            return print_lives_forecast(scene, setup_s);
+            return print_lives_forecast(scene.tile(), scene.life(), setup_s);
         } catch (const SceneError&) {  // the records of some gearbox are too short
         }
     }

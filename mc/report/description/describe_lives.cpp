@@ -129,8 +129,8 @@ LifePlan with_most_loads(LifePlan plan) {
 }  // namespace
 
 LivesForecast forecast_lives(const LifeTiles& tiles, int threads, double setup_s, int pilot_loads) {
-    const SolvePlan& solve = tiles.scene().solve();
-    const RecordPlan& record = tiles.scene().record();
+    const SolvePlan& solve = *tiles.tile().solve;
+    const RecordPlan& record = tiles.tile().record;
     const CampaignPlan& campaign = tiles.plan().campaign;
     const BatchPlan plan = lives_plan(campaign);
     const auto lanes = static_cast<double>(tiles.lanes()),
@@ -141,8 +141,7 @@ LivesForecast forecast_lives(const LifeTiles& tiles, int threads, double setup_s
     // Mesh periods of a tile without a fault, and the additional ones of each crack depth.
     const double healthy_meshes = solve.integrated_meshes,
                  depth_meshes = solve.perturbation_only ? solve.passage_meshes : healthy_meshes;
-    const double mesh_s =
-        mesh_period_s(tiles.scene().draw(), tiles.scene().gearbox(), solve, record);
+    const double mesh_s = mesh_period_s(tiles.tile().draw(), *tiles.tile().gearbox, solve, record);
     const auto tile_s = [&](bool cracked, bool tested) {
         double meshes = loads * healthy_meshes;
         if (cracked) {
@@ -198,36 +197,35 @@ LivesForecast forecast_lives(const LifeTiles& tiles, int threads, double setup_s
     return all;
 }
 
-void print_lives_forecast(const Scene& scene, double setup_s) {
+void print_lives_forecast(const TilePlan& tile, const LifePlan& plan, double setup_s) {
     constexpr double kMostPilots_s = 5.0;
-    const LifePlan& plan = scene.life();
     // Torques and speeds that pilots examine.
     const auto interpolated = [](const RecordDistribution& quantity) {
         return quantity.varies() && quantity.distinct_factors().empty() ? 1 : 0;
     };
     const int axes =
         interpolated(plan.distributions.torque) + interpolated(plan.distributions.speed);
-    const int threads = thread_count(scene.ensemble());
+    const int threads = thread_count(plan.campaign.ensemble);
     // One load and five more for each quantity that varies are integrated at least.
     const int least_loads = axes == 0 ? 0 : 1 + 5 * axes;
-    LivesForecast all = forecast_lives(LifeTiles(scene), threads, setup_s, least_loads);
+    LivesForecast all = forecast_lives(LifeTiles(tile, plan), threads, setup_s, least_loads);
     std::string loads, most;
     if (axes > 0 && all.pilots_s <= kMostPilots_s) {
-        const InterpolationChoice choice = choose_interpolation(scene);
-        const LifeTiles tiles(scene, choice.plan);
+        const InterpolationChoice choice = choose_interpolation(tile, plan);
+        const LifeTiles tiles(tile, choice.plan);
         all = forecast_lives(tiles, threads, setup_s, choice.loads);
         loads = fmt::format("{}; pilots are off by {:.2g} of what a crack of {:g} mm changes",
                             tiles.load_count(), choice.error, 1e3 * plan.campaign.smallest_m);
     } else if (const LifePlan most_loads = with_most_loads(plan);
                axes > 0 && most_loads.torques == plan.torques && most_loads.speeds == plan.speeds) {
         loads = fmt::format("{}; pilots measure the error when the run starts",
-                            LifeTiles(scene).load_count());
+                            LifeTiles(tile, plan).load_count());
     } else if (axes > 0) {
-        const LifeTiles tiles(scene, most_loads);
+        const LifeTiles tiles(tile, most_loads);
         const LivesForecast upper =
             forecast_lives(tiles, threads, setup_s, static_cast<int>(kMostLoads));
         loads = fmt::format("at least {}, at most {}: chosen when the run starts",
-                            LifeTiles(scene).load_count(), tiles.load_count());
+                            LifeTiles(tile, plan).load_count(), tiles.load_count());
         most = ", at most " + time_text(upper.total_s());
     }
     print_heading("forecast of lives");

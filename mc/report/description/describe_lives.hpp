@@ -4,7 +4,7 @@
 #include <string>
 
 #include "mc/lives/life_tile.hpp"
-#include "mc/plan/scene.hpp"
+#include "mc/plan/scene_error.hpp"
 
 namespace gearpod::mc {
 
@@ -37,6 +37,6 @@ LivesForecast forecast_lives(const LifeTiles& tiles, int threads, double setup_s
 
 // Prints the forecast as a section of `describe`. Chooses the integrated torques and speeds as
 // `lives` does if this takes at most some seconds; otherwise it states the range.
-void print_lives_forecast(const Scene& scene, double setup_s);
+void print_lives_forecast(const TilePlan& tile, const LifePlan& plan, double setup_s);
 
 }  // namespace gearpod::mc

@@ -100,7 +100,7 @@ class TileRows {
     }
 
     const mc::Scene scene_;
-    const mc::BatchTask task_{scene_};
+    const mc::BatchTask task_{scene_.tile(), scene_.ensemble()};
     mc::BatchWorker worker_{task_};
 };
 
@@ -120,7 +120,7 @@ void check(const std::string& name, const std::vector<TileFilling>& fillings) {
 void check_simulation(const std::string& name) {
     INFO(name);
     const mc::Scene scene(shipped_study(name, fast(name)));
-    const mc::BatchTask task(scene);
+    const mc::BatchTask task(scene.tile(), scene.ensemble());
     mc::BatchWorker worker(task);
     mc::Seconds seconds;
     const auto ids = gearboxes_of(scene);
@@ -128,7 +128,7 @@ void check_simulation(const std::string& name) {
     if (row.status.front() != static_cast<int>(mc::Status::ok)) {
         return;  // `simulate` refuses a gearbox that failed
     }
-    const mc::Simulation simulation = mc::simulate(scene, ids.front(), 1);
+    const mc::Simulation simulation = mc::simulate(scene.tile(), ids.front(), 1);
     const std::size_t first = scene.ensemble().shape.value_of(0, 0);
     CHECK((test::bits_of(simulation.features) ==
            test::bits_of(std::span(row.values).subspan(first, simulation.features.size()))));

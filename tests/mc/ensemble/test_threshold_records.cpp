@@ -99,7 +99,7 @@ TEST_CASE("Records of a gearbox have the same bits for any lanes, and when simul
     CHECK(id.index == 4);
     CHECK(id.repeat == 2);
     CHECK(rows.id_of(kGearboxes * kRecords).group == mc::Group::test);
-    const mc::Simulation alone = mc::simulate(scene, id, 1);
+    const mc::Simulation alone = mc::simulate(scene.tile(), id, 1);
     for (std::size_t f = 0; f < results.features.size(); ++f) {
         for (std::size_t level = 0; level < 2; ++level) {
             CHECK(alone.features[2 * f + level] ==
@@ -142,7 +142,7 @@ TEST_CASE(
     CHECK(bits(test::run(study_of(4, "1", kImportanceSampling))) == bits(results));
     const mc::Study study = study_of(4, "8", kImportanceSampling);
     const mc::Scene scene(study);
-    const mc::Simulation alone = mc::simulate(scene, scene.draw().rows.id_of(4 * 5 + 3), 1);
+    const mc::Simulation alone = mc::simulate(scene.tile(), scene.draw().rows.id_of(4 * 5 + 3), 1);
     for (std::size_t f = 0; f < results.features.size(); ++f) {
         CHECK(alone.features[2 * f + 1] == results.features[f].values[2 * (4 * 5 + 3) + 1]);
     }

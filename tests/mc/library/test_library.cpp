@@ -59,12 +59,12 @@ TEST_CASE("A recording in memory gives the features of its gearbox") {
     }
     mc::SignalRequest request;
     request.signal = {"memory", recorded};
-    const mc::SignalFeatures found = mc::signal_features(request, study.scene());
+    const mc::SignalFeatures found = mc::signal_features(request, study.scene().tile());
     CHECK(found.signal.tracking == "column mesh_phase");
     CHECK(found.signal.sensor_meshes > 0);
 
     request.signal = {"memory", {{"force", "N", {1, 2, 3}}}};
-    CHECK_THROWS_WITH(mc::signal_features(request, study.scene()),
+    CHECK_THROWS_WITH(mc::signal_features(request, study.scene().tile()),
                       Catch::Contains("memory: it has neither a column sensor nor"));
 }
 

@@ -35,6 +35,11 @@ double interpolated(const mc::LoadAxis& axis, double factor, const auto& functio
     return sum;
 }
 
+mc::InterpolationChoice choice_of(const mc::Study& study) {
+    const mc::Scene scene(study);
+    return mc::choose_interpolation(scene.tile(), scene.life());
+}
+
 TEST_CASE("Leja nodes are nested, and the fourth lies where x (1 - x^2) is largest") {
     CHECK(mc::leja_nodes(3) == std::vector<double>{0.0, 1.0, -1.0});
     const auto five = mc::leja_nodes(5), nine = mc::leja_nodes(9);
@@ -75,28 +80,25 @@ TEST_CASE("A polynomial axis reproduces polynomials and continues them as a line
 }
 
 TEST_CASE("Numbers of torques and speeds are raised until the tolerance is kept") {
-    const mc::Scene scene(varying({}));
-    const auto choice = mc::choose_interpolation(scene);
+    const auto choice = choice_of(varying({}));
     CHECK(choice.error <= 0.5);
     // A gearbox that keeps contact is linear in its torque.
     CHECK_FALSE(choice.plan.torques.nodes);
     REQUIRE(choice.plan.speeds.nodes);
     // Where no number keeps the tolerance, that of the least error is taken.
-    const auto least =
-        mc::choose_interpolation(mc::Scene(varying({"life.interpolation_tolerance=0.001"})));
+    const auto least = choice_of(varying({"life.interpolation_tolerance=0.001"}));
     CHECK(least.error > 0.001);
     CHECK(least.error <= choice.error);
     CHECK(least.loads >= choice.loads);
     // Numbers that are given stay.
-    const auto given = mc::choose_interpolation(
-        mc::Scene(varying({"life.linear_torques=2", "life.linear_speeds=3"})));
+    const auto given = choice_of(varying({"life.linear_torques=2", "life.linear_speeds=3"}));
     CHECK(given.plan.torques == mc::LoadNumber{2, std::nullopt, true});
     CHECK(given.plan.speeds == mc::LoadNumber{3, std::nullopt, true});
     CHECK(given.error > 0.1);
-    CHECK(mc::choose_interpolation(mc::Scene(life_study())).error == 0.0);
+    CHECK(choice_of(life_study()).error == 0.0);
     // Without the key, a tenth of the crack's change is accepted.
-    const auto by_default = mc::choose_interpolation(
-        mc::Scene(life_study({"life.speed_scatter=0.005", "ensemble.instances=8"})));
+    const auto by_default =
+        choice_of(life_study({"life.speed_scatter=0.005", "ensemble.instances=8"}));
     CHECK(by_default.plan.speeds.nodes > 2);
     CHECK(by_default.error <= 0.1);
 }
@@ -142,11 +144,12 @@ TEST_CASE(
     REQUIRE(conflict.problems.size() == 1);
     CHECK(conflict.problems[0].key == "life.distinct_torques");
     const mc::Scene scene(life_study(distinct));
-    CHECK(mc::choose_interpolation(scene).error == 0.0);
-    CHECK(mc::LifeTiles(scene).load_count() == 9);
-    CHECK(mc::LifeTiles(mc::Scene(life_study({"life.distinct_torques=3"}))).load_count() == 1);
+    CHECK(mc::choose_interpolation(scene.tile(), scene.life()).error == 0.0);
+    CHECK(mc::LifeTiles(scene.tile(), scene.life()).load_count() == 9);
+    const mc::Scene alike(life_study({"life.distinct_torques=3"}));
+    CHECK(mc::LifeTiles(alike.tile(), alike.life()).load_count() == 1);
     // Each record is the solution at its own load.
-    const mc::Campaign campaign = mc::run_campaign(scene);
+    const mc::Campaign campaign = mc::run_campaign(mc::LifeTiles(scene.tile(), scene.life()));
     CHECK(campaign.interpolation.load == 0.0);
 }
 
@@ -161,16 +164,16 @@ TEST_CASE("Records at random loads are off by no more than stated in 95 % of 200
           "[.long][interpolation-trials]") {
     const mc::Study study = varying({});
     const mc::Scene scene(study);
-    const auto choice = mc::choose_interpolation(scene);
+    const auto choice = mc::choose_interpolation(scene.tile(), scene.life());
     const auto error_of = [](std::vector<std::string> keys) {
         keys.insert(keys.end(), {"life.linear_torques=2", "life.linear_speeds=2"});
-        return mc::choose_interpolation(mc::Scene(varying(keys))).error;
+        return choice_of(varying(keys)).error;
     };
     CHECK(error_of({"numerics.lanes=1"}) == error_of({}));
     const mc::RecordDistributions laws(study);
     const mc::LoadAxis torques(laws.torque, choice.plan.torques),
         speeds(laws.speed, choice.plan.speeds);
-    const mc::LifeTiles tiles(scene);
+    const mc::LifeTiles tiles(scene.tile(), scene.life());
     std::mt19937_64 engine(46);
     std::normal_distribution<double> normal;
     constexpr std::uint64_t kTiles = 2, kLanes = 8;

@@ -76,7 +76,7 @@ class TileLives {
   private:
     const std::size_t lanes_;
     const mc::Scene scene_;
-    const mc::LifeTiles tiles_{scene_};
+    const mc::LifeTiles tiles_{scene_.tile(), scene_.life()};
 };
 
 void check(const std::string& name, const std::vector<std::string>& overrides,

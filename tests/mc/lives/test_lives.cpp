@@ -27,13 +27,13 @@ TEST_CASE("A record equals its gearbox integrated at that depth and torque") {
     const mc::Scene scene(
         life_study({"life.torque_scatter=0.05", "life.gain_scatter=0.1", "sensor.noise_m_s2=0",
                     "sensor.encoder_noise_arcsec=0", "features.use=[" + use + "]"}));
-    const mc::LifeTiles tiles(scene);
+    const mc::LifeTiles tiles(scene.tile(), scene.life());
     const mc::GearboxId id{mc::Group::test, 1};
     mc::LifeCosts costs;
     const auto life = tiles.run(std::vector{tiles.draw(id)}, true, costs).front();
     REQUIRE(life.status == mc::Status::ok);
     const mc::HealthyReference none;
-    mc::RealizationFeatures features(scene, &none);
+    mc::RealizationFeatures features(scene.tile(), &none);
     // Records without a crack, and at a depth that is integrated.
     for (const std::size_t r : {std::size_t{0}, std::size_t{3}, std::size_t{6}}) {
         const mc::LifeRecord& record = life.history.records[r];
@@ -42,9 +42,9 @@ TEST_CASE("A record equals its gearbox integrated at that depth and torque") {
         inputs.fault_size = record.depth_m;
         inputs.torque_N_m *= record.torque;
         inputs.gain *= record.gain;
-        const auto tile = mc::run_realizations(scene, {gearbox}, 1);
-        const auto integrated_features =
-            features.compute(mc::lane_signals(scene, tile, 0, scene.signal_meshes()), gearbox);
+        const auto tile = mc::run_realizations(scene.tile(), {gearbox}, 1);
+        const auto integrated_features = features.compute(
+            mc::lane_signals(scene.tile(), tile, 0, scene.signal_meshes()), gearbox);
         for (std::size_t f = 0; f < integrated_features.size(); ++f) {
             INFO(r << " " << scene.features().used[f]->name);
             CHECK(life.values[f][r] == Approx(integrated_features[f]).epsilon(1e-6));
@@ -117,7 +117,7 @@ TEST_CASE("A life of one record with a population threshold equals the snapshot 
         one.emplace_back(more);
     }
     const mc::Scene scene(shipped_study("planet-crack-ideal.toml", one));
-    const auto campaign = mc::run_campaign(scene);
+    const auto campaign = mc::run_campaign(mc::LifeTiles(scene.tile(), scene.life()));
     const mc::LifeMonitor monitor(scene.life().campaign, campaign);
     const auto& monitored = monitor.results();
     for (std::size_t f = 0; f < 4; ++f) {
@@ -152,16 +152,17 @@ TEST_CASE("A change in lives equals that of the snapshot study") {
     }
     const mc::Scene scene(shipped_study("planet-crack-ideal.toml", one)),
         snapshot(shipped_study("planet-crack-ideal.toml", both));
-    const mc::LifeTiles tiles(scene);
+    const mc::LifeTiles tiles(scene.tile(), scene.life());
     const mc::GearboxId id{mc::Group::test, 1};
     mc::LifeCosts costs;
     const auto life = tiles.run(std::vector{tiles.draw(id)}, true, costs).front();
     REQUIRE(life.history.records.front().depth_m == Approx(2e-3));
     const mc::HealthyReference none;
-    mc::RealizationFeatures features(snapshot, &none);
-    const auto tile = mc::run_gearboxes(snapshot, std::vector{id}, 1);
-    const auto values = features.compute(
-        mc::lane_signals(snapshot, tile, 0, snapshot.signal_meshes()), tile.realizations.front());
+    mc::RealizationFeatures features(snapshot.tile(), &none);
+    const auto tile = mc::run_gearboxes(snapshot.tile(), std::vector{id}, 1);
+    const auto values =
+        features.compute(mc::lane_signals(snapshot.tile(), tile, 0, snapshot.signal_meshes()),
+                         tile.realizations.front());
     for (std::size_t f = 0; f < values.size(); ++f) {
         INFO(snapshot.features().used[f]->name);
         CHECK(life.values[f][0] == Approx(values[f]).epsilon(1e-6));
@@ -182,7 +183,7 @@ TEST_CASE("Lives have the same bits for any lanes") {
         auto overrides = few;
         overrides.push_back(lanes);
         const mc::Scene scene(life_study(overrides));
-        return mc::run_campaign(scene);
+        return mc::run_campaign(mc::LifeTiles(scene.tile(), scene.life()));
     };
     const auto eight = of("numerics.lanes=8"), one = of("numerics.lanes=1");
     for (std::size_t g = 0; g < eight.cracked.size(); ++g) {

@@ -25,7 +25,7 @@ mc::Study quiet_study(std::vector<std::string> more) {
 mc::GearboxLife healthy_life(const mc::Scene& scene) {
     const mc::GearboxId id{mc::Group::test, 0};
     mc::LifeCosts costs;
-    const mc::LifeTiles tiles(scene);
+    const mc::LifeTiles tiles(scene.tile(), scene.life());
     return tiles.run(std::vector{tiles.draw(id)}, false, costs).front();
 }
 
@@ -96,7 +96,7 @@ TEST_CASE("Noise of a record decreases with the root of its duration") {
 
 TEST_CASE("A record at another speed is close to an integration at that speed") {
     const mc::Scene scene(quiet_study({"life.speed_scatter=0.001", "life.torque_scatter=0.05"}));
-    const mc::LifeTiles tiles(scene);
+    const mc::LifeTiles tiles(scene.tile(), scene.life());
     const mc::GearboxId id{mc::Group::test, 1};
     mc::LifeCosts costs;
     mc::InterpolationErrors errors;
@@ -105,7 +105,7 @@ TEST_CASE("A record at another speed is close to an integration at that speed") 
     CHECK(errors.load > 0.0);
     CHECK(errors.load < 0.05);
     const mc::HealthyReference none;
-    mc::RealizationFeatures features(scene, &none);
+    mc::RealizationFeatures features(scene.tile(), &none);
     double apart = 0.0;
     for (std::size_t r = 0; r < 4; ++r) {
         const mc::LifeRecord& record = life.history.records[r];
@@ -116,8 +116,9 @@ TEST_CASE("A record at another speed is close to an integration at that speed") 
         inputs.fault_size = 0.0;
         inputs.torque_N_m *= record.torque;
         inputs.speed_rad_s *= record.speed;
-        const auto tile = mc::run_realizations(scene, {gearbox}, 1);
-        const auto integrated = features.compute(mc::lane_signals(scene, tile, 0, 0), gearbox);
+        const auto tile = mc::run_realizations(scene.tile(), {gearbox}, 1);
+        const auto integrated =
+            features.compute(mc::lane_signals(scene.tile(), tile, 0, 0), gearbox);
         for (std::size_t f = 0; f < integrated.size(); ++f) {
             CHECK(life.values[f][r] == Approx(integrated[f]).epsilon(5.0 * errors.load));
         }
@@ -131,7 +132,7 @@ TEST_CASE("More integrated torques and speeds reduce the interpolation error") {
         const mc::Scene scene(
             quiet_study({"life.speed_scatter=0.001", "life.torque_scatter=0.05",
                          "life.linear_torques=" + count, "life.linear_speeds=" + count}));
-        const mc::LifeTiles tiles(scene);
+        const mc::LifeTiles tiles(scene.tile(), scene.life());
         CHECK(tiles.load_count() == static_cast<std::size_t>(integrated * integrated));
         const mc::GearboxId id{mc::Group::test, 1};
         mc::LifeCosts costs;

@@ -57,8 +57,8 @@ TEST_CASE("Steps for a share of the scatter keep it on other gearboxes, with few
     for (std::uint64_t i = 16; i < 32; ++i) {
         others.push_back({Group::threshold, i});
     }
-    const BatchRows here = rows_of_gearboxes(chosen, others),
-                    there = rows_of_gearboxes(reference, others);
+    const BatchRows here = rows_of_gearboxes(chosen.tile(), chosen.ensemble(), others),
+                    there = rows_of_gearboxes(reference.tile(), reference.ensemble(), others);
     for (std::size_t f = 0; f < chosen.features().used.size(); ++f) {
         const std::vector<double> a = values(chosen, here, f), b = values(reference, there, f);
         std::vector<double> errors;

@@ -27,7 +27,7 @@ Study study_of(const std::string& text, const std::vector<std::string>& override
 }
 
 GearboxTile run(const Scene& scene, std::vector<GearboxId> ids, int lanes) {
-    return run_gearboxes(scene, ids, lanes, {.records = lockstep::RecordOptions{}});
+    return run_gearboxes(scene.tile(), ids, lanes, {.records = lockstep::RecordOptions{}});
 }
 
 std::vector<std::uint64_t> bits(const machine::AlignedVector& values, int lanes, int lane) {
@@ -219,7 +219,7 @@ TEST_CASE("Simulated samples lie at the times of their phases") {
         with(kFast, {"operation.speed_fluctuation=0.2", "operation.speed_fluctuation_order=15.39",
                      "features.use=[\"te_rms\"]", "fault.kind=none"}));
     const Scene scene(study);
-    const Simulation out = simulate(scene, {Group::test, 0}, 12);
+    const Simulation out = simulate(scene.tile(), {Group::test, 0}, 12);
     const auto samples = static_cast<std::size_t>(scene.samples_per_mesh());
     REQUIRE(out.columns[0].name == "time");
     const double period = 1.0 / scene.nominal_mesh_frequency_Hz();

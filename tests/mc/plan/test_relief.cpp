@@ -128,7 +128,7 @@ TEST_CASE("Long relief lowers the transmission error of teeth of grade 6 as well
             text, {"gearbox.pinion_tip_relief_um=" + amount, "gearbox.gear_tip_relief_um=" + amount,
                    "gearbox.tooth_quality=6", "effects.motion='quasi-static'"}));
         constexpr int kMeshes = 96;
-        const auto all = mc::simulate(scene, scene.draw().rows.id_of(0), kMeshes);
+        const auto all = mc::simulate(scene.tile(), scene.draw().rows.id_of(0), kMeshes);
         const auto te = std::ranges::find(all.columns, "te", &mc::SignalColumn::name)->values;
         const auto samples = static_cast<std::ptrdiff_t>(te.size() / kMeshes);
         double sum = 0.0;

@@ -20,7 +20,7 @@ namespace {
 
 mc::GearboxTile run_one(const Scene& scene) {
     const mc::GearboxId id{mc::Group::test, 0};
-    return mc::run_gearboxes(scene, std::span(&id, 1), 1,
+    return mc::run_gearboxes(scene.tile(), std::span(&id, 1), 1,
                              {.records = lockstep::RecordOptions{.motion_meshes = 1}});
 }
 

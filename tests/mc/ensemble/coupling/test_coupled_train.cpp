@@ -47,8 +47,8 @@ struct TorsionalTrain {
     static constexpr int kDegrees = 6;
     Eigen::MatrixXd mass = Eigen::MatrixXd::Zero(kDegrees, kDegrees), stiffness = mass;
 
-    explicit TorsionalTrain(const mc::Scene& scene) {
-        const auto in = std::get<dynamics::PlanetaryInputs>(scene.inputs(scene.gearbox().nominal));
+    explicit TorsionalTrain(const mc::GearboxPlan& gearbox) {
+        const auto in = std::get<dynamics::PlanetaryInputs>(gearbox.inputs(gearbox.nominal));
         for (int body = 0; body < kDegrees; ++body) {
             mass(body, body) = in.inertia_over_r2_kg[std::min(body, 3)];
         }
@@ -60,8 +60,8 @@ struct TorsionalTrain {
             ring(3 + n) = -1.0;
             sun(0) = ring(0) = -std::cos(std::numbers::pi / 9);
             const auto pair = static_cast<std::size_t>(n);
-            stiffness += scene.mean_pairs()[pair] * sun * sun.transpose() +
-                         scene.mean_pairs()[3 + pair] * ring * ring.transpose();
+            stiffness += gearbox.stiffness->mean_pairs()[pair] * sun * sun.transpose() +
+                         gearbox.stiffness->mean_pairs()[3 + pair] * ring * ring.transpose();
         }
     }
 };
@@ -82,7 +82,7 @@ double amplitude_at(const std::vector<double>& signal, double frequency) {
 }
 
 std::vector<double> transmission_error(const mc::Scene& scene) {
-    const mc::Simulation run = mc::simulate(scene, {mc::Group::threshold, 0}, 350);
+    const mc::Simulation run = mc::simulate(scene.tile(), {mc::Group::threshold, 0}, 350);
     for (const mc::SignalColumn& column : run.columns) {
         if (column.name == "te") {
             return column.values;
@@ -100,7 +100,7 @@ TEST_CASE("Natural frequencies of a train are those of its equations", "[coupled
     test::replace_in(path, "[sensor]", "[effects]\nmotion = \"torsional\"\n\n[sensor]");
     const mc::Scene scene =
         scene_with(path, shaft(kStiffness_N_m_rad), {"effects.motion=\"torsional\""});
-    const TorsionalTrain first(scene), second(scene.stages()[0]);
+    const TorsionalTrain first(scene.gearbox()), second(*scene.gearbox().stages[0].gearbox);
     constexpr int n = TorsionalTrain::kDegrees;
     Eigen::MatrixXd mass = Eigen::MatrixXd::Zero(2 * n, 2 * n), stiffness = mass;
     mass.topLeftCorner(n, n) = first.mass;

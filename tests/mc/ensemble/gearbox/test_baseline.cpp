@@ -31,8 +31,8 @@ class Computed {
     Computed(const Study& study, const std::vector<GearboxId>& ids)
         : scene_(study),
           levels_(study.sensor.noise_levels.size()),
-          tile_(run_gearboxes(scene_, ids, 8)),
-          features_(scene_, &healthy_) {
+          tile_(run_gearboxes(scene_.tile(), ids, 8)),
+          features_(scene_.tile(), &healthy_) {
         for (std::size_t lane = 0; lane < ids.size(); ++lane) {
             REQUIRE(tile_.status[lane] == Status::ok);
             values_.push_back(
@@ -44,7 +44,7 @@ class Computed {
     }
     const std::vector<std::vector<double>>& values() const { return values_; }
     LaneSignals signals(int lane) const {
-        return lane_signals(scene_, tile_, lane, features_.meshes());
+        return lane_signals(scene_.tile(), tile_, lane, features_.meshes());
     }
     double noise_m_s2() const { return tile_.realizations[0].inputs.noise_m_s2; }
     int integrated_meshes() const { return tile_.meshes; }

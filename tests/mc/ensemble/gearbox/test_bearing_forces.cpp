@@ -55,7 +55,8 @@ struct TwoSignals {
 };
 
 TwoSignals signals_of(const mc::Scene& scene, const mc::GearboxTile& tile) {
-    const mc::LaneSignals all = mc::lane_signals(scene, tile, 0, scene.span().carrier_meshes);
+    const mc::LaneSignals all =
+        mc::lane_signals(scene.tile(), tile, 0, scene.span().carrier_meshes);
     return {all.sensor, all.additional.front().sensor};
 }
 
@@ -272,7 +273,7 @@ TEST_CASE("Gearboxes coupled by an elastic shaft have forces in bearings, too") 
             const mc::Scene scene(test::small_study(
                 path, shaft,
                 {modes, "numerics.integrator=central-difference", "numerics.horizon=full"}));
-            const mc::Simulation run = mc::simulate(scene, {mc::Group::threshold, 0}, 350);
+            const mc::Simulation run = mc::simulate(scene.tile(), {mc::Group::threshold, 0}, 350);
             return std::ranges::find(run.columns, "sensor", &mc::SignalColumn::name)->values;
         };
         const auto with = sensor(kModesOfBearings);

@@ -26,10 +26,10 @@ TEST_CASE("A fault changes the meshes after its passage begins, and no others") 
     Realization gearbox = scene.sampler().draw({Group::test, 3});
     gearbox.inputs.gain = 1.0;
     gearbox.inputs.fault_size = 3e-3;
-    const GearboxTile all = run_realizations(scene, {gearbox}, 1);
-    const LaneSignals expected = lane_signals(scene, all, 0, scene.span_meshes());
+    const GearboxTile all = run_realizations(scene.tile(), {gearbox}, 1);
+    const LaneSignals expected = lane_signals(scene.tile(), all, 0, scene.span_meshes());
 
-    const HealthySolution healthy_solution(scene, {gearbox}, 1);
+    const HealthySolution healthy_solution(scene.tile(), {gearbox}, 1);
     REQUIRE(healthy_solution.healthy().status.front() == Status::ok);
     const HealthySolution::Signals changed = healthy_solution.with_fault(gearbox.inputs.fault_size);
     REQUIRE(changed.status.front() == Status::ok);
@@ -46,16 +46,16 @@ TEST_CASE("Few meshes are integrated for a further size of a fault") {
     const Scene scene(real_teeth("1e-4"));
     Realization gearbox = scene.sampler().draw({Group::test, 5});
     gearbox.inputs.fault_size = 0.0;
-    const GearboxTile healthy =
-        run_realizations(scene, {gearbox}, 1, {.records = lockstep::RecordOptions{.states = true}});
+    const GearboxTile healthy = run_realizations(
+        scene.tile(), {gearbox}, 1, {.records = lockstep::RecordOptions{.states = true}});
     // A fault of size zero causes no change.
     const GearboxTile none =
-        run_fault_perturbations(scene, {gearbox}, 1, healthy.integration.states);
+        run_fault_perturbations(scene.tile(), {gearbox}, 1, healthy.integration.states);
     CHECK(none.integration.records.size() <= static_cast<std::size_t>(scene.span_meshes()) / 5);
     CHECK(none.status.front() == Status::ok);
     gearbox.inputs.fault_size = 4e-3;
     const GearboxTile deep =
-        run_fault_perturbations(scene, {gearbox}, 1, healthy.integration.states);
+        run_fault_perturbations(scene.tile(), {gearbox}, 1, healthy.integration.states);
     CHECK(deep.meshes < healthy.meshes / 4);
     CHECK(deep.integration.records.size() > static_cast<std::size_t>(scene.span().ring_teeth));
 }

@@ -49,13 +49,13 @@ std::vector<Batch> test_tiles(std::size_t count) {
 TEST_CASE("Cached responses are not integrated again, and give the same bits") {
     const Scene scene(study_with(kSensorOnly));
     CHECK(scene.solve().settings.distinct_integrations == 7);  // the sizes, including 0
-    const BatchTask shared(scene);
+    const BatchTask shared(scene.tile(), scene.ensemble());
     BatchWorker worker(shared);
     Seconds seconds;
     for (const Batch& tile : test_tiles(16)) {
         const BatchRows again = worker.compute(tile, seconds);
         REQUIRE(again.count() == 8);
-        const BatchTask fresh(scene);
+        const BatchTask fresh(scene.tile(), scene.ensemble());
         CHECK(bits(again) == bits(BatchWorker(fresh).compute(tile, seconds)));
         CHECK(fresh.cache.kept() == 1);
     }
@@ -69,7 +69,7 @@ TEST_CASE("Cached responses are not integrated again, and give the same bits") {
 TEST_CASE("Nothing is cached where every gearbox has a different response") {
     const Scene scene(study_with({"sensor.path_exponent", "gearbox.planet_bearing_stiffness_N_m"}));
     CHECK_FALSE(scene.solve().settings.distinct_integrations.has_value());
-    const BatchTask task(scene);
+    const BatchTask task(scene.tile(), scene.ensemble());
     Seconds seconds;
     BatchWorker(task).compute({Group::test, 0, 0, 8}, seconds);
     CHECK(task.cache.kept() == 0);

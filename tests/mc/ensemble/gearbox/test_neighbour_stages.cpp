@@ -29,10 +29,10 @@ using test::stages;
 namespace {
 
 // Noise-free sensor signal of a gearbox over the span.
-std::vector<double> sensor_signal(const mc::Scene& scene, const mc::Realization& gearbox) {
-    const auto tile = mc::run_realizations(scene, {gearbox}, 1);
+std::vector<double> sensor_signal(const mc::TilePlan& plan, const mc::Realization& gearbox) {
+    const auto tile = mc::run_realizations(plan, {gearbox}, 1);
     REQUIRE(tile.status.front() == mc::Status::ok);
-    return mc::lane_signals(scene, tile, 0, scene.span_meshes()).sensor;
+    return mc::lane_signals(plan, tile, 0, plan.record.span.meshes()).sensor;
 }
 
 // Values of a signal of that period, at positions in samples, by its Fourier series.
@@ -62,17 +62,18 @@ TEST_CASE("The sensor picks up the stage's own signal, at the stage's time, time
     const mc::Scene scene(small_study(path, ", gain=0.5")), alone(*mc::read_study(kSmall).study);
     const mc::GearboxId id{mc::Group::test, 3};
     const mc::Realization gearbox = scene.sampler().draw(id);
-    const std::vector<double> with = sensor_signal(scene, gearbox),
-                              without = sensor_signal(alone, gearbox);
+    const std::vector<double> with = sensor_signal(scene.tile(), gearbox),
+                              without = sensor_signal(alone.tile(), gearbox);
     const mc::Realization neighbour =
         mc::stage_gearbox(scene.gearbox(), scene.gearbox().stages[0], gearbox);
     CHECK(neighbour.inputs.fault_size == 0.0);
-    const std::vector<double> own = sensor_signal(scene.stages()[0], neighbour);
+    const mc::TilePlan& stage = *scene.gearbox().stages[0].tile;
+    const std::vector<double> own = sensor_signal(stage, neighbour);
     // Mesh frequencies: 35 Hz here, 60 / 48 * 13 / 60 * 35 Hz there.
-    const double step = scene.record().sample_s(gearbox.inputs) /
-                        scene.stages()[0].record().sample_s(neighbour.inputs);
+    const double step =
+        scene.record().sample_s(gearbox.inputs) / stage.record.sample_s(neighbour.inputs);
     CHECK(step == Approx((1.0 / (35.0 * scene.samples_per_mesh())) *
-                         (35.0 * 13 / 48 * scene.stages()[0].samples_per_mesh()))
+                         (35.0 * 13 / 48 * stage.record.samples))
                       .epsilon(1e-9));
     mc::Philox engine = mc::record_stream(scene.draw().seed, id,
                                           mc::with_suffix(mc::StreamPurpose::stage_start, "slow"));
@@ -112,9 +113,8 @@ TEST_CASE("A stage's gearbox has the torque and the speed of the gearbox next to
 TEST_CASE("The common shaft sets the speed of a stage, and the sensor is that of the study") {
     const Folder folder;
     const std::string path = stage_file(folder, "fast.toml", 66.0);
-    const mc::Study study = small_study(path, "");
-    const mc::Scene scene(study);
-    CHECK(mc::nominal_inputs(mc::stage_studies(study).front()).speed_rad_s ==
+    const mc::Scene scene(small_study(path, ""));
+    CHECK(scene.gearbox().stages[0].gearbox->nominal.speed_rad_s ==
           Approx(13.0 / 48.0 * scene.gearbox().nominal.speed_rad_s).epsilon(1e-6));
     const auto text =
         program("describe " + kSmall + " " + stages(path, "") + "--set sensor.low_pass_Hz=100");

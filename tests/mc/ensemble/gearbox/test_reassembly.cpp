@@ -36,18 +36,18 @@ const GearboxId kTest{Group::test, 4};
 
 std::vector<double> features_of(const Study& study, const GearboxId& id) {
     const Scene scene(study);
-    const GearboxTile tile = run_gearboxes(scene, std::span(&id, 1), 8);
+    const GearboxTile tile = run_gearboxes(scene.tile(), std::span(&id, 1), 8);
     REQUIRE(tile.status[0] == Status::ok);
     const HealthyReference healthy;
-    RealizationFeatures features(scene, &healthy);
-    return features.compute(lane_signals(scene, tile, 0, scene.signal_meshes()),
+    RealizationFeatures features(scene.tile(), &healthy);
+    return features.compute(lane_signals(scene.tile(), tile, 0, scene.signal_meshes()),
                             tile.realizations[0]);
 }
 
 std::vector<double> sensor_of(const Scene& scene, const GearboxId& id) {
     const Realization one = scene.sampler().draw(id);
-    const GearboxTile tile = run_realizations(scene, {one}, 8);
-    return lane_signals(scene, tile, 0, scene.span_meshes()).sensor;
+    const GearboxTile tile = run_realizations(scene.tile(), {one}, 8);
+    return lane_signals(scene.tile(), tile, 0, scene.span_meshes()).sensor;
 }
 
 }  // namespace

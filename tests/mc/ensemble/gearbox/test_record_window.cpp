@@ -34,9 +34,9 @@ class Computed {
   public:
     explicit Computed(const Study& study, GearboxId id = {Group::test, 4})
         : scene_(study),
-          tile_(run_gearboxes(scene_, std::span(&id, 1), 1)),
-          features_(scene_, &healthy_),
-          signals_(lane_signals(scene_, tile_, 0, scene_.signal_meshes())) {
+          tile_(run_gearboxes(scene_.tile(), std::span(&id, 1), 1)),
+          features_(scene_.tile(), &healthy_),
+          signals_(lane_signals(scene_.tile(), tile_, 0, scene_.signal_meshes())) {
         REQUIRE(tile_.status[0] == Status::ok);
         values_ = features_.compute(signals_, tile_.realizations[0]);
     }
@@ -180,15 +180,16 @@ TEST_CASE("Records that are integrated alone are those of the whole signal") {
     for (std::uint64_t index = 16; index < 24; ++index) {
         ids.push_back({Group::test, index});
     }
-    const GearboxTile tile = run_gearboxes(other.scene(), ids, 8);
+    const GearboxTile tile = run_gearboxes(other.scene().tile(), ids, 8);
     const HealthyReference healthy;
-    RealizationFeatures features(other.scene(), &healthy);
-    const std::vector<double> values = features.compute(
-        lane_signals(other.scene(), tile, 3, other.scene().signal_meshes()), tile.realizations[3]);
+    RealizationFeatures features(other.scene().tile(), &healthy);
+    const std::vector<double> values =
+        features.compute(lane_signals(other.scene().tile(), tile, 3, other.scene().signal_meshes()),
+                         tile.realizations[3]);
     for (const std::size_t feature : {0, 1, 2, 3}) {
         CHECK(values[feature] == other[feature]);
     }
-    const Simulation simulation = simulate(other.scene(), {Group::test, 19}, 93);
+    const Simulation simulation = simulate(other.scene().tile(), {Group::test, 19}, 93);
     CHECK(simulation.features == values);
 }
 
@@ -264,7 +265,7 @@ TEST_CASE("simulate shows the samples of the record, from its first mesh period"
     const Computed record(study);
     const Scene scene(study);
     const long meshes = 10 * 31;
-    const Simulation simulation = simulate(scene, {Group::test, 4}, meshes);
+    const Simulation simulation = simulate(scene.tile(), {Group::test, 4}, meshes);
     const auto column = [&](const std::string& name) {
         return std::ranges::find(simulation.columns, name, &SignalColumn::name)->values;
     };

@@ -41,12 +41,12 @@ class Tile {
         for (std::uint64_t i = 0; i < 8; ++i) {
             ids.push_back({Group::test, i});
         }
-        tile_ = run_gearboxes(scene_, ids, 8);
+        tile_ = run_gearboxes(scene_.tile(), ids, 8);
     }
     const GearboxTile& operator*() const { return tile_; }
     const GearboxTile* operator->() const { return &tile_; }
     std::vector<double> sensor(int lane) const {
-        return lane_signals(scene_, tile_, lane, scene_.signal_meshes()).sensor;
+        return lane_signals(scene_.tile(), tile_, lane, scene_.signal_meshes()).sensor;
     }
     double forecast_meshes() const { return scene_.solve().integrated_meshes; }
 
@@ -240,7 +240,8 @@ TEST_CASE("Integrations of lives start from superposed states as from integrated
     const auto cracked = [](const std::string& horizon) {
         const Study study = study_with(horizon);
         const Scene scene(study);
-        const HealthySolution healthy_solution(scene, {scene.sampler().draw({Group::test, 1})}, 1);
+        const HealthySolution healthy_solution(scene.tile(),
+                                               {scene.sampler().draw({Group::test, 1})}, 1);
         return healthy_solution.with_fault(2e-3).lane[0].sensor;
     };
     CHECK(relative_rms(cracked("superposed"), cracked("full")) < 1e-7);

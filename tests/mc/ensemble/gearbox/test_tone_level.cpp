@@ -68,8 +68,8 @@ TEST_CASE("Calibration uses the given level") {
     const mc::RecordValues ones(2, {std::vector<double>(used.size(), 1.0)});
     const mc::SetSummary summary(used, ones);
     const std::vector<mc::GivenInput> given{{mc::input_id("sensor.tone_level"), 3.0}};
-    const auto by_level = simulate_set(*quiet.scene, given, 7, lengths, summary);
-    const auto by_amplitude = simulate_set(*loud.scene, {}, 7, lengths, summary);
+    const auto by_level = simulate_set(quiet.scene->tile(), given, 7, lengths, summary);
+    const auto by_amplitude = simulate_set(loud.scene->tile(), {}, 7, lengths, summary);
     REQUIRE(!by_level.empty());
     REQUIRE(by_level.size() == by_amplitude.size());
     for (std::size_t gearbox = 0; gearbox < by_level.size(); ++gearbox) {

@@ -100,7 +100,7 @@ TEST_CASE("The transmission error of a pair varies the more the deeper its flank
         worn_pinion(), {"random.fault.wear_um={distribution='levels',values=[0,5,20]}"}));
     std::vector<double> spread;
     for (std::uint64_t i = 0; i < 3; ++i) {
-        const auto all = simulate(scene, {Group::test, i}, 1);
+        const auto all = simulate(scene.tile(), {Group::test, i}, 1);
         const auto te = std::ranges::find(all.columns, "te", &SignalColumn::name)->values;
         const auto [low, high] = std::ranges::minmax(te);
         spread.push_back(high - low);
@@ -118,7 +118,7 @@ TEST_CASE("The baseline record of a worn gearbox is that of the gearbox without 
                          "features.use=['change_sensor_rms','own_sensor_rms']"});
         const Scene scene(test::study_of_text(worn_example("\"sun\""), settings));
         const GearboxId first{Group::test, 0};
-        return run_gearboxes(scene, std::span(&first, 1), 1, {});
+        return run_gearboxes(scene.tile(), std::span(&first, 1), 1, {});
     };
     const GearboxTile healthy = tile_of("0"), worn = tile_of("10");
     REQUIRE(healthy.baseline.size() == 1);

@@ -54,7 +54,7 @@ std::vector<std::uint64_t> bits_of(const BatchRows& rows) {
 }
 
 BatchRows first_tile(const Scene& scene) {
-    const BatchTask task(scene);
+    const BatchTask task(scene.tile(), scene.ensemble());
     Seconds seconds;
     return BatchWorker(task).compute({Group::test, 0, 0, kLanes}, seconds);
 }
@@ -113,25 +113,27 @@ TEST_CASE("Integrations are counted as the cache keeps them") {
     const Scene scene(study);
     // Full tiles at each of seven sizes, and a partial one in each group.
     const BatchPlan plan(20, 180);
-    const BatchTask task(scene);
+    const BatchTask task(scene.tile(), scene.ensemble());
     BatchWorker worker(task);
     Seconds seconds;
     for (std::size_t b = 0; b < plan.batches(); ++b) {
         worker.compute(plan.batch(b), seconds);
     }
-    const IntegrationCounts counts = count_integrations(scene, plan, 1.0);
+    const IntegrationCounts counts = count_integrations(scene.sampler(), scene.solve(), plan, 1.0);
     CHECK(counts.kept == task.cache.kept());
     CHECK(counts.integrated[0] + counts.integrated[1] == counts.kept);
     // With capacity for half of them, the others are integrated each time.
     const IntegrationCounts half =
-        count_integrations(scene, plan, 256e6 / (0.5 * static_cast<double>(counts.kept) + 0.1));
+        count_integrations(scene.sampler(), scene.solve(), plan,
+                           256e6 / (0.5 * static_cast<double>(counts.kept) + 0.1));
     CHECK(half.kept == counts.kept / 2);
     CHECK(half.integrated[1] > counts.integrated[1] + 5);
     CHECK(half.integrated[1] < 23);
 
     const Scene scattered(test::shipped_study("planet-crack-ideal.toml", kFast));
-    CHECK(count_integrations(scattered, plan, 1.0).integrated == std::array<std::size_t, 2>{3, 23});
-    CHECK(count_integrations(scattered, plan, 1.0).kept == 0);
+    CHECK(count_integrations(scattered.sampler(), scattered.solve(), plan, 1.0).integrated ==
+          std::array<std::size_t, 2>{3, 23});
+    CHECK(count_integrations(scattered.sampler(), scattered.solve(), plan, 1.0).kept == 0);
 }
 
 TEST_CASE("Peak memory is that of the gearboxes, or of the analysis after them") {
@@ -213,7 +215,7 @@ TEST_CASE(
     CHECK(whole.integration > 20.0 * whole.signals);
     // Sensor signals recorded during integration need no stored records, in a run or here.
     CHECK(cut.memory.records == 0.0);
-    CHECK(motion_bytes(scene) < 0.01 * scene.solve().record_bytes);
+    CHECK(motion_bytes(scene.tile()) < 0.01 * scene.solve().record_bytes);
     CHECK(bits_of(first_tile(scene)) == before);
 }
 

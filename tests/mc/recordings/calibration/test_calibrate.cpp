@@ -68,13 +68,13 @@ struct Synthetic {
     // Calibration result of the set at `truth` (positions in the priors).
     CalibrationResult find(const std::vector<double>& truth, std::size_t number,
                            std::vector<SimulatedSet>& first) {
-        task.measured = simulate_set(*scene, given_at(task.inputs, truth), 1000000 + number,
+        task.measured = simulate_set(scene->tile(), given_at(task.inputs, truth), 1000000 + number,
                                      task.lengths, *summary);
         REQUIRE(!task.measured.empty());
         return calibrate(task, *summary, first,
                          [&](const PriorRegion& region, const SetPlan& plan) {
-                             return simulate_sets(*scene, task.inputs, region, plan, task.lengths,
-                                                  *summary, 2, [](double) {});
+                             return simulate_sets(scene->tile(), task.inputs, region, plan,
+                                                  task.lengths, *summary, 2, [](double) {});
                          });
     }
 };

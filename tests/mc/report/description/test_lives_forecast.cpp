@@ -13,9 +13,9 @@ using namespace gearpod::test;
 
 TEST_CASE("The forecast of lives counts the records that they will have") {
     const mc::Scene scene(life_study());
-    const mc::LifeTiles tiles(scene);
+    const mc::LifeTiles tiles(scene.tile(), scene.life());
     const mc::LivesForecast forecast = mc::forecast_lives(tiles, 2, 0.0);
-    const mc::Campaign campaign = mc::run_campaign(scene);
+    const mc::Campaign campaign = mc::run_campaign(mc::LifeTiles(scene.tile(), scene.life()));
     CHECK(forecast.gearboxes == campaign.costs.gearbox_count);
     CHECK(forecast.records == campaign.costs.record_count);
     CHECK(forecast.gearbox_s > 0.0);
@@ -29,7 +29,7 @@ TEST_CASE("The forecast of lives counts the records that they will have") {
 TEST_CASE("The forecast for lives grows with their loads, depths and number") {
     const auto of = [](const std::vector<std::string>& more) {
         const mc::Scene scene(life_study(more));
-        return mc::forecast_lives(mc::LifeTiles(scene), 1, 0.0);
+        return mc::forecast_lives(mc::LifeTiles(scene.tile(), scene.life()), 1, 0.0);
     };
     const auto plain = of({}), loads = of({"life.torque_scatter=0.02"}),
                lives = of({"life.healthy_lives=400"});
