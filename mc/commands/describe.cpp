@@ -186,17 +186,16 @@ void print_omitted(const char* what, const DescribeOptions& options) {
                     what, options.seconds));
 }
 
-// Forecast where the budget is used up. `scene`: null if the pilot run that chooses the solver
+// Forecast where the budget is used up. `chosen`: false if the pilot run that chooses the solver
 // setting took too long.
-void print_fallback(const Planner& planner, const std::optional<Scene>& scene,
-                    const PeakMemory& memory) {
-    if (scene) {
-        return print_step_forecast(*scene, memory);
-    }
+void print_fallback(const Planner& planner, bool chosen, const PeakMemory& memory) {
     try {
-        const Scene with_defaults = planner.plan(without_tolerance(planner.facts().numerics));
-        print_entry("solver setting", "the default, not the one that a pilot run would choose");
-        print_step_forecast(with_defaults, memory);
+        const Numerics numerics = without_tolerance(planner.facts().numerics);
+        const TilePlan tile = planner.tile(numerics);
+        if (!chosen) {
+            print_entry("solver setting", "the default, not the one that a pilot run would choose");
+        }
+        print_step_forecast(tile, planner.ensemble(numerics), memory);
     } catch (const SceneError& error) {
         print_problems({{"", 0, error.key(), error.what(), ""}});
     }
@@ -237,7 +236,7 @@ int describe_command(const DescribeOptions& options) {
     const auto start = WallClock::now();
     const char* missing =
         "gearbox, effects and cost, because a pilot run chooses the solver setting first";
-    std::optional<Scene> scene;
+    std::optional<Planner> chosen;  // with the chosen numerics
     PeakMemory memory{.setup_bytes = peak_memory_bytes()};
     double before_bytes = std::numeric_limits<double>::infinity();  // before the forecast
     try {
@@ -248,32 +247,34 @@ int describe_command(const DescribeOptions& options) {
             return kBadInput;
         }
         const double setup_s = seconds_since(start);
-        scene.emplace(*made.scene);
+        const Scene& scene = *made.scene;
+        chosen = made.planner;
         memory.setup_bytes = peak_memory_bytes();
-        print_python_features(scene->features().python);
-        const Numerics& numerics = made.planner->facts().numerics;
-        for (const DescriptionSection& section : made.planner->description(numerics)) {
+        print_python_features(scene.features().python);
+        const Numerics& numerics = chosen->facts().numerics;
+        for (const DescriptionSection& section : chosen->description(numerics)) {
             print_section(section);
         }
-        print_life(scene->lives());
+        print_life(scene.lives());
         missing = "cost";
-        print_cost(scene->gearbox(), scene->solve(), scene->record(), scene->ensemble(), numerics,
+        print_cost(scene.gearbox(), scene.solve(), scene.record(), scene.ensemble(), numerics,
                    made.choice);
         std::fflush(stdout);
         missing = "computing some gearboxes and their analysis for the forecast";
         before_bytes = peak_memory_bytes();
-        print_forecast(*scene, *made.planner, begun_s + setup_s, options.ranks);
+        print_forecast(scene, *chosen, begun_s + setup_s, options.ranks);
     } catch (const machine::Cancelled&) {
         print_omitted(missing, options);
         const double now_bytes = peak_memory_bytes();
         memory.computed_bytes = now_bytes > before_bytes ? now_bytes : 0.0;
-        print_fallback(planner, scene, memory);
+        print_fallback(chosen.value_or(planner), chosen.has_value(), memory);
         return kDone;
     }
     std::fflush(stdout);
     try {
         const Deadline deadline(options.seconds);
-        print_effect_changes(planner, scene->span(), scene->nominal_mesh_frequency_Hz(),
+        const RecordPlan record = chosen->tile(chosen->facts().numerics).record;
+        print_effect_changes(planner, record.span, record.mesh_frequency_Hz,
                              kEffectsShare * options.seconds);
     } catch (const machine::Cancelled&) {
         print_omitted("measuring what further effects change", options);

@@ -204,14 +204,14 @@ std::optional<NumericalError> find_numerical_error(const Planner& planner) {
     if (!finer) {
         return std::nullopt;
     }
-    const Scene plan = planner.plan(numerics), fine_plan = planner.plan(finer->numerics);
-    const EnsemblePlan& ensemble = plan.ensemble();
+    const TilePlan plan = planner.tile(numerics);
+    const EnsemblePlan ensemble = planner.ensemble(numerics);
     const auto pairs = static_cast<std::size_t>(numerics.paired_gearboxes);
     std::vector<GearboxId> ids, healthy;
     if (pairs > 0) {
-        ids = spread(members(plan.sampler(), Group::test, ensemble.test_gearboxes), pairs);
+        ids = spread(members(*plan.sampler, Group::test, ensemble.test_gearboxes), pairs);
         healthy =
-            spread(members(plan.sampler(), Group::threshold, ensemble.threshold_gearboxes), pairs);
+            spread(members(*plan.sampler, Group::threshold, ensemble.threshold_gearboxes), pairs);
     }
     const std::size_t faulty = ids.size();
     if (ids.empty()) {  // no pairs, or no gearbox with a fault
@@ -221,8 +221,9 @@ std::optional<NumericalError> find_numerical_error(const Planner& planner) {
     }
     const std::size_t test_count = ids.size();
     ids.insert(ids.end(), healthy.begin(), healthy.end());
-    const BatchRows coarse_rows = rows_of_gearboxes(plan.tile(), ensemble, ids),
-                    fine_rows = rows_of_gearboxes(fine_plan.tile(), fine_plan.ensemble(), ids);
+    const BatchRows coarse_rows = rows_of_gearboxes(plan, ensemble, ids),
+                    fine_rows = rows_of_gearboxes(planner.tile(finer->numerics),
+                                                  planner.ensemble(finer->numerics), ids);
     const Values coarse = values_of(ensemble.shape, coarse_rows),
                  fine = values_of(ensemble.shape, fine_rows);
     NumericalError error{with_steps(own_setting(numerics), planner).text(),
@@ -334,8 +335,8 @@ void add_lane(const machine::AlignedVector& values, std::size_t lanes,
 }  // namespace
 
 std::optional<StepError> find_step_error(const Planner& planner, double most_meshes) {
-    const Scene plan = planner.plan(planner.facts().numerics);
-    if (!dynamics::separates(plan.plan().mesh_law)) {
+    const TilePlan plan = planner.tile(planner.facts().numerics);
+    if (!dynamics::separates(plan.solve->integration().mesh_law)) {
         return std::nullopt;
     }
     const auto finer = finer_setting(planner, planner.facts().numerics);
@@ -344,18 +345,18 @@ std::optional<StepError> find_step_error(const Planner& planner, double most_mes
     }
     Numerics in_double_precision = finer->numerics;
     in_double_precision.precision = Precision::double_precision;
-    const Scene coarse = plan.recording_at_most(kMeshes);
-    const Scene fine = planner.plan(in_double_precision).recording_at_most(kMeshes);
-    const std::size_t steps = coarse.plan().grid.steps.size(),
-                      finer_steps = fine.plan().grid.steps.size();
+    const TilePlan coarse = plan.recording_at_most(kMeshes),
+                   fine = planner.tile(in_double_precision).recording_at_most(kMeshes);
+    const std::size_t steps = coarse.solve->integration().grid.steps.size(),
+                      finer_steps = fine.solve->integration().grid.steps.size();
     const double ratio = static_cast<double>(finer_steps) / static_cast<double>(steps);
-    if (coarse.solve().integrated_meshes * (1.0 + ratio) > most_meshes) {
+    if (coarse.solve->integrated_meshes * (1.0 + ratio) > most_meshes) {
         return std::nullopt;
     }
-    const GearboxTile tile = pilot_tile(coarse.tile()), reference = pilot_tile(fine.tile());
+    const GearboxTile tile = pilot_tile(coarse), reference = pilot_tile(fine);
     Squares sensor, te;
     StepError error;
-    error.meshes = std::min(kMeshes, coarse.recorded_meshes());
+    error.meshes = std::min(kMeshes, coarse.record.recorded_meshes);
     for (std::size_t lane = 0; lane < lockstep::kPilotLanes; ++lane) {
         if (tile.status[lane] != Status::ok || reference.status[lane] != Status::ok) {
             continue;
@@ -380,9 +381,9 @@ std::optional<StepError> find_step_error(const Planner& planner, double most_mes
 
 std::optional<StepError> find_step_error_of_run(const Planner& planner, std::size_t gearboxes) {
     constexpr double kShare = 0.02;
-    const Scene plan = planner.plan(planner.facts().numerics);
-    const double tiles = static_cast<double>(gearboxes) / plan.ensemble().lanes;
-    return find_step_error(planner, kShare * tiles * plan.solve().integrated_meshes);
+    const TilePlan plan = planner.tile(planner.facts().numerics);
+    const double tiles = static_cast<double>(gearboxes) / plan.solve->settings.lanes;
+    return find_step_error(planner, kShare * tiles * plan.solve->integrated_meshes);
 }
 
 std::string step_error_text(const StepError& error) {

@@ -71,9 +71,8 @@ class ScatterChoice {
         for (std::uint64_t i = 0; i < kHealthyPilots; ++i) {
             ids_.push_back({Group::threshold, i});
         }
-        const Scene plan = planner.plan(unscaled_);
-        shape_ = plan.ensemble().shape;
-        reference_ = rows_of_gearboxes(plan.tile(), plan.ensemble(), ids_);
+        shape_ = planner.ensemble(unscaled_).shape;
+        reference_ = rows_with(unscaled_);
         for (std::size_t value = 0; value < shape_.features * shape_.levels; ++value) {
             scatter_.push_back(standard_deviation(column(reference_, value)));
         }
@@ -114,6 +113,10 @@ class ScatterChoice {
     }
 
   private:
+    BatchRows rows_with(const Numerics& numerics) const {
+        return rows_of_gearboxes(planner_.tile(numerics), planner_.ensemble(numerics), ids_);
+    }
+
     std::vector<double> column(const BatchRows& rows, std::size_t value) const {
         std::vector<double> values;
         for (std::size_t row = 0; row < rows.count(); ++row) {
@@ -130,8 +133,7 @@ class ScatterChoice {
         std::size_t feature = 0;
     };
     Error error_of(const Numerics& numerics) const {
-        const Scene plan = planner_.plan(numerics);
-        const BatchRows rows = rows_of_gearboxes(plan.tile(), plan.ensemble(), ids_);
+        const BatchRows rows = rows_with(numerics);
         Error worst;
         for (std::size_t value = 0; value < scatter_.size(); ++value) {
             const std::vector<double> here = column(rows, value), there = column(reference_, value);
@@ -425,7 +427,7 @@ ResolvedNumerics resolve_numerics(const Planner& planner, const Numerics& numeri
 
 Scene resolved_plan(const Study& study) {
     const Planner planner(study);
-    return planner.plan(resolve_numerics(planner, study.numerics).numerics);
+    return planner.scene(resolve_numerics(planner, study.numerics).numerics);
 }
 
 }  // namespace gearpod::mc

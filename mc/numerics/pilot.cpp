@@ -105,33 +105,33 @@ std::vector<GearboxId> pilot_gearboxes(std::uint64_t first, std::uint64_t stride
 Pilot::Pilot(Planner planner, std::vector<GearboxId> ids)
     : planner_(std::move(planner)), ids_(std::move(ids)) {
     constexpr int kMostSignalMeshes = 200;
-    const Scene plan = planner_.plan(without_tolerance(planner_.facts().numerics));
-    signal_meshes_ = std::clamp(plan.pattern().length, 1, kMostSignalMeshes);
+    const TilePlan plan = planner_.tile(without_tolerance(planner_.facts().numerics));
+    signal_meshes_ = std::clamp(plan.gearbox->fault().pattern().length, 1, kMostSignalMeshes);
 }
 
 PilotRecord Pilot::run(const Numerics& numerics) const {
-    const Scene plan = planner_.plan(numerics);
+    const TilePlan plan = planner_.tile(numerics);
     const int lanes = lockstep::lanes_for(numerics.precision, full_lanes(numerics.precision));
     return record(plan, lanes, [&](std::span<const GearboxId> some) {
-        return run_gearboxes(plan.tile(), filled(some, lanes), lanes,
+        return run_gearboxes(plan, filled(some, lanes), lanes,
                              {.records = lockstep::RecordOptions{}});
     });
 }
 
 PilotRecord Pilot::record_of_integration(const ForeignIntegrator& integrate) const {
-    const Scene plan = planner_.plan(planner_.facts().numerics);
+    const TilePlan plan = planner_.tile(planner_.facts().numerics);
     return record(plan, lockstep::kPilotLanes, [&](std::span<const GearboxId> some) {
-        return complete_tile(plan.tile(), some, integrate(some));
+        return complete_tile(plan, some, integrate(some));
     });
 }
 
-PilotRecord Pilot::record(const Scene& plan, int lanes, const Tile& tile_of) const {
+PilotRecord Pilot::record(const TilePlan& plan, int lanes, const Tile& tile_of) const {
     PilotRecord record;
     record.features_used = static_cast<int>(planner_.facts().features.size());
     record.levels = static_cast<int>(planner_.facts().noise_levels.size());
-    record.steps = static_cast<int>(plan.plan().grid.steps.size());
-    const HealthyReference healthy = healthy_reference(plan.tile());
-    RealizationFeatures features(plan.tile(), &healthy);
+    record.steps = static_cast<int>(plan.solve->integration().grid.steps.size());
+    const HealthyReference healthy = healthy_reference(plan);
+    RealizationFeatures features(plan, &healthy);
     double tiles_s = 0.0, features_s = 0.0, lanes_run = 0.0;
     for (std::size_t first = 0; first < ids_.size(); first += lockstep::kPilotLanes) {
         const auto some = std::span(ids_).subspan(
@@ -154,18 +154,18 @@ PilotRecord Pilot::record(const Scene& plan, int lanes, const Tile& tile_of) con
                 continue;
             }
             const double features_start = thread_processor_s();
-            record.features.back() = features.compute(
-                lane_signals(plan.tile(), tile, lane, features.meshes()), realization);
+            record.features.back() =
+                features.compute(lane_signals(plan, tile, lane, features.meshes()), realization);
             features_s += thread_processor_s() - features_start;
             const lockstep::SpanPart part =
                 tile.parts.empty() ? lockstep::SpanPart{0, signal_meshes_} : tile.parts.front();
             const int count = std::min(signal_meshes_, part.end - part.first);
             record.sensor.back() =
-                signals::synthesize(tile.views, lane, tile.integration.content, plan.span(),
-                                    plan.sensors().front().paths.front(),
+                signals::synthesize(tile.views, lane, tile.integration.content, plan.record.span,
+                                    plan.sensors->front().paths.front(),
                                     realization.inputs.path_exponent, part.first, count);
             record.te.back() =
-                recorded_te(plan.record(), tile, lane, part.first, count, plan.samples_per_mesh());
+                recorded_te(plan.record, tile, lane, part.first, count, plan.record.samples);
             remove_mean(record.te.back());
         }
     }

@@ -51,7 +51,7 @@ class Pilot {
 
   private:
     using Tile = std::function<GearboxTile(std::span<const GearboxId>)>;
-    PilotRecord record(const Scene& plan, int lanes, const Tile& tile_of) const;
+    PilotRecord record(const TilePlan& plan, int lanes, const Tile& tile_of) const;
 
     Planner planner_;
     std::vector<GearboxId> ids_;

@@ -68,7 +68,7 @@ StudyScene make_scene(const std::string& name, StudyReading reading) {
         choose_numerics_of_stages(*reading.study);
         const Planner planner(*reading.study);
         ResolvedNumerics resolved = resolve_numerics(planner, numerics);
-        StudyScene made{std::make_unique<const Scene>(planner.plan(resolved.numerics)),
+        StudyScene made{std::make_unique<const Scene>(planner.scene(resolved.numerics)),
                         std::move(resolved.choice),
                         {},
                         std::move(reading.notices),

@@ -76,8 +76,16 @@ const SolverFacts& Planner::facts() const {
     return plans_->facts;
 }
 
-Scene Planner::plan(const Numerics& numerics) const {
+Scene Planner::scene(const Numerics& numerics) const {
     return *plans_->with(numerics);
+}
+
+TilePlan Planner::tile(const Numerics& numerics) const {
+    return plans_->with(numerics)->tile();
+}
+
+EnsemblePlan Planner::ensemble(const Numerics& numerics) const {
+    return plans_->with(numerics)->ensemble();
 }
 
 PlannedSteps Planner::steps(const Numerics& numerics) const {
@@ -151,7 +159,7 @@ Planner Planner::with_short_records(const signals::SpanLayout& span,
         (kLeastRecordTurns * span.planet_teeth + 0.5) / std::abs(mesh_frequency_Hz);
     try {
         const Planner planner(brief);
-        planner.plan(brief.numerics);
+        planner.tile(brief.numerics);
         return planner;
     } catch (const SceneError&) {
         return Planner(plain);

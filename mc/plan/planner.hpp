@@ -58,9 +58,10 @@ class Planner {
     Planner with(const Numerics& numerics) const;
 
     const SolverFacts& facts() const;
-    // Plan with these numerics, whose tolerances are not resolved; steps(): its steps. Throw
-    // SceneError.
-    Scene plan(const Numerics& numerics) const;
+    // Plan with these numerics, whose tolerances are not resolved, and its parts. Throw SceneError.
+    Scene scene(const Numerics& numerics) const;
+    TilePlan tile(const Numerics& numerics) const;
+    EnsemblePlan ensemble(const Numerics& numerics) const;
     PlannedSteps steps(const Numerics& numerics) const;
     // Throws SceneError if reading would reject the keys of [numerics] named in `keys`.
     void check(const Numerics& numerics, std::span<const std::string_view> keys) const;

@@ -215,12 +215,12 @@ Scene Scene::with_numerics_of(const Study& study) const {
     return scene;
 }
 
-Scene Scene::recording_at_most(int meshes) const {
-    Scene scene = *this;
-    scene.tile_.record.recorded_meshes = std::min(record().signal_meshes, meshes);
-    scene.tile_.solve = std::make_shared<const SolvePlan>(solve().settings, gearbox(),
-                                                          scene.record(), solve().steps);
-    return scene;
+TilePlan TilePlan::recording_at_most(int meshes) const {
+    TilePlan tile = *this;
+    tile.record.recorded_meshes = std::min(record.signal_meshes, meshes);
+    tile.solve =
+        std::make_shared<const SolvePlan>(solve->settings, *gearbox, tile.record, solve->steps);
+    return tile;
 }
 
 namespace {

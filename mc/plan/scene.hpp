@@ -29,9 +29,6 @@ class Scene {
     // recomputed only for another stiffness_tolerance or face_slices; the steps are shared if
     // share_steps(). Throws SceneError.
     Scene with_numerics_of(const Study& study) const;
-    // The same scene with at most this many recorded mesh periods, which the signal repeats. Used
-    // to measure the cost of time integration.
-    Scene recording_at_most(int meshes) const;
 
     const StudyLives& lives() const { return *lives_; }
     // Throws SceneError if there are none.

@@ -17,6 +17,9 @@ namespace gearpod::mc {
 // Immutable. Copies share all parts but the small ones.
 struct TilePlan {
     const DrawPlan& draw() const { return sampler->plan(); }
+    // The same plan with at most this many recorded mesh periods, which the signal repeats. Used to
+    // measure the cost of time integration.
+    TilePlan recording_at_most(int meshes) const;
 
     std::shared_ptr<const Sampler> sampler;
     std::shared_ptr<const GearboxPlan> gearbox;

@@ -27,13 +27,13 @@ namespace gearpod::mc {
 namespace {
 
 // Signals of the requested rows over a planet turn. A gearbox that failed has none.
-std::vector<RowSignals> chosen_signals(const RunOptions& options, const Scene& scene) {
+std::vector<RowSignals> chosen_signals(const RunOptions& options, const TilePlan& tile) {
     std::vector<RowSignals> all;
     for (const long row : std::set<long>(options.signals.begin(), options.signals.end())) {
         try {
             all.push_back(
                 {static_cast<std::size_t>(row),
-                 simulate(scene.tile(), scene.draw().rows.id_of(row), scene.span().planet_teeth)
+                 simulate(tile, tile.draw().rows.id_of(row), tile.record.span.planet_teeth)
                      .columns});
         } catch (const std::runtime_error& error) {
             fmt::print(stderr, "--signals {}: {}\n", row, error.what());
@@ -48,11 +48,11 @@ class Run {
     Run(const RunOptions& options, const StudyScene& made, const Ranks& ranks,
         std::unique_ptr<Checkpoint> checkpoint, double setup_s)
         : options_(options),
-          scene_(*made.scene),
+          tile_(made.scene->tile()),
           planner_(made.planner),
           choice_(made.choice),
           ranks_(ranks),
-          ensemble_(scene_.ensemble()),
+          ensemble_(made.scene->ensemble()),
           part_(read_part(options.part).value().text()),
           plan_(plan_of(options, ensemble_)),
           checkpoint_(std::move(checkpoint)),
@@ -70,7 +70,7 @@ class Run {
         Progress progress(static_cast<long>(plan_.rows()), options_.quiet, checkpoint_->rows_done(),
                           options_.progress == "json" ? Progress::Form::json : Progress::Form::text,
                           plan_.counted());
-        const EnsembleOutcome outcome = run_batches(scene_.tile(), ensemble_, plan_,
+        const EnsembleOutcome outcome = run_batches(tile_, ensemble_, plan_,
                                                     {.ranks = ranks_,
                                                      .store = *checkpoint_,
                                                      .progress = progress,
@@ -124,7 +124,7 @@ class Run {
     void add_examples(Results& all, const Interruption& interruption,
                       EnsembleOutcome& outcome) const {
         try {
-            all.signals = chosen_signals(options_, scene_);
+            all.signals = chosen_signals(options_, tile_);
             if (part_.empty()) {  // for a part, `merge` computes them
                 all.numerical = find_numerical_error(*planner_);
                 all.step_error = find_step_error_of_run(
@@ -196,7 +196,7 @@ class Run {
         checkpoint_->remove();
         if (prints_results()) {
             fmt::print("{}\n", texts.report);
-            print_failures(counts, scene_.max_meshes());
+            print_failures(counts, tile_.solve->convergence.max_meshes);
             print_computing_times(outcome);
             fmt::print(
                 "set-up {:.2f} s, detection and results {:.2f} s{}\n", setup_s_,
@@ -250,7 +250,7 @@ class Run {
     }
 
     const RunOptions& options_;
-    const Scene& scene_;
+    const TilePlan& tile_;
     const std::optional<Planner>& planner_;
     const std::optional<NumericsChoice>& choice_;
     const Ranks& ranks_;
@@ -267,14 +267,14 @@ class Run {
 };
 
 // Work of the other ranks: computing batches.
-void compute_for_leader(const RunOptions& options, const Scene& scene, const Ranks& ranks,
+void compute_for_leader(const RunOptions& options, const TilePlan& tile,
+                        const EnsemblePlan& ensemble, const Ranks& ranks,
                         const Interruption& interruption) {
-    const EnsemblePlan& ensemble = scene.ensemble();
     const BatchPlan plan = plan_of(options, ensemble);
     MemoryRows nothing(0);
     Progress silent(1, true);
     run_batches(
-        scene.tile(), ensemble, plan,
+        tile, ensemble, plan,
         {.ranks = ranks, .store = nothing, .progress = silent, .interruption = &interruption});
 }
 
@@ -333,7 +333,7 @@ int run_study(const RunOptions& options, const Ranks& ranks) {
         return std::stoi(order);
     }
     if (!ranks.leads()) {
-        compute_for_leader(options, *scene, ranks, interruption);
+        compute_for_leader(options, scene->tile(), scene->ensemble(), ranks, interruption);
         return std::stoi(assess_for_leader(scene->ensemble(), ranks));
     }
     const int code =

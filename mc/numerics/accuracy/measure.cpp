@@ -111,7 +111,7 @@ void measure_detection(const Planner& planner, const AccuracyRequest& request,
     const Planner pilot = planner.with_gearboxes(gearboxes);
     const auto run = [&](const SolverSetting& setting) {
         pilot.check(setting.numerics, setting.keys());
-        return run_pilot_ensemble(pilot.plan(setting.numerics));
+        return run_pilot_ensemble(pilot.tile(setting.numerics), pilot.ensemble(setting.numerics));
     };
     const PilotEnsemble reference = run(report.settings[most_accurate_setting(report)].setting);
     if (!has_rates(reference)) {
@@ -159,17 +159,18 @@ class AccuracyMeasurement {
           request_(request),
           time_(request.seconds),
           pilot_(planner) {
-        const Scene plan = planner.plan(facts_.numerics);
+        const TilePlan plan = planner.tile(facts_.numerics);
         report_.features = facts_.features;
         report_.noise_levels = facts_.noise_levels;
         report_.gearboxes = static_cast<int>(pilot_.size());
         report_.signal_meshes = pilot_.signal_meshes();
-        report_.span_meshes = plan.span_meshes();
-        report_.mesh_frequency_Hz = plan.nominal_mesh_frequency_Hz();
-        report_.explicit_limit.steps = plan.explicit_steps();
+        report_.span_meshes = plan.record.span.meshes();
+        report_.mesh_frequency_Hz = plan.gearbox->mesh_frequency_Hz;
+        report_.explicit_limit.steps = plan.solve->stepping().explicit_steps;
         own_steps_ = planner.steps(facts_.numerics);
-        stability_case_ = {plan.plan().layout, plan.inputs(plan.gearbox().nominal),
-                           plan.stiffest_pairs()};
+        stability_case_ = {plan.solve->integration().layout,
+                           plan.gearbox->inputs(plan.gearbox->nominal),
+                           plan.gearbox->stiffness->stiffest_pairs()};
     }
 
     AccuracyReport run() {
@@ -471,8 +472,8 @@ class AccuracyMeasurement {
 
     void measure_explicit_limit() {
         ExplicitLimit& limit = report_.explicit_limit;
-        const Scene plan = planner_.plan(facts_.numerics);
-        limit.step_s = explicit_step_s(plan.gearbox(), plan.solve());
+        const TilePlan plan = planner_.tile(facts_.numerics);
+        limit.step_s = explicit_step_s(*plan.gearbox, *plan.solve);
         limit.meshes = report_.settings[0].meshes;
         limit.refused = std::ranges::none_of(report_.settings, [](const auto& r) {
             return r.setting.numerics.integrator == lockstep::kUsualExplicit && r.refusal.empty();

@@ -82,13 +82,13 @@ void compare_sizes(const analysis::Reliability& here, const analysis::Reliabilit
 
 }  // namespace
 
-PilotEnsemble run_pilot_ensemble(const Scene& plan) {
+PilotEnsemble run_pilot_ensemble(const TilePlan& tile, const EnsemblePlan& ensemble) {
     Progress silent(1, true);
     PilotEnsemble pilot;
-    pilot.results = run_ensemble(plan.tile(), plan.ensemble(), silent);
+    pilot.results = run_ensemble(tile, ensemble, silent);
     pilot.results.detection = detect_all(pilot.results);
     pilot.reliability =
-        reliability_of(pilot.results, ColumnRows(pilot.results), "", thread_count(plan.ensemble()));
+        reliability_of(pilot.results, ColumnRows(pilot.results), "", thread_count(ensemble));
     return pilot;
 }
 

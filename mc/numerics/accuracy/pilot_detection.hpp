@@ -17,7 +17,7 @@ struct PilotEnsemble {
     std::optional<analysis::Reliability> reliability;
 };
 
-PilotEnsemble run_pilot_ensemble(const Scene& plan);
+PilotEnsemble run_pilot_ensemble(const TilePlan& tile, const EnsemblePlan& ensemble);
 
 // True if the healthy sample is large enough for thresholds.
 bool has_rates(const PilotEnsemble& pilot);

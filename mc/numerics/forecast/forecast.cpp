@@ -386,12 +386,12 @@ double verification_s(const Planner& planner, const RunCost& cost) {
     if (!finer) {
         return 0.0;
     }
-    const Scene finer_plan = planner.plan(finer->numerics);
+    const TilePlan fine = planner.tile(finer->numerics);
     const double setup_s = seconds_since(start);
     const TileCost& tile = cost.cost[static_cast<std::size_t>(Group::test)].integrated;
-    const double integration_s = mesh_period_s(finer_plan.draw(), finer_plan.gearbox(),
-                                               finer_plan.solve(), finer_plan.record()) *
-                                 finer_plan.solve().integrated_meshes;
+    const double integration_s =
+        mesh_period_s(fine.draw(), *fine.gearbox, *fine.solve, fine.record) *
+        fine.solve->integrated_meshes;
     const std::int64_t pairs = facts.numerics.paired_gearboxes;
     const auto batches = static_cast<double>((2 * pairs + kBatchRows - 1) / kBatchRows);
     const double tiles =

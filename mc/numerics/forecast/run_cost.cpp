@@ -274,11 +274,12 @@ int affordable_meshes(const TileMeshes& whole, double mesh_s, double budget_s) {
                : std::min(whole.recorded, std::max(kFewestMeshes, static_cast<int>(affordable)));
 }
 
-void measure(const Scene& plan, const BatchPlan& batches, double budget_s, RunCost& result) {
+void measure(const TilePlan& plan, const EnsemblePlan& ensemble, const BatchPlan& batches,
+             double budget_s, RunCost& result) {
     auto start = WallClock::now();
-    const BatchTask task(plan.tile(), plan.ensemble());
+    const BatchTask task(plan, ensemble);
     result.task_s = seconds_since(start);
-    const bool reusable = plan.solve().settings.distinct_integrations.has_value();
+    const bool reusable = plan.solve->settings.distinct_integrations.has_value();
     const auto computers = [&task]() -> BatchComputer {
         return
             [worker = std::make_shared<BatchWorker>(task)](const Batch& batch, Seconds& seconds) {
@@ -298,7 +299,7 @@ void measure(const Scene& plan, const BatchPlan& batches, double budget_s, RunCo
     result.memory.fragments = kFragmentsOfThread * result.threads +
                               (measurement.few_tiles() ? kShareAfterFew : kFragmentShare) *
                                   (result.memory.peak - result.memory.before);
-    result.memory.kept = -motion_bytes(plan.tile()) * static_cast<double>(task.cache.kept());
+    result.memory.kept = -motion_bytes(plan) * static_cast<double>(task.cache.kept());
 
     std::array<GroupCost, 2>& cost = result.cost;
     for (const Group group : {Group::threshold, Group::test}) {
@@ -327,25 +328,25 @@ void measure(const Scene& plan, const BatchPlan& batches, double budget_s, RunCo
 
 }  // namespace
 
-RunCost measure_run_cost(const Scene& whole, const BatchPlan& batches, int threads,
-                         double budget_s) {
+RunCost measure_run_cost(const TilePlan& whole, const EnsemblePlan& ensemble,
+                         const BatchPlan& batches, int threads, double budget_s) {
     RunCost result;
     result.threads = static_cast<int>(
         std::min(static_cast<std::size_t>(std::max(1, threads)), batches.batches()));
-    result.lanes = static_cast<std::size_t>(whole.ensemble().lanes);
-    const SolvePlan& solve = whole.solve();
+    result.lanes = static_cast<std::size_t>(ensemble.lanes);
+    const SolvePlan& solve = *whole.solve;
     const double mesh_s = solve.settings.quasi_static
                               ? 0.0
-                              : mesh_period_s(whole.draw(), whole.gearbox(), solve, whole.record());
+                              : mesh_period_s(whole.draw(), *whole.gearbox, solve, whole.record);
     const TileMeshes all{solve.test_record_meshes, solve.integrated_meshes};
     result.to_record = all.recorded;
     // Half of the budget, so that a thread can compute two tiles.
     result.recorded = solve.settings.horizon == Horizon::periodic || mesh_s == 0.0
                           ? all.recorded
                           : affordable_meshes(all, mesh_s, 0.5 * budget_s);
-    result.motion_bytes = motion_bytes(whole.tile());
-    const Scene part = whole.recording_at_most(result.recorded);
-    const TileMeshes measured{part.solve().test_record_meshes, part.solve().integrated_meshes};
+    result.motion_bytes = motion_bytes(whole);
+    const TilePlan part = whole.recording_at_most(result.recorded);
+    const TileMeshes measured{part.solve->test_record_meshes, part.solve->integrated_meshes};
     result.memory.before = peak_memory_bytes();
     if (mesh_s * measured.integrated > std::max(kLongestTile_s, budget_s)) {
         result.integration_only = true;
@@ -357,14 +358,14 @@ RunCost measure_run_cost(const Scene& whole, const BatchPlan& batches, int threa
         result.memory.held = resident_memory_bytes();
         result.memory.records = result.threads * result.motion_bytes;
     } else {
-        measure(part, batches, budget_s, result);
-        result.memory.records = result.threads * (result.motion_bytes - motion_bytes(part.tile()));
+        measure(part, ensemble, batches, budget_s, result);
+        result.memory.records = result.threads * (result.motion_bytes - motion_bytes(part));
         for (GroupCost& group : result.cost) {
             complete(group.integrated, measured, all);
             complete(group.reused, measured, all);
         }
     }
-    result.integrations = count_integrations(whole.sampler(), solve, batches, result.motion_bytes);
+    result.integrations = count_integrations(*whole.sampler, solve, batches, result.motion_bytes);
     return result;
 }
 

@@ -70,7 +70,7 @@ inline constexpr double kLongestTile_s = 5.0;
 // they are slow), and more until `budget_s` seconds are over. If every mesh period is integrated
 // and a tile would take longer, it records fewer mesh periods, at least kFewestMeshes. The measured
 // time is then extrapolated to all mesh periods.
-RunCost measure_run_cost(const Scene& whole, const BatchPlan& batches, int threads,
-                         double budget_s);
+RunCost measure_run_cost(const TilePlan& whole, const EnsemblePlan& ensemble,
+                         const BatchPlan& batches, int threads, double budget_s);
 
 }  // namespace gearpod::mc

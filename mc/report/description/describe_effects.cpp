@@ -59,7 +59,7 @@ void print_effect_changes(const Planner& planner, const signals::SpanLayout& spa
                  print_entry(
                      "measured on",
                      fmt::format("{} gearboxes to test, records of {}", lockstep::kPilotLanes,
-                                 record_length_text(brief.plan(brief.facts().numerics).record())));
+                                 record_length_text(brief.tile(brief.facts().numerics).record)));
                  begun = true;
              }
              print_entry(effect.effect, change_text(effect, facts, tolerance));

@@ -186,8 +186,8 @@ void print_ranks(const EnsemblePlan& plan, const RankForecast& forecast, int thr
 
 }  // namespace
 
-void print_step_forecast(const Scene& scene, const PeakMemory& memory) {
-    const EnsemblePlan& ensemble = scene.ensemble();
+void print_step_forecast(const TilePlan& tile, const EnsemblePlan& ensemble,
+                         const PeakMemory& memory) {
     const BatchPlan plan = ensemble.batches();
     const auto threads =
         std::min(static_cast<std::size_t>(std::max(1, thread_count(ensemble))), plan.batches());
@@ -197,28 +197,27 @@ void print_step_forecast(const Scene& scene, const PeakMemory& memory) {
         fmt::format("the number of gearboxes and time steps and the time of one mesh period alone; "
                     "{}signals, features and analysis take more. Raise --seconds to compute some "
                     "gearboxes instead",
-                    scene.gearbox().stages.empty() ? "" : "neighbouring stages, "));
+                    tile.gearbox->stages.empty() ? "" : "neighbouring stages, "));
     print_entry("threads", std::to_string(threads));
-    if (scene.solve().settings.quasi_static) {
+    if (tile.solve->settings.quasi_static) {
         print_entry("gearboxes", "not forecast: a quasi-static study integrates nothing");
     } else {
         const auto lanes = static_cast<double>(ensemble.lanes);
         const double tiles = std::ceil(static_cast<double>(plan.threshold_gearboxes()) / lanes) +
                              std::ceil(static_cast<double>(plan.test_rows()) / lanes);
-        const double meshes = scene.solve().integrated_meshes;
+        const double meshes = tile.solve->integrated_meshes;
         print_entry(
             "time integration",
             fmt::format(
                 "{}: {:.0f} tiles of {} gearboxes, about {:.0f} mesh periods of {} steps each",
-                seconds_text(
-                    tiles * meshes *
-                    mesh_period_s(scene.draw(), scene.gearbox(), scene.solve(), scene.record()) /
-                    static_cast<double>(threads)),
-                tiles, ensemble.lanes, meshes, scene.plan().grid.steps.size()));
+                seconds_text(tiles * meshes *
+                             mesh_period_s(tile.draw(), *tile.gearbox, *tile.solve, tile.record) /
+                             static_cast<double>(threads)),
+                tiles, ensemble.lanes, meshes, tile.solve->integration().grid.steps.size()));
     }
     const double least_bytes =
-        std::max(memory.setup_bytes + least_memory_bytes(motion_bytes(scene.tile()), ensemble.shape,
-                                                         plan, static_cast<int>(threads)),
+        std::max(memory.setup_bytes + least_memory_bytes(motion_bytes(tile), ensemble.shape, plan,
+                                                         static_cast<int>(threads)),
                  memory.computed_bytes);
     print_entry("memory", fmt::format("at least {:.0f} MB", least_bytes / 1e6));
 }
@@ -233,7 +232,7 @@ void print_forecast(const Scene& scene, const Planner& planner, double setup_s, 
     const EnsemblePlan& ensemble = scene.ensemble();
     const BatchPlan plan = ensemble.batches();
     const int threads = thread_count(ensemble);
-    const RunCost calibration = measure_run_cost(scene, plan, threads, kBudget_s);
+    const RunCost calibration = measure_run_cost(scene.tile(), ensemble, plan, threads, kBudget_s);
     const AnalysisTrial trial =
         measure_analysis(scene.sampler(), ensemble, calibration, plan, threads, kBudget_s);
     const RunForecast forecast =

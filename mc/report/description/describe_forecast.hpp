@@ -47,6 +47,7 @@ struct PeakMemory {
 
 // Forecast from the numbers of gearboxes and time steps alone, where computing some gearboxes takes
 // too long.
-void print_step_forecast(const Scene& scene, const PeakMemory& memory);
+void print_step_forecast(const TilePlan& tile, const EnsemblePlan& ensemble,
+                         const PeakMemory& memory);
 
 }  // namespace gearpod::mc

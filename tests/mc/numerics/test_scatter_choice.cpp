@@ -51,7 +51,7 @@ TEST_CASE("Steps for a share of the scatter keep it on other gearboxes, with few
     Numerics own = resolved.numerics;
     own.scatter_tolerance = own.mass_scaling_Hz = 0.0;
     own.steps_per_mesh = 0;
-    const Scene chosen = planner.plan(resolved.numerics), reference = planner.plan(own);
+    const Scene chosen = planner.scene(resolved.numerics), reference = planner.scene(own);
     CHECK(2 * chosen.plan().grid.steps.size() < reference.plan().grid.steps.size());
     std::vector<GearboxId> others;
     for (std::uint64_t i = 16; i < 32; ++i) {
