@@ -90,12 +90,14 @@ EnsemblePlan Planner::ensemble(const Numerics& numerics) const {
 
 PlannedSteps Planner::steps(const Numerics& numerics) const {
     const std::shared_ptr<const Scene> plan = plans_->with(numerics);
-    return {plan->plan().integrator,
-            plan->samples_per_mesh(),
-            static_cast<int>(plan->plan().grid.steps.size()),
-            plan->least_steps(),
-            plan->longest_step(),
-            plan->calibration() ? std::optional(plan->calibration()->grading.first) : std::nullopt};
+    const SolvePlan& solve = plan->solve();
+    const std::optional<Calibration>& calibration = solve.steps->calibration;
+    return {solve.integration().integrator,
+            plan->record().samples,
+            static_cast<int>(solve.integration().grid.steps.size()),
+            solve.stepping().least,
+            solve.stepping().longest_step,
+            calibration ? std::optional(calibration->grading.first) : std::nullopt};
 }
 
 void Planner::check(const Numerics& numerics, std::span<const std::string_view> keys) const {
@@ -173,7 +175,7 @@ std::vector<EffectVariant> Planner::effect_variants() const {
 std::vector<DescriptionSection> Planner::description(const Numerics& numerics) const {
     const std::shared_ptr<const Scene> plan = plans_->with(numerics);
     return description_of(with_numerics(plans_->study, numerics), plan->gearbox(),
-                          plan->decay_meshes());
+                          plan->solve().stepping().decay_meshes);
 }
 
 LifePlan Planner::life(const LoadNumber& torques, const LoadNumber& speeds) const {

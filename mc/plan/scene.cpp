@@ -177,10 +177,11 @@ Scene::Scene(const Study& study)
     auto steps = std::make_shared<const ScenePlan>(make_plan(study, sampler(), *gearbox));
     gearbox->stages = make_stages(study, *gearbox);
     tile_.gearbox = std::move(gearbox);
-    tile_.features = make_feature_plan(study, drivetrain().span());
+    const Drivetrain& drivetrain = *tile_.gearbox->drivetrain;
+    tile_.features = make_feature_plan(study, drivetrain.span());
     const int samples = steps->integration.grid.samples;
     tile_.sensors = std::make_shared<const std::vector<SensorPlan>>(
-        make_sensor_plans(study, drivetrain(), samples));
+        make_sensor_plans(study, drivetrain, samples));
     tile_.record =
         make_record_plan(study, *tile_.gearbox, features(), sensors(), samples, steps->te_samples);
     tile_.solve = std::make_shared<const SolvePlan>(SolveSettings(study), *tile_.gearbox, record(),
@@ -430,7 +431,7 @@ void check_train(const Study& study, const Scene& scene) {
     }
     if (const double run_in =
             coupled_run_in(scene.gearbox(), scene.solve().convergence.tolerance, 0);
-        run_in > kLongestRunIn * scene.signal_meshes()) {
+        run_in > kLongestRunIn * scene.record().signal_meshes) {
         throw SceneError(kStagesKey,
                          fmt::format("the motion of the gearboxes against each other takes {:.3g} "
                                      "mesh periods to decay to numerics.settle_tolerance, more "

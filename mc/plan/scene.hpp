@@ -1,5 +1,4 @@
-// Data that all gearboxes of a study have in common, computed once: drive, stiffness curves, fault
-// pattern, phase grid.
+// Whole plan of a study.
 #pragma once
 
 #include <memory>
@@ -17,7 +16,8 @@ namespace gearpod::mc {
 // True if plans with these numerics have the same steps: they differ at most in their tolerances.
 bool share_steps(Numerics a, const Numerics& b);
 
-// Immutable. Copies, and scenes derived from it, share the parts that are equal.
+// Everything that the gearboxes of a study have in common, computed once. Immutable. Copies, and
+// scenes derived from it, share the parts that are equal.
 class Scene {
   public:
     // The study has gears, and its numerics are resolved (resolve_numerics). Throws SceneError.
@@ -40,53 +40,10 @@ class Scene {
     const DrawPlan& draw() const { return tile_.draw(); }
     const GearboxPlan& gearbox() const { return *tile_.gearbox; }
     const SolvePlan& solve() const { return *tile_.solve; }
-    const Drivetrain& drivetrain() const { return *gearbox().drivetrain; }
-    const std::vector<SceneMesh>& meshes() const { return gearbox().stiffness->meshes(); }
-    const lockstep::PairSet& pairs() const { return gearbox().pairs(); }
-    const SceneFault& fault() const { return gearbox().fault(); }
-    const lockstep::IntegrationPlan& plan() const { return solve().integration(); }
-    const lockstep::FaultPattern& pattern() const { return fault().pattern(); }
-    // Gear pair that the first passage of the faulty tooth weakens, or -1.
-    int faulty_pair() const { return gearbox().faulty_pair(); }
-    // Gear pair faulty_pair() with the faulty tooth of that size; null if the size is 0.
-    std::shared_ptr<const stiffness::FaultyMesh> faulty_mesh(double size) const {
-        return fault().mesh(0, size);
-    }
-    // See SceneStiffness.
-    const MemberArray<gears::DeviationScales>& tooth_scales() const {
-        return gearbox().stiffness->tooth_scales();
-    }
-
     const FeaturePlan& features() const { return tile_.features; }
     // The first sensor and the additional ones.
     const std::vector<SensorPlan>& sensors() const { return *tile_.sensors; }
-    // What is recorded of every gearbox. Its values by earlier names:
     const RecordPlan& record() const { return tile_.record; }
-    const signals::SpanLayout& span() const { return tile_.record.span; }
-    int span_meshes() const { return tile_.record.span.meshes(); }
-    int signal_meshes() const { return tile_.record.signal_meshes; }
-    int recorded_meshes() const { return tile_.record.recorded_meshes; }
-    int path_meshes() const { return tile_.record.path_meshes(); }
-    int samples_per_mesh() const { return tile_.record.samples; }
-    int te_samples_per_mesh() const { return tile_.record.te_samples; }
-    double nominal_mesh_frequency_Hz() const { return gearbox().mesh_frequency_Hz; }
-    // See Stepping.
-    int least_steps() const { return solve().stepping().least; }
-    double explicit_steps() const { return solve().stepping().explicit_steps; }
-    double longest_step() const { return solve().stepping().longest_step; }
-    // Calibration of the steps on a pilot sample; empty if there was none.
-    const std::optional<Calibration>& calibration() const { return solve().steps->calibration; }
-    double decay_meshes() const { return solve().stepping().decay_meshes; }
-    // Largest number of mesh periods within which a gearbox must converge.
-    int max_meshes() const { return solve().convergence.max_meshes; }
-    // See SceneStiffness.
-    std::vector<double> transitions() const { return gearbox().stiffness->transitions(); }
-    std::vector<double> stiffest_pairs() const { return gearbox().stiffness->stiffest_pairs(); }
-    const std::vector<double>& mean_pairs() const { return gearbox().stiffness->mean_pairs(); }
-
-    dynamics::GearboxInputs inputs(const InstanceInputs& instance) const {
-        return gearbox().inputs(instance);
-    }
 
   private:
     std::shared_ptr<const EnsemblePlan> ensemble_;

@@ -52,11 +52,11 @@ template <int W>
 class Tile {
   public:
     explicit Tile(const mc::Scene& scene)
-        : inputs_(W, scene.inputs(scene.gearbox().nominal)),
-          mesh_integrator_(lockstep::make_mesh_integrator<W>(scene.plan(), inputs_)),
-          rotation_(scene.plan().layout, inputs_),
-          state_(lockstep::equilibrium_state(scene.plan(), inputs_)),
-          record_(lockstep::make_record(scene.plan(), W, false)) {}
+        : inputs_(W, scene.gearbox().inputs(scene.gearbox().nominal)),
+          mesh_integrator_(lockstep::make_mesh_integrator<W>(scene.solve().integration(), inputs_)),
+          rotation_(scene.solve().integration().layout, inputs_),
+          state_(lockstep::equilibrium_state(scene.solve().integration(), inputs_)),
+          record_(lockstep::make_record(scene.solve().integration(), W, false)) {}
 
     // Time of one mesh period in seconds of processor time.
     double mesh_s() {
@@ -89,13 +89,14 @@ std::function<double()> mesh_of(const mc::Scene& scene, int lanes) {
 // Operations of one step, or nothing for a method whose operations are not counted.
 std::optional<Operations> operations(const mc::Scene& scene, const Setting& setting) {
     if (setting.integrator == "rk4") {
-        return rk4_operations(scene.plan());
+        return rk4_operations(scene.solve().integration());
     }
     if (setting.integrator == "central-difference") {
-        return central_difference_operations(scene.plan());
+        return central_difference_operations(scene.solve().integration());
     }
     if (setting.integrator == "generalized-alpha") {
-        return generalized_alpha_operations(scene.plan(), scene.inputs(scene.gearbox().nominal));
+        return generalized_alpha_operations(scene.solve().integration(),
+                                            scene.gearbox().inputs(scene.gearbox().nominal));
     }
     return {};
 }
@@ -115,7 +116,7 @@ void count_operations(const Operations& done, double step_s, double peak,
 void measure_steps(benchmark::State& state, const Setting& setting) {
     machine::use_instruction_set(setting.set);
     const auto scene = reference_scene(setting.planets, setting.overrides());
-    const lockstep::IntegrationPlan& plan = scene->plan();
+    const lockstep::IntegrationPlan& plan = scene->solve().integration();
     const auto mesh_s = mesh_of(*scene, setting.lanes);
     for (int i = 0; i < 3; ++i) {
         mesh_s();

@@ -16,9 +16,10 @@ namespace gearpod::test {
 inline mc::GearboxTile run_one(const mc::Scene& scene, bool with_motion = false,
                                std::uint64_t number = 0) {
     const mc::GearboxId id{mc::Group::test, number};
-    return mc::run_gearboxes(scene.tile(), std::span(&id, 1), 1,
-                             {.records = lockstep::RecordOptions{
-                                  .motion_meshes = with_motion ? scene.recorded_meshes() : 0}});
+    return mc::run_gearboxes(
+        scene.tile(), std::span(&id, 1), 1,
+        {.records = lockstep::RecordOptions{.motion_meshes =
+                                                with_motion ? scene.record().recorded_meshes : 0}});
 }
 
 // Sensor signal over the first `meshes` mesh periods, in m/s^2.
@@ -26,7 +27,7 @@ inline std::vector<double> sensor_signal(const mc::Scene& scene, int meshes,
                                          std::uint64_t number = 0) {
     const auto tile = run_one(scene, false, number);
     REQUIRE(tile.integration.status[0] == lockstep::LaneStatus::ok);
-    return signals::synthesize(tile.views, 0, tile.integration.content, scene.span(),
+    return signals::synthesize(tile.views, 0, tile.integration.content, scene.record().span,
                                scene.sensors().front().paths.front(),
                                tile.realizations[0].inputs.path_exponent, 0, meshes);
 }

@@ -97,11 +97,11 @@ TEST_CASE("A changed feature in the file is detected") {
 TEST_CASE("Signals and lines equal those of the simulated gearbox") {
     const Example example("published/tian-fig-4-9.toml");
     const Json& gearbox = example.gearbox(1);
-    const long meshes = example.scene->span_meshes();
+    const long meshes = example.scene->record().span.meshes();
     const mc::Simulation whole =
         mc::simulate(example.scene->tile(), example.scene->draw().rows.id_of(2), meshes);
     const std::vector<double>& sensor = column(whole, "sensor");
-    const int samples = example.scene->samples_per_mesh();
+    const int samples = example.scene->record().samples;
     const Json& drawn = gearbox["sensor"]["clean"];
     for (std::size_t i = 0; i < drawn["mesh"].size(); ++i) {
         const auto at = std::lround(drawn["mesh"][i].get<double>() * samples);

@@ -52,7 +52,8 @@ TEST_CASE("Steps for a share of the scatter keep it on other gearboxes, with few
     own.scatter_tolerance = own.mass_scaling_Hz = 0.0;
     own.steps_per_mesh = 0;
     const Scene chosen = planner.scene(resolved.numerics), reference = planner.scene(own);
-    CHECK(2 * chosen.plan().grid.steps.size() < reference.plan().grid.steps.size());
+    CHECK(2 * chosen.solve().integration().grid.steps.size() <
+          reference.solve().integration().grid.steps.size());
     std::vector<GearboxId> others;
     for (std::uint64_t i = 16; i < 32; ++i) {
         others.push_back({Group::threshold, i});
@@ -74,7 +75,7 @@ TEST_CASE("Steps for a share of the scatter keep it on other gearboxes, with few
 TEST_CASE("A tighter share of the scatter takes more steps, and the choice can be written out") {
     const auto steps_for = [](const char* tolerance) {
         const Study study = real_teeth({std::string("numerics.scatter_tolerance=") + tolerance});
-        return resolved_plan(study).plan().grid.steps.size();
+        return resolved_plan(study).solve().integration().grid.steps.size();
     };
     CHECK(steps_for("0.005") > steps_for("0.3"));
     Study study = real_teeth({"numerics.scatter_tolerance=0.3"});

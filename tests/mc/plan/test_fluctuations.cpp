@@ -191,8 +191,8 @@ TEST_CASE("Without inertia the transmission error follows the torque from mesh t
     const GearboxTile a = run(of_steady, {{Group::test, 0}}, 1);
     const GearboxTile b = run(of_fluctuating_torque, {{Group::test, 0}}, 1);
     REQUIRE(b.integration.content.size() ==
-            static_cast<std::size_t>(of_fluctuating_torque.signal_meshes()));
-    const int samples = of_fluctuating_torque.samples_per_mesh();
+            static_cast<std::size_t>(of_fluctuating_torque.record().signal_meshes));
+    const int samples = of_fluctuating_torque.record().samples;
     double worst = 0.0;
     for (std::size_t mesh : {0U, 1U, 30U, 500U}) {
         const auto& te_a =
@@ -220,9 +220,9 @@ TEST_CASE("Simulated samples lie at the times of their phases") {
                      "features.use=[\"te_rms\"]", "fault.kind=none"}));
     const Scene scene(study);
     const Simulation out = simulate(scene.tile(), {Group::test, 0}, 12);
-    const auto samples = static_cast<std::size_t>(scene.samples_per_mesh());
+    const auto samples = static_cast<std::size_t>(scene.record().samples);
     REQUIRE(out.columns[0].name == "time");
-    const double period = 1.0 / scene.nominal_mesh_frequency_Hz();
+    const double period = 1.0 / scene.gearbox().mesh_frequency_Hz;
     for (const std::size_t mesh : {1U, 5U, 11U}) {
         CHECK(out.columns[0].values[mesh * samples] ==
               Approx(static_cast<double>(mesh) * period / std::sqrt(1.0 - 0.04)).epsilon(1e-9));

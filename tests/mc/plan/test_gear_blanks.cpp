@@ -23,7 +23,7 @@ Scene scene_with(std::vector<std::string> more) {
 }
 
 double mean(const Scene& scene, std::size_t mesh) {
-    return mean_total(*scene.meshes()[mesh].stiffness);
+    return mean_total(*scene.gearbox().stiffness->meshes()[mesh].stiffness);
 }
 
 }  // namespace
@@ -61,8 +61,9 @@ TEST_CASE("A crack reduces a mesh by the same fraction for any blanks") {
     const Scene webs = scene_with({"gearbox.planet_rim_mm=8", "gearbox.planet_web_mm=10"});
     const double kept = mean(webs, 1) / mean(discs, 1);
     const auto faulty = [](const Scene& scene, double phase) {
-        const auto mesh = scene.fault().mesh(0, 2e-3);
-        return total_at(*mesh, scene.meshes()[1].stiffness->transitions(), phase);
+        const auto mesh = scene.gearbox().fault().mesh(0, 2e-3);
+        return total_at(*mesh, scene.gearbox().stiffness->meshes()[1].stiffness->transitions(),
+                        phase);
     };
     for (const double phase : {0.1, 0.5, 0.9, 1.3})
         CHECK(faulty(webs, phase) == Approx(kept * faulty(discs, phase)).epsilon(1e-7));

@@ -67,10 +67,10 @@ TEST_CASE("The stiffness of a helical set with an overlap of about one is nearly
                                    {"effects.contact_onset=abrupt", "gearbox.helix_angle_deg=0",
                                     "gearbox.tooth_quality=5", "gearbox.normal_module_mm=12"}));
     for (const std::size_t mesh : {0u, 1u}) {
-        const mc::SceneMesh& one = helical.meshes()[mesh];
+        const mc::SceneMesh& one = helical.gearbox().stiffness->meshes()[mesh];
         CHECK(one.stiffness->contact_ratio() ==
               Approx(one.geometry->contact_ratio() + overlap_ratio(study)));
-        CHECK(relative_range(one) < 0.1 * relative_range(spur.meshes()[mesh]));
+        CHECK(relative_range(one) < 0.1 * relative_range(spur.gearbox().stiffness->meshes()[mesh]));
     }
 }
 
@@ -117,8 +117,8 @@ TEST_CASE(
                                      "gearbox.helix_angle_deg=20"};
         all.insert(all.end(), more.begin(), more.end());
         const Scene scene(test::study_of_text(text, all));
-        const auto mesh = scene.fault().mesh(0, 4e-3);
-        const auto& healthy = *scene.meshes()[0].stiffness;
+        const auto mesh = scene.gearbox().fault().mesh(0, 4e-3);
+        const auto& healthy = *scene.gearbox().stiffness->meshes()[0].stiffness;
         double lost = 0.0, moment = 0.0;
         for (int i = 0; i < 400; ++i) {
             const double tau = (i + 0.5) / 400.0 * mesh->duration();
@@ -167,10 +167,11 @@ TEST_CASE("Relief and crowning of helical teeth change the approach under load a
         "wind-turbine-helical.toml",
         {"effects.contact_onset=abrupt", "gearbox.sun_crowning_um=10",
          "gearbox.planet_tip_relief_um=20", "gearbox.planet_tip_relief_length_mm=10"}));
-    CHECK(mean_total(*ground.meshes()[0].stiffness) < mean_total(*plain.meshes()[0].stiffness));
-    const double before = plain.meshes()[0].loaded->range().mean;
-    CHECK(ground.meshes()[0].loaded->range().mean > before + 10e-6 / 3.0);
-    CHECK(ground.meshes()[0].loaded->range().mean < before + 30e-6);
+    CHECK(mean_total(*ground.gearbox().stiffness->meshes()[0].stiffness) <
+          mean_total(*plain.gearbox().stiffness->meshes()[0].stiffness));
+    const double before = plain.gearbox().stiffness->meshes()[0].loaded->range().mean;
+    CHECK(ground.gearbox().stiffness->meshes()[0].loaded->range().mean > before + 10e-6 / 3.0);
+    CHECK(ground.gearbox().stiffness->meshes()[0].loaded->range().mean < before + 30e-6);
 }
 
 }  // namespace test_helical_gears

@@ -47,9 +47,9 @@ TEST_CASE("The springs of relieved teeth carry the force at the loaded approach"
         extended.push_back("effects.contact_onset='extended'");
         for (const auto& more : {input_overrides, extended}) {
             const Scene scene(study_of(more));
-            const lockstep::IntegrationPlan& plan = scene.plan();
+            const lockstep::IntegrationPlan& plan = scene.solve().integration();
             CHECK(plan.mesh_law == dynamics::MeshLaw::unilateral);
-            CHECK(scene.pairs().reversed == !input_overrides.empty());
+            CHECK(scene.gearbox().pairs().reversed == !input_overrides.empty());
             double largest = 0;
             for (std::size_t step = 0; step < plan.grid.steps.size(); step += 7) {
                 const lockstep::Step& at = plan.grid.steps[step];
@@ -65,9 +65,10 @@ TEST_CASE("The springs of relieved teeth carry the force at the loaded approach"
                         force += plan.nodes.tooth_stiffness[i] * std::max(0.0, d - gap);
                         largest = std::max(largest, gap);
                     }
-                    const int mesh = pair / scene.drivetrain().pairs_per_mesh();
-                    const double nominal =
-                        scene.meshes()[static_cast<std::size_t>(mesh)].loaded->force_N();
+                    const int mesh = pair / scene.gearbox().drivetrain->pairs_per_mesh();
+                    const double nominal = scene.gearbox()
+                                               .stiffness->meshes()[static_cast<std::size_t>(mesh)]
+                                               .loaded->force_N();
                     CHECK(force == Approx(nominal).epsilon(1e-6));
                 }
             }
@@ -106,7 +107,7 @@ TEST_CASE("Long relief levels the transmission error of the FZG gears at its des
              "gearbox.pinion_tip_relief_length_mm=" + length,
              "gearbox.gear_tip_relief_length_mm=" + length, "operation.torque_N_m=" + torque,
              "operation.load_torque_N_m=" + std::to_string(1.5 * std::stod(torque))}));
-        return scene.meshes()[0].loaded->range().peak_to_peak();
+        return scene.gearbox().stiffness->meshes()[0].loaded->range().peak_to_peak();
     };
     CHECK(varies("45", "5.814", "302") < 0.15 * varies("0", "5.814", "302"));
     CHECK(varies("45", "5.814", "75") > 2 * varies("0", "5.814", "75"));

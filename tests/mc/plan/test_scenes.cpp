@@ -52,20 +52,20 @@ TEST_CASE("An explicit integrator on a stiff gearbox is refused with the stiff p
         CHECK(std::stod(what.substr(at + 13)) == Approx(rate).epsilon(0.01));
         CHECK(error.remedy().find("sdirk3") != std::string::npos);
     }
-    CHECK(Scene(test::study_of_text(kFixedShaftStudy)).plan().integrator ==
+    CHECK(Scene(test::study_of_text(kFixedShaftStudy)).solve().integration().integrator ==
           lockstep::Integrator::sdirk3);
     const Scene newmark(test::study_of_text(
         kFixedShaftStudy, {"numerics.integrator=newmark", "numerics.steps_per_mesh=77"}));
-    CHECK(newmark.plan().integrator == lockstep::Integrator::newmark);
-    CHECK(newmark.plan().grid.steps.size() >= 77);
+    CHECK(newmark.solve().integration().integrator == lockstep::Integrator::newmark);
+    CHECK(newmark.solve().integration().grid.steps.size() >= 77);
 }
 
 TEST_CASE("Unstable steps of central differences are refused, their default steps are stable") {
     const std::string by = "numerics.integrator=central-difference";
     const Scene own(test::shipped_study("published/liang-fig-5-8.toml", {by}));
-    CHECK(own.plan().integrator == lockstep::Integrator::central_difference);
-    const int least = own.least_steps();
-    CHECK(static_cast<int>(own.plan().grid.steps.size()) >= 1.04 * least);
+    CHECK(own.solve().integration().integrator == lockstep::Integrator::central_difference);
+    const int least = own.solve().stepping().least;
+    CHECK(static_cast<int>(own.solve().integration().grid.steps.size()) >= 1.04 * least);
     CHECK(run_one(own).status[0] == mc::Status::ok);
     const auto with_steps = [&](int steps) {
         return test::shipped_study("published/liang-fig-5-8.toml",
@@ -88,14 +88,16 @@ TEST_CASE(
     const Scene scene(test::shipped_study("planet-life.toml"));
     double most = 0.0;
     for (std::uint64_t i = 1000; i < 4000; ++i) {
-        const auto inputs = scene.inputs(scene.sampler().draw({mc::Group::threshold, i}).inputs);
+        const auto inputs =
+            scene.gearbox().inputs(scene.sampler().draw({mc::Group::threshold, i}).inputs);
         const double limit = lockstep::longest_stable_step(
-            dynamics::assemble(scene.plan().layout, inputs, scene.stiffest_pairs()),
+            dynamics::assemble(scene.solve().integration().layout, inputs,
+                               scene.gearbox().stiffness->stiffest_pairs()),
             lockstep::Integrator::central_difference);
         most = std::max(most, dynamics::mesh_period_s(inputs) / limit);
     }
-    const double longest =
-        *std::max_element(scene.plan().grid.lengths.begin(), scene.plan().grid.lengths.end());
+    const double longest = *std::max_element(scene.solve().integration().grid.lengths.begin(),
+                                             scene.solve().integration().grid.lengths.end());
     CHECK(1.0 / longest > 1.02 * most);
     CHECK(1.0 / longest < 1.1 * most);
 }
@@ -117,13 +119,14 @@ TEST_CASE("A pilot grades the steps of a study, the same in every run") {
         return Scene(test::study_of_text(
                          kFixedShaftStudy,
                          {"numerics.grid=graded", "numerics.grid_tolerance=" + tolerance}))
-            .plan()
+            .solve()
+            .integration()
             .grid;
     };
     const auto loose = graded("1e-2"), tight = graded("1e-3");
     CHECK(loose.steps.size() < tight.steps.size());
     CHECK(tight.steps.size() <
-          Scene(test::study_of_text(kFixedShaftStudy)).plan().grid.steps.size());
+          Scene(test::study_of_text(kFixedShaftStudy)).solve().integration().grid.steps.size());
     const auto again = graded("1e-3");
     REQUIRE(again.steps.size() == tight.steps.size());
     for (std::size_t i = 0; i < again.steps.size(); ++i) {
@@ -153,15 +156,16 @@ TEST_CASE("Scenes of other numerics share unchanged parts, and integrate as if b
     const std::vector<std::string> tolerance{"numerics.grid=graded",
                                              "numerics.settle_tolerance=1e-4"};
     const Scene other_tolerance = scene.with_numerics_of(study_with(tolerance));
-    CHECK(&other_tolerance.plan() == &scene.plan());
+    CHECK(&other_tolerance.solve().integration() == &scene.solve().integration());
     CHECK(other_tolerance.solve().convergence.tolerance == 1e-4);
     const Scene uniform = scene.with_numerics_of(study_with({}));
-    CHECK(&uniform.meshes() == &scene.meshes());
-    CHECK(uniform.plan().grid.steps.size() > scene.plan().grid.steps.size());
+    CHECK(&uniform.gearbox().stiffness->meshes() == &scene.gearbox().stiffness->meshes());
+    CHECK(uniform.solve().integration().grid.steps.size() >
+          scene.solve().integration().grid.steps.size());
     const std::vector<std::string> coarse{"numerics.stiffness_tolerance=1e-3"};
     const Scene thin = scene.with_numerics_of(study_with(coarse));
-    CHECK(&thin.meshes() != &scene.meshes());
-    CHECK(thin.mean_pairs() != scene.mean_pairs());
+    CHECK(&thin.gearbox().stiffness->meshes() != &scene.gearbox().stiffness->meshes());
+    CHECK(thin.gearbox().stiffness->mean_pairs() != scene.gearbox().stiffness->mean_pairs());
     for (const auto& [other, overrides] :
          {std::pair(&other_tolerance, tolerance), std::pair(&uniform, std::vector<std::string>{}),
           std::pair(&thin, coarse)}) {
@@ -176,15 +180,13 @@ TEST_CASE("Scenes of other numerics share unchanged parts, and integrate as if b
                     mc::SceneError);
 }
 
-TEST_CASE("A scene that records less is otherwise the same") {
-    const mc::Study study = test::study_of_text(kFixedShaftStudy);
-    const Scene scene(study);
-    const Scene less = scene.recording_at_most(3);
-    CHECK(less.recorded_meshes() == 3);
-    CHECK(less.signal_meshes() == scene.signal_meshes());
-    CHECK(&less.plan() == &scene.plan());
-    CHECK(scene.recorded_meshes() == scene.signal_meshes());
-    CHECK(less.with_numerics_of(study).recorded_meshes() == 3);
+TEST_CASE("The plan of a tile that records less is otherwise the same") {
+    const Scene scene(test::study_of_text(kFixedShaftStudy));
+    const mc::TilePlan less = scene.tile().recording_at_most(3);
+    CHECK(less.record.recorded_meshes == 3);
+    CHECK(less.record.signal_meshes == scene.record().signal_meshes);
+    CHECK(&less.solve->integration() == &scene.solve().integration());
+    CHECK(scene.record().recorded_meshes == scene.record().signal_meshes);
 }
 
 TEST_CASE(
@@ -230,11 +232,11 @@ TEST_CASE(
 
 TEST_CASE("A planet tooth weakened on both sides meets sun and ring half a turn apart") {
     const Scene scene(test::study_of_text(kQuasiStaticStudy));
-    REQUIRE(scene.fault().curves() == 2);
-    REQUIRE(scene.pattern().passages.size() == 2);
-    CHECK(scene.pattern().length == 26);
+    REQUIRE(scene.gearbox().fault().curves() == 2);
+    REQUIRE(scene.gearbox().fault().pattern().passages.size() == 2);
+    CHECK(scene.gearbox().fault().pattern().length == 26);
     double sun = 0.0, ring = 0.0;
-    for (const auto& passage : scene.pattern().passages) {
+    for (const auto& passage : scene.gearbox().fault().pattern().passages) {
         (passage.pair < 3 ? sun : ring) = passage.start;
     }
     // The pitch points are (26 - 1) / 2 meshes apart; the engagements' starts and the phase of ring
@@ -278,10 +280,10 @@ TEST_CASE("The features of a fixed-shaft gearbox identify the broken tooth's rev
                                         "kind = \"broken\"\nmember = \"gear\"\nbroken = 1");
     const mc::Study study = test::study_of_text(broken);
     const Scene scene(study);
-    CHECK(scene.span().planet_teeth == 48);
-    CHECK(scene.span_meshes() == 48 * 19);
-    CHECK(scene.pattern().length == 48);
-    CHECK(scene.fault().largest_size() == 1.0);
+    CHECK(scene.record().span.planet_teeth == 48);
+    CHECK(scene.record().span.meshes() == 48 * 19);
+    CHECK(scene.gearbox().fault().pattern().length == 48);
+    CHECK(scene.gearbox().fault().largest_size() == 1.0);
     const auto results = test::run(study);
     const auto ratio = test::feature_index(results, "window_ratio");
     CHECK(results.features[ratio].values[0] == Approx(1.0).epsilon(1e-6));  // healthy
@@ -290,16 +292,17 @@ TEST_CASE("The features of a fixed-shaft gearbox identify the broken tooth's rev
 
 TEST_CASE("A scene of spatial cracks, coupled teeth and separation is built from its study") {
     const Scene scene(test::study_of_text(kSpatialCrackStudy));
-    CHECK(scene.plan().mesh_law == dynamics::MeshLaw::unilateral);
-    CHECK(scene.plan().nodes.tooth_pairs == 2);
-    CHECK(scene.fault().largest_size() == 5.0);
-    const auto inputs = std::get<dynamics::PlanetaryInputs>(scene.inputs(scene.gearbox().nominal));
+    CHECK(scene.solve().integration().mesh_law == dynamics::MeshLaw::unilateral);
+    CHECK(scene.solve().integration().nodes.tooth_pairs == 2);
+    CHECK(scene.gearbox().fault().largest_size() == 5.0);
+    const auto inputs =
+        std::get<dynamics::PlanetaryInputs>(scene.gearbox().inputs(scene.gearbox().nominal));
     CHECK(inputs.backlash_m == Approx(1e-4));
     // Every stage reduces the stiffness more than the one before it (Yang, Fig. 15).
-    double last = stiffness::total_at(scene.pairs().curve(0), 0.3);
+    double last = stiffness::total_at(scene.gearbox().pairs().curve(0), 0.3);
     for (const double stage : {1.0, 2.0, 3.0, 4.0, 5.0}) {
-        const auto mesh = scene.faulty_mesh(stage);
-        const double now = total_at(*mesh, scene.pairs().curve(0).transitions(), 0.3);
+        const auto mesh = scene.gearbox().fault().mesh(0, stage);
+        const double now = total_at(*mesh, scene.gearbox().pairs().curve(0).transitions(), 0.3);
         CHECK(now < last);
         last = now;
     }

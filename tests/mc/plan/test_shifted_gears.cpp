@@ -64,7 +64,7 @@ TEST_CASE("A shifted gearbox works at its centre distance, its planets at assemb
     CHECK(planets.step == std::vector<int>{0, 32, 63, 95});
     const double distance = mc::centre_distance_m(study);
     CHECK(distance == 0.1000125);
-    for (const mc::SceneMesh& mesh : scene.meshes()) {
+    for (const mc::SceneMesh& mesh : scene.gearbox().stiffness->meshes()) {
         REQUIRE(mesh.geometry);
         CHECK(mesh.geometry->backlash() == Approx(0).margin(1e-12));
         CHECK(mesh.geometry->centre_distance() == distance);
@@ -72,20 +72,23 @@ TEST_CASE("A shifted gearbox works at its centre distance, its planets at assemb
         CHECK(mesh.geometry->contact_ratio() > 1.2);
     }
     // The dynamic model, its forces and the teeth agree on the working angles.
-    const auto& layout = std::get<dynamics::PlanetaryLayout>(scene.plan().layout);
-    const double angle_s = scene.meshes()[0].geometry->working_pressure_angle();
-    const double angle_r = scene.meshes()[1].geometry->working_pressure_angle();
+    const auto& layout = std::get<dynamics::PlanetaryLayout>(scene.solve().integration().layout);
+    const double angle_s =
+        scene.gearbox().stiffness->meshes()[0].geometry->working_pressure_angle();
+    const double angle_r =
+        scene.gearbox().stiffness->meshes()[1].geometry->working_pressure_angle();
     CHECK(layout.sun_mesh_angle() == Approx(angle_s).epsilon(1e-14));
     CHECK(layout.ring_mesh_angle() == Approx(angle_r).epsilon(1e-14));
     CHECK(angle_s > study.gearbox.pressure_angle_rad);
     CHECK(angle_r < study.gearbox.pressure_angle_rad);
-    const auto in = scene.inputs(mc::nominal_inputs(study));
+    const auto in = scene.gearbox().inputs(mc::nominal_inputs(study));
     const auto& forces = std::get<dynamics::PlanetaryInputs>(in).force_N;
     CHECK(forces[dynamics::carrier] ==
           Approx(-forces[dynamics::sun] * (std::cos(angle_s) + std::cos(angle_r))).epsilon(1e-12));
     // Phases repeat with the planets' positions; the phase of the ring relative to the sun follows
     // from the planet's flanks.
-    const auto& drivetrain = dynamic_cast<const mc::PlanetaryDrivetrain&>(scene.drivetrain());
+    const auto& drivetrain =
+        dynamic_cast<const mc::PlanetaryDrivetrain&>(*scene.gearbox().drivetrain);
     for (int n = 0; n < 4; ++n) {
         const double turn = planets.step[static_cast<std::size_t>(n)] / 126.0;
         CHECK(std::cos(2 * std::numbers::pi * (drivetrain.pitch_phase(n) - 27 * turn)) ==
@@ -121,9 +124,12 @@ TEST_CASE("Faults of shifted teeth weaken them, up to a size that follows their 
             changes.emplace_back("random.fault.depth_mm.values=[0, 1, 2]");
             INFO(profile << " " << where);
             const Scene scene(test::study_of_text(text, changes));
-            CHECK(scene.fault().largest_size() > 3e-3);
-            const auto& healthy = *scene.meshes()[scene.faulty_pair() < 4 ? 0 : 1].stiffness;
-            const auto cracked = scene.faulty_mesh(2e-3);
+            CHECK(scene.gearbox().fault().largest_size() > 3e-3);
+            const auto& healthy =
+                *scene.gearbox()
+                     .stiffness->meshes()[scene.gearbox().faulty_pair() < 4 ? 0 : 1]
+                     .stiffness;
+            const auto cracked = scene.gearbox().fault().mesh(0, 2e-3);
             const double tau = 0.5 * healthy.contact_ratio();
             const double whole = stiffness::total_at(healthy, tau - std::floor(tau));
             CHECK(stiffness::total_at(*cracked, healthy.transitions(), tau) < 0.99 * whole);
@@ -133,7 +139,10 @@ TEST_CASE("Faults of shifted teeth weaken them, up to a size that follows their 
     const auto largest = [](const std::vector<std::string>& shifts) {
         std::vector<std::string> all{"fault.side='sun'"};
         all.insert(all.end(), shifts.begin(), shifts.end());
-        return Scene(test::study_of_text(tests::kExampleStudy, all)).fault().largest_size();
+        return Scene(test::study_of_text(tests::kExampleStudy, all))
+            .gearbox()
+            .fault()
+            .largest_size();
     };
     CHECK(largest({"gearbox.planet_shift=0.2", "gearbox.sun_shift=-0.2"}) > 1.02 * largest({}));
 }
@@ -175,7 +184,7 @@ TEST_CASE("The shifts of planet and ring give the centre distance and the sun's 
           Approx(21.125).margin(5e-4));
     CHECK(mc::gear_of(study, Member::sun).profile_shift == Approx(0.1).margin(5e-4));
     const Scene scene(study);
-    for (const mc::SceneMesh& mesh : scene.meshes()) {
+    for (const mc::SceneMesh& mesh : scene.gearbox().stiffness->meshes()) {
         CHECK(mesh.geometry->backlash() == Approx(0).margin(1e-12));
     }
 }

@@ -24,21 +24,22 @@ RingMesh ring_mesh(int number, const std::vector<std::string>& overrides = {}) {
     const mc::Scene scene(shipped_study("published/yang-separation.toml", overrides));
     const auto tile = run_one(scene, true, static_cast<std::uint64_t>(number));
     REQUIRE(tile.integration.status[0] == lockstep::LaneStatus::ok);
-    const int pair = scene.drivetrain().pairs_per_mesh();
-    const Eigen::VectorXd row = dynamics::mesh_row(scene.plan().layout, pair);
+    const int pair = scene.gearbox().drivetrain->pairs_per_mesh();
+    const Eigen::VectorXd row = dynamics::mesh_row(scene.solve().integration().layout, pair);
     const auto& motion = tile.integration.records[0].motion;
-    const int samples = scene.samples_per_mesh();
+    const int samples = scene.record().samples;
     std::vector<double> pressed;
     RingMesh result;
     for (int i = 0; i < samples; ++i) {
         const double phase = static_cast<double>(i) / samples;
         const Eigen::Map<const Eigen::VectorXd> q(motion.data() + i * row.size(), row.size());
         // Error with amplitude 0.4 um, phase 180 degrees.
-        const double error = -0.4e-6 * std::sin(2.0 * std::numbers::pi *
-                                                (phase - scene.drivetrain().pitch_phase(pair)));
+        const double error =
+            -0.4e-6 * std::sin(2.0 * std::numbers::pi *
+                               (phase - scene.gearbox().drivetrain->pitch_phase(pair)));
         pressed.push_back(row.dot(q) - error);
         result.mean_force_N +=
-            std::max(pressed.back(), 0.0) * scene.pairs().total(pair, phase) / samples;
+            std::max(pressed.back(), 0.0) * scene.gearbox().pairs().total(pair, phase) / samples;
         result.apart += pressed.back() <= 0.0 ? 1.0 / samples : 0.0;
     }
     double mean = 0.0, square = 0.0;
@@ -146,13 +147,13 @@ TEST_CASE("Separating teeth that never repeat are integrated mesh by mesh, and o
 
 TEST_CASE("Yang, section 4.3: frequencies of the test rig") {
     const mc::Scene scene(shipped_study("published/yang-test-rig.toml"));
-    const auto inputs = scene.inputs(scene.gearbox().nominal);
+    const auto inputs = scene.gearbox().inputs(scene.gearbox().nominal);
     const double mesh = 1.0 / dynamics::mesh_period_s(inputs);
     CHECK(mesh == Approx(248.89).margin(0.005));
     CHECK(dynamics::frame_speed_rad_s(inputs) / (2.0 * std::numbers::pi) ==
           Approx(2.22).margin(0.005));
-    CHECK(mesh / scene.pattern().length == Approx(7.78).margin(0.005));
-    CHECK(mesh * 3 / scene.pattern().length == Approx(23.33).margin(0.005));
+    CHECK(mesh / scene.gearbox().fault().pattern().length == Approx(7.78).margin(0.005));
+    CHECK(mesh * 3 / scene.gearbox().fault().pattern().length == Approx(23.33).margin(0.005));
 }
 
 TEST_CASE(

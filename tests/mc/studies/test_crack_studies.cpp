@@ -41,15 +41,15 @@ TEST_CASE(
 // A sun with more teeth than the planets needs a longer span than the planets': 31 x 81 meshes.
 TEST_CASE("The signal lasts until every sun tooth has met the whole path") {
     const mc::Scene liang(shipped_study("crack-in-sun.toml"));
-    CHECK(liang.signal_meshes() == 31 * 81);
+    CHECK(liang.record().signal_meshes == 31 * 81);
     const mc::Scene big_sun(
         shipped_study("crack-in-sun.toml", {"gearbox.sun_teeth=31", "gearbox.planet_teeth=25"}));
-    CHECK(big_sun.span_meshes() == 25 * 81);
-    CHECK(big_sun.signal_meshes() == 31 * 81);
+    CHECK(big_sun.record().span.meshes() == 25 * 81);
+    CHECK(big_sun.record().signal_meshes == 31 * 81);
     const mc::Scene without(shipped_study(
         "crack-in-sun.toml",
         {"gearbox.sun_teeth=31", "gearbox.planet_teeth=25", "features.use=[\"window_ratio\"]"}));
-    CHECK(without.signal_meshes() == 25 * 81);
+    CHECK(without.record().signal_meshes == 25 * 81);
 }
 
 }  // namespace

@@ -122,7 +122,7 @@ TEST_CASE("The raw acceleration is large; the 800 Hz sensor signal has the thesi
     // the low-pass the acceleration has hundreds of m/s^2.
     const auto peak = [](double depth_m) {
         const mc::Scene scene(with_crack(mc::Member::planet, depth_m));
-        const auto signal = sensor_signal(scene, scene.span_meshes());
+        const auto signal = sensor_signal(scene, scene.record().span.meshes());
         return std::abs(*std::max_element(signal.begin(), signal.end(), [](double a, double b) {
             return std::abs(a) < std::abs(b);
         }));
@@ -143,8 +143,8 @@ TEST_CASE("With the sun fixed the carrier's turn also repeats after each planet"
     // have different phases: with inertial terms other orders reach 3e-7 of the largest.
     study.effects.inertial_terms = false;
     const mc::Scene scene(study);
-    CHECK(scene.path_meshes() == 19);
-    CHECK(scene.nominal_mesh_frequency_Hz() == Approx(19 * 8.87 / 60));
+    CHECK(scene.record().path_meshes() == 19);
+    CHECK(scene.gearbox().mesh_frequency_Hz == Approx(19 * 8.87 / 60));
     const auto lines = spectrum(scene, 19);
     const double largest = *std::max_element(lines.begin(), lines.end());
     CHECK(largest_off_multiples_of_4(lines) < kNothing * largest);
@@ -165,7 +165,7 @@ TEST_CASE("With the carrier fixed the planets still mesh, driven from either sid
         study.operation.carrier_speed_rad_s.reset();
         study.operation.sun_speed_rad_s = 46.68 * 2 * 3.14159265358979 / 60;
         const mc::Scene scene(study);
-        CHECK(scene.nominal_mesh_frequency_Hz() == Approx(19 * 46.68 / 60).epsilon(1e-6));
+        CHECK(scene.gearbox().mesh_frequency_Hz == Approx(19 * 46.68 / 60).epsilon(1e-6));
         const auto tile = run_one(scene);
         CHECK(tile.integration.status[0] == lockstep::LaneStatus::ok);
         // The path does not rotate, so the signal repeats with the cracked tooth every Z_p meshes.

@@ -16,10 +16,10 @@ namespace {
 
 // Lowest mesh stiffness during the contact of the cracked tooth, at each crack level of a study.
 std::vector<double> lowest_stiffness(const mc::Scene& scene, const std::vector<double>& depths_m) {
-    const auto& healthy = scene.pairs().curve(scene.faulty_pair());
+    const auto& healthy = scene.gearbox().pairs().curve(scene.gearbox().faulty_pair());
     std::vector<double> lowest;
     for (const double depth : depths_m) {
-        const auto cracked = depth > 0 ? scene.fault().mesh(0, depth) : nullptr;
+        const auto cracked = depth > 0 ? scene.gearbox().fault().mesh(0, depth) : nullptr;
         double least = stiffness::total_at(healthy, 0.0);
         for (int i = 0; i < 1000; ++i) {
             const double tau = healthy.contact_ratio() * (i + 0.5) / 1000.0;
@@ -42,7 +42,7 @@ SunMotion sun_motion(const mc::Scene& scene, std::uint64_t number = 0) {
     REQUIRE(tile.integration.status[0] == lockstep::LaneStatus::ok);
     const std::size_t freedoms = 9 + 3 * 4;
     SunMotion sun;
-    sun.samples = scene.samples_per_mesh();
+    sun.samples = scene.record().samples;
     for (std::size_t k = 0; k < 19; ++k) {
         const auto id =
             static_cast<std::size_t>(tile.integration.content[k % tile.integration.content.size()]);
@@ -221,7 +221,7 @@ TEST_CASE("Fig. 4.11: the cracked sun tooth causes 17 spikes in a carrier turn, 
     const auto healthy = sensor_signal(scene, 81, 0), cracked = sensor_signal(scene, 81, 2);
     const auto rise = difference(cracked, healthy);
     // The tooth meets a planet every 19/4 meshes, 17.05 times in 81.
-    const double meeting = 19.0 / 4.0 * scene.samples_per_mesh();
+    const double meeting = 19.0 / 4.0 * scene.record().samples;
     std::vector<double> spikes;
     for (int i = 0; i < 17; ++i) {
         const auto first = rise.begin() + static_cast<std::ptrdiff_t>(i * meeting);
@@ -238,15 +238,15 @@ TEST_CASE("Fig. 4.11: the cracked sun tooth causes 17 spikes in a carrier turn, 
 
 TEST_CASE("Section 2.3: with the carrier or the sun fixed the shipped gearboxes mesh as stated") {
     const mc::Scene carrier(shipped_study("published/liang-fig-2-10.toml"));
-    CHECK(carrier.nominal_mesh_frequency_Hz() == Approx(19 * 46.68 / 60));
+    CHECK(carrier.gearbox().mesh_frequency_Hz == Approx(19 * 46.68 / 60));
     const auto still = spectrum(carrier, 2 * 31, 1);
     const double largest = *std::max_element(still.begin(), still.end());
     for (std::size_t i = 1; i < still.size(); i += 2) {
         CHECK(still[i] < kNothing * largest);
     }
     const mc::Scene sun(shipped_study("published/liang-sun-fixed.toml"));
-    CHECK(sun.nominal_mesh_frequency_Hz() == Approx(19 * 8.87 / 60));
-    CHECK(sun.path_meshes() == 19);
+    CHECK(sun.gearbox().mesh_frequency_Hz == Approx(19 * 8.87 / 60));
+    CHECK(sun.record().path_meshes() == 19);
     // A cracked planet tooth repeats every 31 meshes, the carrier every 19.
     const auto held = spectrum(sun, 19 * 31, 1);
     const double top = *std::max_element(held.begin(), held.end());

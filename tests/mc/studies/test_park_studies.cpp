@@ -54,16 +54,16 @@ double rms(const std::vector<double>& values) {
 
 // Stiffness of a pair at a phase of the planet turn, including a faulty tooth during its passage.
 double pair_stiffness(const mc::Scene& scene, double size, int pair, double phase) {
-    for (const auto& passage : scene.pattern().passages) {
+    for (const auto& passage : scene.gearbox().fault().pattern().passages) {
         double since = phase - passage.start;
         since += since < 0.0 ? kPlanetTeeth : 0.0;
-        const auto& healthy = scene.pairs().curve(pair);
+        const auto& healthy = scene.gearbox().pairs().curve(pair);
         if (size > 0.0 && passage.pair == pair && since < healthy.contact_ratio()) {
-            return stiffness::total_at(*scene.fault().mesh(passage.curve, size),
+            return stiffness::total_at(*scene.gearbox().fault().mesh(passage.curve, size),
                                        healthy.transitions(), since);
         }
     }
-    return scene.pairs().total(pair, phase);
+    return scene.gearbox().pairs().total(pair, phase);
 }
 
 // Each planet is two springs in series; the planets are parallel.
@@ -119,7 +119,7 @@ struct Spikes {
 
 Spikes spikes(const mc::Scene& scene, std::uint64_t number) {
     const auto healthy = te_turn(scene, 0), faulty = te_turn(scene, number);
-    const double samples = scene.te_samples_per_mesh();
+    const double samples = scene.record().te_samples;
     const auto quarter = healthy.size() / 4;
     const double level = faulty[quarter] - healthy[quarter];  // their means were removed
     Spikes found;
@@ -145,7 +145,7 @@ TEST_CASE(
     "The planets' phases: 2/3 and 4/3 of a mesh relative to both gears, 5/8 from sun to ring") {
     const mc::Scene scene(shipped_study("published/park-fig-10.toml"));
     const auto phase = [&](int pair) {
-        return lockstep::phase_in_period(scene.pairs().pitch_phase(pair));
+        return lockstep::phase_in_period(scene.gearbox().pairs().pitch_phase(pair));
     };
     for (int n = 0; n < 3; ++n) {
         const double expected = lockstep::phase_in_period(n * 2.0 / 3.0 + 1e-9);
@@ -201,7 +201,7 @@ TEST_CASE("The TE of every sample is the sun's force over the train's stiffness"
     const double sizes[] = {0.0, 0.1, 0.2, 0.3};
     for (std::uint64_t number = 0; number < 4; ++number) {
         const auto tile = run_one(scene, false, number);
-        const int samples = scene.samples_per_mesh();
+        const int samples = scene.record().samples;
         double worst = 0.0;
         for (int i = 0; i < kPlanetTeeth * samples; ++i) {
             const auto mesh = static_cast<std::size_t>(i / samples);
@@ -244,7 +244,7 @@ TEST_CASE("All six working conditions: the TE follows from the output's radius a
         }
         const mc::Scene scene(study);
         const auto turn = te_turn(scene, 3);
-        const double samples = scene.te_samples_per_mesh();
+        const double samples = scene.record().te_samples;
         std::vector<double> expected;
         double mean = 0.0;
         for (std::size_t i = 0; i < turn.size(); ++i) {

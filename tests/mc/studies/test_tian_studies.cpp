@@ -84,10 +84,10 @@ TEST_CASE(
     "Fig. 4.3: the sensor signal oscillates at 3788 Hz with two pairs in contact and at 3049 Hz "
     "with one") {
     const mc::Scene scene(shipped_study("published/tian-fig-4-3.toml"));
-    const int samples = scene.samples_per_mesh();
+    const int samples = scene.record().samples;
     const auto signal = sensor_signal(scene, 3);
-    const double two = 1.0 + scene.pairs().start[0];
-    const double one = two + scene.pairs().curve(0).contact_ratio() - 1.0;
+    const double two = 1.0 + scene.gearbox().pairs().start[0];
+    const double one = two + scene.gearbox().pairs().curve(0).contact_ratio() - 1.0;
     const double shock = 0.06e-3 * kMesh_Hz;
     CHECK(ringing_Hz(signal, samples, two + shock, one) == Approx(3788.0).epsilon(0.08));
     CHECK(ringing_Hz(signal, samples, one + shock, two + 1.0) == Approx(3049.0).epsilon(0.08));
@@ -99,9 +99,9 @@ TEST_CASE("A mesh of nearly constant stiffness oscillates at the closed form's f
         study.gearbox.tooth_profile = mc::StiffnessSource::square_wave;
         study.gearbox.meshes[mc::MeshKind::pinion_gear] = {{}, 0.9999 * stiffness, stiffness, 1.9};
         const mc::Scene scene(study);
-        const double two = 1.0 + scene.pairs().start[0];
-        CHECK(ringing_Hz(sensor_signal(scene, 3), scene.samples_per_mesh(), two + 0.05,
-                         two + 0.8) == Approx(closed_form_Hz(study, stiffness)).epsilon(0.01));
+        const double two = 1.0 + scene.gearbox().pairs().start[0];
+        CHECK(ringing_Hz(sensor_signal(scene, 3), scene.record().samples, two + 0.05, two + 0.8) ==
+              Approx(closed_form_Hz(study, stiffness)).epsilon(0.01));
     }
 }
 
@@ -147,8 +147,8 @@ TEST_CASE("Fig. 4.7: the chipped tooth's signal departs from the healthy one at 
     const mc::Scene scene(shipped_study("published/tian-fig-4-6.toml"));
     // Rotation of the pinion since the tooth came into contact.
     const auto degrees = [](double meshes) { return meshes * 360.0 / kPinionTeeth; };
-    const auto& healthy = scene.pairs().curve(0);
-    const auto chipped = scene.fault().mesh(0, 8e-3);
+    const auto& healthy = scene.gearbox().pairs().curve(0);
+    const auto chipped = scene.gearbox().fault().mesh(0, 8e-3);
     double first = 0.0;
     while (first < healthy.contact_ratio() &&
            stiffness::total_at(*chipped, healthy.transitions(), first) >
@@ -163,8 +163,8 @@ TEST_CASE("Fig. 4.7: the chipped tooth's signal departs from the healthy one at 
     while (std::abs(rise[first_deviation]) < 1e-3 * largest) {
         ++first_deviation;
     }
-    const double since = static_cast<double>(first_deviation) / scene.samples_per_mesh() -
-                         scene.pattern().passages.front().start;
+    const double since = static_cast<double>(first_deviation) / scene.record().samples -
+                         scene.gearbox().fault().pattern().passages.front().start;
     CHECK(degrees(since) == Approx(22.4).margin(1.0));
 }
 
@@ -175,7 +175,7 @@ TEST_CASE("Figs. 4.6-4.14: a peak every 19 meshes, chip below crack below broken
         const mc::Scene scene(shipped_study(name));
         const auto rise = fault_signal(scene);
         const std::size_t turn = rise.size() / 2,
-                          samples = static_cast<std::size_t>(scene.samples_per_mesh());
+                          samples = static_cast<std::size_t>(scene.record().samples);
         peaks.push_back(peak(rise));
         // The whole change is within the meshes of the tooth and the oscillation after them.
         double change = 0.0, later = 0.0;
@@ -218,8 +218,8 @@ TEST_CASE("Figs. 4.13, 4.14: the broken tooth's impact oscillates at 2530 Hz") {
     const mc::Scene scene(shipped_study("published/tian-fig-4-12.toml"));
     const auto signal = sensor_signal(scene, kPinionTeeth, 1);
     const auto shock = std::max_element(signal.begin(), signal.end()) - signal.begin();
-    const double at = static_cast<double>(shock) / scene.samples_per_mesh();
-    CHECK(ringing_Hz(signal, scene.samples_per_mesh(), at + 0.1e-3 * kMesh_Hz,
+    const double at = static_cast<double>(shock) / scene.record().samples;
+    CHECK(ringing_Hz(signal, scene.record().samples, at + 0.1e-3 * kMesh_Hz,
                      at + 1.2e-3 * kMesh_Hz) == Approx(2530.0).epsilon(0.08));
     const double largest_Hz =
         static_cast<double>(dominant(spectrum(scene, kPinionTeeth, 1))) * kMesh_Hz / kPinionTeeth;

@@ -25,12 +25,12 @@ struct Motions {
 Motions motions(const mc::Scene& scene, int number) {
     const auto tile = run_one(scene, true, static_cast<std::uint64_t>(number));
     REQUIRE(tile.integration.status[0] == lockstep::LaneStatus::ok);
-    const auto& layout = std::get<dynamics::PlanetaryLayout>(scene.plan().layout);
+    const auto& layout = std::get<dynamics::PlanetaryLayout>(scene.solve().integration().layout);
     const auto freedoms = static_cast<std::size_t>(layout.degrees_of_freedom());
     const auto sun = static_cast<std::size_t>(layout.rotation_index(dynamics::sun));
     const auto planet4 = static_cast<std::size_t>(layout.rotation_index(dynamics::planet + 3));
     Motions result;
-    result.samples = scene.samples_per_mesh();
+    result.samples = scene.record().samples;
     for (std::size_t k = 0; k < kMeshes; ++k) {
         const auto id =
             static_cast<std::size_t>(tile.integration.content[k % tile.integration.content.size()]);
@@ -109,18 +109,18 @@ std::vector<Impulse> impulses(const std::vector<double>& values, int meshes, int
 
 TEST_CASE("Yang, sections 4.1 and 4.2: frequencies, mesh phases, 7 and 28 meshes") {
     const mc::Scene scene(shipped_study(kStudy));
-    const auto inputs = scene.inputs(scene.gearbox().nominal);
+    const auto inputs = scene.gearbox().inputs(scene.gearbox().nominal);
     const double turn = 2.0 * std::numbers::pi;
     const double mesh = 1.0 / dynamics::mesh_period_s(inputs);
     const double carrier = dynamics::frame_speed_rad_s(inputs) / turn;
-    CHECK(scene.nominal_mesh_frequency_Hz() == Approx(541.94).margin(0.005));
+    CHECK(scene.gearbox().mesh_frequency_Hz == Approx(541.94).margin(0.005));
     CHECK(mesh == Approx(541.94).margin(0.005));
     CHECK(carrier == Approx(5.65).margin(0.005));
     CHECK(mesh / kSunTeeth + carrier == Approx(25.0));          // f_s
     CHECK(mesh / 34 - carrier == Approx(10.29).margin(0.005));  // f_p
 
     // Frequencies f_rs and f_fs from the faulty tooth's passages.
-    const auto& pattern = scene.pattern();
+    const auto& pattern = scene.gearbox().fault().pattern();
     CHECK(mesh / pattern.length == Approx(19.35).margin(0.005));
     REQUIRE(pattern.passages.size() == kPlanets);
     CHECK(mesh * kPlanets / pattern.length == Approx(77.42).margin(0.005));
@@ -131,7 +131,7 @@ TEST_CASE("Yang, sections 4.1 and 4.2: frequencies, mesh phases, 7 and 28 meshes
 
     // Source: Table 3, beta_s = beta_r = 0, beta_rs = 1/2.
     for (int n = 0; n < kPlanets; ++n) {
-        const auto phase = [&](int pair) { return scene.drivetrain().pitch_phase(pair); };
+        const auto phase = [&](int pair) { return scene.gearbox().drivetrain->pitch_phase(pair); };
         CHECK(std::remainder(phase(n) - phase(0), 1.0) == Approx(0.0).margin(1e-12));
         CHECK(std::remainder(phase(kPlanets + n) - phase(n) - 0.5, 1.0) ==
               Approx(0.0).margin(1e-12));
@@ -140,11 +140,11 @@ TEST_CASE("Yang, sections 4.1 and 4.2: frequencies, mesh phases, 7 and 28 meshes
 
 TEST_CASE("Yang, Fig. 15: the stiffness decreases from case to case, very little in 1 and 2") {
     const mc::Scene scene(shipped_study(kStudy));
-    const auto& healthy = scene.pairs().curve(scene.faulty_pair());
+    const auto& healthy = scene.gearbox().pairs().curve(scene.gearbox().faulty_pair());
     constexpr int kPoints = 400;
     std::vector<double> mean_loss, largest_loss;
     for (int number = 1; number <= 5; ++number) {
-        const auto cracked = scene.faulty_mesh(number);
+        const auto cracked = scene.gearbox().fault().mesh(0, number);
         double sum = 0.0, most = 0.0;
         for (int i = 0; i < kPoints; ++i) {
             const double tau = healthy.contact_ratio() * (i + 0.5) / kPoints;

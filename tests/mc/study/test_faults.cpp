@@ -138,17 +138,17 @@ TEST_CASE("Every kind of fault but wear weakens the tooth of a study's gearbox")
         INFO(kind->name());
         const Study study = study_with(*kind);
         const Scene scene(study);
-        CHECK(scene.fault().worn_pairs().empty() != kind->wears_flanks());
+        CHECK(scene.gearbox().fault().worn_pairs().empty() != kind->wears_flanks());
         if (kind->wears_flanks()) {
-            CHECK(scene.fault().curves() == 0);
-            CHECK(scene.faulty_mesh(fault_size(study)) == nullptr);
+            CHECK(scene.gearbox().fault().curves() == 0);
+            CHECK(scene.gearbox().fault().mesh(0, fault_size(study)) == nullptr);
             continue;
         }
-        CHECK(scene.fault().curves() == 1);
-        CHECK(scene.fault().largest_size() >= fault_size(study));
-        const auto faulty = scene.faulty_mesh(fault_size(study));
+        CHECK(scene.gearbox().fault().curves() == 1);
+        CHECK(scene.gearbox().fault().largest_size() >= fault_size(study));
+        const auto faulty = scene.gearbox().fault().mesh(0, fault_size(study));
         REQUIRE(faulty != nullptr);
-        const auto& healthy = *scene.meshes()[0].stiffness;
+        const auto& healthy = *scene.gearbox().stiffness->meshes()[0].stiffness;
         double least = 1.0;
         for (int i = 0; i < 100; ++i) {
             const double tau = healthy.contact_ratio() * i / 100;
@@ -156,7 +156,7 @@ TEST_CASE("Every kind of fault but wear weakens the tooth of a study's gearbox")
                 least, total_at(*faulty, healthy.transitions(), tau) / total_at(healthy, tau));
         }
         CHECK(least < 1.0);
-        CHECK(scene.faulty_mesh(0.0) == nullptr);
+        CHECK(scene.gearbox().fault().mesh(0, 0.0) == nullptr);
     }
 }
 
@@ -195,7 +195,7 @@ TEST_CASE("A partly broken planet tooth weakens the meshes of both its flanks") 
     const StudyReading reading = read_study_text(text, "fault.toml");
     INFO(format(reading.problems));
     REQUIRE(reading.study);
-    CHECK(Scene(*reading.study).fault().curves() == 2);
+    CHECK(Scene(*reading.study).gearbox().fault().curves() == 2);
     const std::string wide = problems_of(text, "break_width_mm = 10", "break_width_mm = 40");
     CHECK(holds(wide, "fault.break_width_mm"));
     CHECK(holds(wide, "wider than the face"));

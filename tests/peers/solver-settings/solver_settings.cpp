@@ -37,16 +37,16 @@ mc::Study study_of(const std::string& path) {
 
 // Plan with steps from transition to transition.
 lockstep::IntegrationPlan table_plan(const mc::Study& study, const mc::Scene& scene) {
-    lockstep::IntegrationPlan plan = scene.plan();
+    lockstep::IntegrationPlan plan = scene.solve().integration();
     if (plan.mesh_law != dynamics::MeshLaw::linear) {
         throw std::runtime_error("only for studies without separation and transmission errors");
     }
-    plan.grid = lockstep::make_phase_grid(1, 1, scene.transitions());
+    plan.grid = lockstep::make_phase_grid(1, 1, scene.gearbox().stiffness->transitions());
     plan.grid.stage_nodes.clear();
     for (int i = 0; i < kNodes; ++i) {
         plan.grid.stage_nodes.push_back(i / (kNodes - 1.0));
     }
-    plan.nodes = lockstep::tabulate(scene.pairs(), plan.grid, study.effects.mesh_damping);
+    plan.nodes = lockstep::tabulate(scene.gearbox().pairs(), plan.grid, study.effects.mesh_damping);
     return plan;
 }
 
@@ -98,8 +98,8 @@ std::vector<double> lane_of(const machine::AlignedVector& values, std::size_t la
 void write_problem(const mc::Study& study) {
     const mc::Scene scene(study);
     const lockstep::IntegrationPlan plan = table_plan(study, scene);
-    json all{{"samples", scene.samples_per_mesh()},
-             {"meshes", scene.pattern().length},
+    json all{{"samples", scene.record().samples},
+             {"meshes", scene.gearbox().fault().pattern().length},
              {"low_pass_rad_s", plan.low_pass_rad_s},
              {"te_weight", plan.te_weight},
              {"nodes", kNodes},
@@ -109,18 +109,18 @@ void write_problem(const mc::Study& study) {
     for (const lockstep::Step& step : plan.grid.steps) {
         all["transitions"].push_back(step.phase);
     }
-    lockstep::FaultCurves faults{&scene.pairs(), scene.pattern(), {}};
-    faults.curve.resize(static_cast<std::size_t>(scene.fault().curves()));
+    lockstep::FaultCurves faults{&scene.gearbox().pairs(), scene.gearbox().fault().pattern(), {}};
+    faults.curve.resize(static_cast<std::size_t>(scene.gearbox().fault().curves()));
     for (const mc::GearboxId& id : mc::pilot_gearboxes()) {
         const mc::InstanceInputs instance = scene.sampler().draw(id).inputs;
-        all["gearboxes"].push_back(matrices(plan, scene.inputs(instance)));
-        for (int c = 0; c < scene.fault().curves(); ++c) {
+        all["gearboxes"].push_back(matrices(plan, scene.gearbox().inputs(instance)));
+        for (int c = 0; c < scene.gearbox().fault().curves(); ++c) {
             faults.curve[static_cast<std::size_t>(c)].push_back(
-                scene.fault().mesh(c, instance.fault_size));
+                scene.gearbox().fault().mesh(c, instance.fault_size));
         }
     }
     const lockstep::FaultSchedule schedule(plan, faults);
-    for (int mesh = 0; mesh < scene.pattern().length; ++mesh) {
+    for (int mesh = 0; mesh < scene.gearbox().fault().pattern().length; ++mesh) {
         for (const lockstep::PairOverride& o : schedule.overrides(mesh)) {
             for (std::size_t lane = 0; lane < lockstep::kPilotLanes; ++lane) {
                 all["gearboxes"][lane]["passages"].push_back(
@@ -151,9 +151,9 @@ Signals read_signals(const mc::Scene& scene, const std::string& argument) {
     const std::string path = argument.substr(equals + 1);
     std::ifstream file(path, std::ios::binary);
     const std::string bytes((std::istreambuf_iterator<char>(file)), {});
-    const auto meshes = static_cast<std::size_t>(scene.pattern().length);
-    const std::size_t samples = scene.plan().samples();
-    const auto channels = static_cast<std::size_t>(scene.plan().channels());
+    const auto meshes = static_cast<std::size_t>(scene.gearbox().fault().pattern().length);
+    const std::size_t samples = scene.solve().integration().samples();
+    const auto channels = static_cast<std::size_t>(scene.solve().integration().channels());
     constexpr std::size_t kLanes = lockstep::kPilotLanes;
     const std::size_t count = 2 + kLanes * meshes * samples * (channels + 1);
     if (bytes.size() != count * sizeof(double)) {
@@ -168,7 +168,7 @@ Signals read_signals(const mc::Scene& scene, const std::string& argument) {
     for (std::size_t k = 0; k < meshes; ++k) {
         signals.tile.content.push_back(static_cast<int>(k));
         signals.tile.records.push_back(
-            lockstep::make_record(scene.plan(), static_cast<int>(kLanes), false));
+            lockstep::make_record(scene.solve().integration(), static_cast<int>(kLanes), false));
     }
     signals.tile.status.assign(kLanes, lockstep::LaneStatus::ok);
     for (std::size_t lane = 0; lane < kLanes; ++lane) {

@@ -135,7 +135,7 @@ class Cvode {
         if (stops_) {
             check(CVodeSetStopTime(memory_, (k_ + to) * period), "CVodeSetStopTime");
         }
-        const int samples = task_.scene.samples_per_mesh();
+        const int samples = task_.scene.record().samples;
         for (int sample = static_cast<int>(std::ceil(from * samples - 1e-9));
              record != nullptr && sample < samples && double(sample) / samples < to - 1e-12;
              ++sample) {

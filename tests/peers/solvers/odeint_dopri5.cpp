@@ -96,7 +96,7 @@ class Dopri5 {
             }
             rates<kSensing>(parameters_, m, y.data(), dy.data());
         };
-        const int samples = task_.scene.samples_per_mesh();
+        const int samples = task_.scene.record().samples;
         int sample = static_cast<int>(std::ceil((from - k) * samples - 1e-9));
         Sensing y;
         while (true) {

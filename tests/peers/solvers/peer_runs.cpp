@@ -5,7 +5,8 @@
 namespace gearpod::peers {
 
 Gearbox<double> gearbox_of(const Task& task, int gearbox) {
-    const auto& layout = std::get<dynamics::PlanetaryLayout>(task.scene.plan().layout);
+    const auto& layout =
+        std::get<dynamics::PlanetaryLayout>(task.scene.solve().integration().layout);
     const auto& in = std::get<dynamics::PlanetaryInputs>(
         task.gearboxes.inputs[static_cast<std::size_t>(gearbox)]);
     Gearbox<double> g{};
@@ -19,7 +20,7 @@ Gearbox<double> gearbox_of(const Task& task, int gearbox) {
         g.cos_ring[n] = std::cos(psi + right + alpha);
         g.sin_ring[n] = std::sin(psi + right + alpha);
     }
-    g.low_pass_rad_s = task.scene.plan().low_pass_rad_s;
+    g.low_pass_rad_s = task.scene.solve().integration().low_pass_rad_s;
     for (int b = 0; b < 4; ++b) {
         g.inverse_mass[b] = 1.0 / in.mass_kg[b];
         g.inverse_inertia[b] = 1.0 / in.inertia_over_r2_kg[b];
@@ -54,7 +55,7 @@ void record_sample(const Task& task, const double* y, bool sensing, int lane, in
     }
     double te = 0.0;
     for (int d = 0; d < kMotions; ++d) {
-        te += task.scene.plan().te_weight[static_cast<std::size_t>(d)] * y[d];
+        te += task.scene.solve().integration().te_weight[static_cast<std::size_t>(d)] * y[d];
     }
     record.te[static_cast<std::size_t>(sample * kGearboxes + lane)] = te;
 }
@@ -62,7 +63,7 @@ void record_sample(const Task& task, const double* y, bool sensing, int lane, in
 std::vector<lockstep::MeshRecord> empty_records(const Task& task, int meshes) {
     return std::vector<lockstep::MeshRecord>(
         static_cast<std::size_t>(meshes),
-        lockstep::make_record(task.scene.plan(), kGearboxes, false));
+        lockstep::make_record(task.scene.solve().integration(), kGearboxes, false));
 }
 
 int pattern_mesh(const Task& task, int k) {

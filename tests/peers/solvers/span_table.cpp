@@ -25,7 +25,7 @@ SpanTable::SpanTable(const Options& options, GearpodSolver& own, const mc::Pilot
       reference_(reference),
       resolved_(study_of(options, {fmt::format("numerics.tolerance={}", options.error)})),
       chosen_(resolved_.study) {
-    span_ = kRunIn + own.scene().span_meshes();
+    span_ = kRunIn + own.scene().record().span.meshes();
     const mc::PilotRecord record = pilot.run(resolved_.study.numerics);
     rows_.push_back({"gearpod, " + resolved_.choice->setting.text(),
                      {},
@@ -134,9 +134,9 @@ void SpanTable::print() const {
         "\na gearbox over {} + {} mesh periods with the worst feature within {:g} (!: it is not), "
         "one thread\n(others: from two measured mesh periods a round; errors over the fault's "
         "pattern, {} mesh periods)\n{:<44} {:>9} {:>10} {:>10} {:>26} {:>24} {:>10} {:>9} {:>9}\n",
-        kRunIn, own_.scene().span_meshes(), options_.error, kRunIn + own_.task().steps.meshes(), "",
-        "tolerance", "steps/mesh", "s", "over gearpod", "a mesh over gearpod's", "feature",
-        "sensor", "TE");
+        kRunIn, own_.scene().record().span.meshes(), options_.error,
+        kRunIn + own_.task().steps.meshes(), "", "tolerance", "steps/mesh", "s", "over gearpod",
+        "a mesh over gearpod's", "feature", "sensor", "TE");
     for (const Row& row : rows_) {
         fmt::print("{}", line(row));
     }
@@ -164,7 +164,7 @@ void SpanTable::add_to(nlohmann::ordered_json& part) const {
     }
     part["tables"].push_back(
         {{"title", fmt::format("A gearbox of {} + {} mesh periods, worst feature within {:g}:",
-                               kRunIn, own_.scene().span_meshes(), options_.error)},
+                               kRunIn, own_.scene().record().span.meshes(), options_.error)},
          {"columns",
           {"solver", "tolerance", "steps per mesh period", "s", "over gearpod",
            "mesh period, over gearpod's", "worst feature", "sensor"}},

@@ -19,7 +19,8 @@ constexpr std::size_t kScalarRow = 2;  // one gearbox in scalar code, with the s
 StepTable::StepTable(GearpodSolver& own, const mc::Reference& reference)
     : own_(own), reference_(reference) {
     rows_.push_back({"gearpod, 8 in lockstep", {}, 0.0, {}});
-    work_.push_back({static_cast<double>(bench::rk4_operations(own.scene().plan()).flop())});
+    work_.push_back(
+        {static_cast<double>(bench::rk4_operations(own.scene().solve().integration()).flop())});
     for (const bool motion_only : {false, true}) {
         const std::string what = motion_only ? ", no sensor" : "";
         const double flop = rk4_flop(motion_only);

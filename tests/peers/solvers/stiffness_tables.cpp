@@ -7,15 +7,15 @@ namespace gearpod::peers {
 
 GearboxInputs8 inputs_of_gearboxes(const mc::Scene& scene) {
     GearboxInputs8 gearboxes;
-    gearboxes.faults = {&scene.pairs(), scene.pattern(), {}};
-    gearboxes.faults.curve.resize(static_cast<std::size_t>(scene.fault().curves()));
+    gearboxes.faults = {&scene.gearbox().pairs(), scene.gearbox().fault().pattern(), {}};
+    gearboxes.faults.curve.resize(static_cast<std::size_t>(scene.gearbox().fault().curves()));
     for (std::uint64_t i = 0; i < kGearboxes; ++i) {
         const mc::InstanceInputs instance = scene.sampler().draw({mc::Group::test, i}).inputs;
         gearboxes.instances.push_back(instance);
-        gearboxes.inputs.push_back(scene.inputs(instance));
+        gearboxes.inputs.push_back(scene.gearbox().inputs(instance));
         for (std::size_t c = 0; c < gearboxes.faults.curve.size(); ++c) {
             gearboxes.faults.curve[c].push_back(
-                scene.fault().mesh(static_cast<int>(c), instance.fault_size));
+                scene.gearbox().fault().mesh(static_cast<int>(c), instance.fault_size));
         }
     }
     return gearboxes;
@@ -25,7 +25,7 @@ StiffnessTables::StiffnessTables(const mc::Scene& scene, const lockstep::Integra
                                  const GearboxInputs8& gearboxes)
     : plan_(plan) {
     const lockstep::FaultSchedule schedule(plan, gearboxes.faults);
-    for (int k = 0; k < scene.pattern().length; ++k) {
+    for (int k = 0; k < scene.gearbox().fault().pattern().length; ++k) {
         overrides_.push_back(schedule.overrides(k));
     }
     for (int l = 0; l < kGearboxes; ++l) {
@@ -37,7 +37,7 @@ StiffnessTables::StiffnessTables(const mc::Scene& scene, const lockstep::Integra
         }
     }
     const auto& steps = plan.grid.steps;
-    const std::vector<double> transitions = scene.transitions();
+    const std::vector<double> transitions = scene.gearbox().stiffness->transitions();
     for (std::size_t i = 0; i < steps.size(); ++i) {
         const bool jump = std::any_of(transitions.begin(), transitions.end(), [&](double phase) {
             return std::abs(phase - steps[i].phase) < 1e-9;

@@ -56,7 +56,7 @@ struct TwoSignals {
 
 TwoSignals signals_of(const mc::Scene& scene, const mc::GearboxTile& tile) {
     const mc::LaneSignals all =
-        mc::lane_signals(scene.tile(), tile, 0, scene.span().carrier_meshes);
+        mc::lane_signals(scene.tile(), tile, 0, scene.record().span.carrier_meshes);
     return {all.sensor, all.additional.front().sensor};
 }
 
@@ -101,11 +101,11 @@ struct BearingForce {
     template <class Response>
     std::vector<double> acceleration(double sensor_rad, Response response) const {
         constexpr int kHarmonics = 20;
-        const auto degrees =
-            static_cast<std::size_t>(dynamics::degrees_of_freedom(scene.plan().layout));
+        const auto degrees = static_cast<std::size_t>(
+            dynamics::degrees_of_freedom(scene.solve().integration().layout));
         const auto lanes = static_cast<std::size_t>(tile.views.lanes);
-        const double mesh_Hz = scene.nominal_mesh_frequency_Hz();
-        const int turn = scene.span().carrier_meshes, per_mesh = scene.samples_per_mesh();
+        const double mesh_Hz = scene.gearbox().mesh_frequency_Hz;
+        const int turn = scene.record().span.carrier_meshes, per_mesh = scene.record().samples;
         std::vector<double> sum(static_cast<std::size_t>(turn * per_mesh / kEvery), 0.0);
         for (int k = -kHarmonics; k <= kHarmonics; ++k) {
             const Complex x = line(tile.integration.records[0], degrees, lanes,

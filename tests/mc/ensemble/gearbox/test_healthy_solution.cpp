@@ -27,7 +27,7 @@ TEST_CASE("A fault changes the meshes after its passage begins, and no others") 
     gearbox.inputs.gain = 1.0;
     gearbox.inputs.fault_size = 3e-3;
     const GearboxTile all = run_realizations(scene.tile(), {gearbox}, 1);
-    const LaneSignals expected = lane_signals(scene.tile(), all, 0, scene.span_meshes());
+    const LaneSignals expected = lane_signals(scene.tile(), all, 0, scene.record().span.meshes());
 
     const HealthySolution healthy_solution(scene.tile(), {gearbox}, 1);
     REQUIRE(healthy_solution.healthy().status.front() == Status::ok);
@@ -51,13 +51,15 @@ TEST_CASE("Few meshes are integrated for a further size of a fault") {
     // A fault of size zero causes no change.
     const GearboxTile none =
         run_fault_perturbations(scene.tile(), {gearbox}, 1, healthy.integration.states);
-    CHECK(none.integration.records.size() <= static_cast<std::size_t>(scene.span_meshes()) / 5);
+    CHECK(none.integration.records.size() <=
+          static_cast<std::size_t>(scene.record().span.meshes()) / 5);
     CHECK(none.status.front() == Status::ok);
     gearbox.inputs.fault_size = 4e-3;
     const GearboxTile deep =
         run_fault_perturbations(scene.tile(), {gearbox}, 1, healthy.integration.states);
     CHECK(deep.meshes < healthy.meshes / 4);
-    CHECK(deep.integration.records.size() > static_cast<std::size_t>(scene.span().ring_teeth));
+    CHECK(deep.integration.records.size() >
+          static_cast<std::size_t>(scene.record().span.ring_teeth));
 }
 
 }  // namespace test_healthy_solution

@@ -72,9 +72,9 @@ TEST_CASE("The sensor picks up the stage's own signal, at the stage's time, time
     // Mesh frequencies: 35 Hz here, 60 / 48 * 13 / 60 * 35 Hz there.
     const double step =
         scene.record().sample_s(gearbox.inputs) / stage.record.sample_s(neighbour.inputs);
-    CHECK(step == Approx((1.0 / (35.0 * scene.samples_per_mesh())) *
-                         (35.0 * 13 / 48 * stage.record.samples))
-                      .epsilon(1e-9));
+    CHECK(step ==
+          Approx((1.0 / (35.0 * scene.record().samples)) * (35.0 * 13 / 48 * stage.record.samples))
+              .epsilon(1e-9));
     mc::Philox engine = mc::record_stream(scene.draw().seed, id,
                                           mc::with_suffix(mc::StreamPurpose::stage_start, "slow"));
     const double start =

@@ -36,7 +36,7 @@ struct Gaps {
 };
 Gaps gaps_of(const Scene& scene, const lockstep::ToothErrors& errors, int pair, int meshes) {
     Gaps gaps;
-    const lockstep::IntegrationPlan& plan = scene.plan();
+    const lockstep::IntegrationPlan& plan = scene.solve().integration();
     for (int k = 0; k < meshes; ++k) {
         const auto all = lockstep::tooth_gaps(plan, errors, k);
         for (std::size_t s = 0; s < plan.grid.steps.size(); ++s) {
@@ -45,7 +45,7 @@ Gaps gaps_of(const Scene& scene, const lockstep::ToothErrors& errors, int pair, 
                 return lockstep::tooth_gap(plan, all, pair, static_cast<int>(at), 0, slot, 0);
             };
             const double middle = step.phase + 0.5 * step.length;
-            const int count = lockstep::engaged_teeth(scene.pairs(), pair, middle).count;
+            const int count = lockstep::engaged_teeth(scene.gearbox().pairs(), pair, middle).count;
             if (count == 2) {
                 gaps.apart = std::max(gaps.apart, std::abs(gap(s, 0) - gap(s, 1)));
             }
@@ -97,7 +97,7 @@ TEST_CASE("An eccentric gear displaces all tooth pairs in contact, as a displace
             const Gaps ring = gaps_of(scene, errors, planets + n, teeth);
             const auto [sun_size, sun_phase] = harmonic(sun.mean, teeth);
             const auto [ring_size, ring_phase] = harmonic(ring.mean, teeth);
-            INFO("reversed " << scene.pairs().reversed << ", planet " << n + 1);
+            INFO("reversed " << scene.gearbox().pairs().reversed << ", planet " << n + 1);
             CHECK(sun_size == Approx(ring_size).epsilon(0.02));
             // The remainder is the curvature of a sine over a tooth.
             CHECK(sun.apart < 0.05 * sun_size);
@@ -106,7 +106,8 @@ TEST_CASE("An eccentric gear displaces all tooth pairs in contact, as a displace
             // cos(phi - p_r) at the ring, p_r - p_s = 2 alpha; phi decreases when the sun drives.
             const double lead = std::remainder(ring_phase - sun_phase, 2.0 * kPi);
             const double expected = 2.0 * study.gearbox.pressure_angle_rad;
-            CHECK(lead == Approx(scene.pairs().reversed ? -expected : expected).margin(0.02));
+            CHECK(lead ==
+                  Approx(scene.gearbox().pairs().reversed ? -expected : expected).margin(0.02));
         }
     }
 }
@@ -126,7 +127,7 @@ TEST_CASE("Tooth deviations follow the tolerances of their grade and grow with i
         return std::sqrt(squares / static_cast<double>(count));
     };
     const Scene scene(study_with({"gearbox.tooth_quality=6"}));
-    const auto& scales = scene.tooth_scales()[Member::planet];
+    const auto& scales = scene.gearbox().stiffness->tooth_scales()[Member::planet];
     const double expected =
         std::numbers::sqrt2 * std::sqrt(0.5 * scales.eccentricity * scales.eccentricity +
                                         scales.waves * scales.waves + scales.pitch * scales.pitch);

@@ -40,14 +40,14 @@ std::vector<double> features_of(const Study& study, const GearboxId& id) {
     REQUIRE(tile.status[0] == Status::ok);
     const HealthyReference healthy;
     RealizationFeatures features(scene.tile(), &healthy);
-    return features.compute(lane_signals(scene.tile(), tile, 0, scene.signal_meshes()),
+    return features.compute(lane_signals(scene.tile(), tile, 0, scene.record().signal_meshes),
                             tile.realizations[0]);
 }
 
 std::vector<double> sensor_of(const Scene& scene, const GearboxId& id) {
     const Realization one = scene.sampler().draw(id);
     const GearboxTile tile = run_realizations(scene.tile(), {one}, 8);
-    return lane_signals(scene.tile(), tile, 0, scene.span_meshes()).sensor;
+    return lane_signals(scene.tile(), tile, 0, scene.record().span.meshes()).sensor;
 }
 
 }  // namespace

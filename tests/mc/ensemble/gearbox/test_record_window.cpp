@@ -36,7 +36,7 @@ class Computed {
         : scene_(study),
           tile_(run_gearboxes(scene_.tile(), std::span(&id, 1), 1)),
           features_(scene_.tile(), &healthy_),
-          signals_(lane_signals(scene_.tile(), tile_, 0, scene_.signal_meshes())) {
+          signals_(lane_signals(scene_.tile(), tile_, 0, scene_.record().signal_meshes)) {
         REQUIRE(tile_.status[0] == Status::ok);
         values_ = features_.compute(signals_, tile_.realizations[0]);
     }
@@ -81,13 +81,13 @@ TEST_CASE("The features of a short record are those of its samples") {
     const Computed record(study_with({kPlain, "sensor.noise_levels=[0]", "sensor.record_turns=4"}));
     const RecordWindow window = record.window();
     CHECK(window.turns == 4 * 81 / 31);
-    const auto samples = static_cast<std::size_t>(record.scene().samples_per_mesh());
+    const auto samples = static_cast<std::size_t>(record.scene().record().samples);
     const auto own = std::span(record.signals().sensor)
                          .subspan(static_cast<std::size_t>(window.first_mesh) * samples,
                                   static_cast<std::size_t>(window.turns * 31) * samples);
     CHECK(record[0] == Approx(rms(own)).epsilon(1e-12));
     // Mean over the record's turns of every sample of a turn, without its mean.
-    const auto te_samples = static_cast<std::size_t>(record.scene().te_samples_per_mesh());
+    const auto te_samples = static_cast<std::size_t>(record.scene().record().te_samples);
     std::vector<double> turn(31 * te_samples);
     for (std::size_t i = 0; i < turn.size() * static_cast<std::size_t>(window.turns); ++i) {
         turn[i % turn.size()] +=
@@ -106,7 +106,7 @@ TEST_CASE("Noise of a short record has its own number of samples") {
     const Computed record(
         study_with({kCompared, "sensor.noise_levels=[100]", "sensor.record_turns=4"}));
     const double noise = 100.0 * record.noise_m_s2();
-    const double samples = 10.0 * 31.0 * record.scene().samples_per_mesh();
+    const double samples = 10.0 * 31.0 * record.scene().record().samples;
     CHECK(record[0] == Approx(noise).epsilon(4.0 / std::sqrt(2.0 * samples)));
     CHECK(record[2] == Approx(std::sqrt(2.0) * noise).epsilon(4.0 / std::sqrt(2.0 * samples)));
 }
@@ -131,10 +131,10 @@ TEST_CASE(
     for (std::uint64_t i = 0; i < kRecords; ++i) {
         const RecordWindow window = record_window(scene.record(), {Group::test, i}, 10);
         REQUIRE(window.first_mesh >= 0);
-        REQUIRE(window.first_mesh <= scene.span_meshes());
+        REQUIRE(window.first_mesh <= scene.record().span.meshes());
         distinct.insert(window.first_mesh);
         ++count[static_cast<std::size_t>(window.first_mesh) * kBins /
-                static_cast<std::size_t>(scene.span_meshes() + 1)];
+                static_cast<std::size_t>(scene.record().span.meshes() + 1)];
     }
     double chi_squared = 0.0;
     for (const int one : count) {
@@ -183,9 +183,9 @@ TEST_CASE("Records that are integrated alone are those of the whole signal") {
     const GearboxTile tile = run_gearboxes(other.scene().tile(), ids, 8);
     const HealthyReference healthy;
     RealizationFeatures features(other.scene().tile(), &healthy);
-    const std::vector<double> values =
-        features.compute(lane_signals(other.scene().tile(), tile, 3, other.scene().signal_meshes()),
-                         tile.realizations[3]);
+    const std::vector<double> values = features.compute(
+        lane_signals(other.scene().tile(), tile, 3, other.scene().record().signal_meshes),
+        tile.realizations[3]);
     for (const std::size_t feature : {0, 1, 2, 3}) {
         CHECK(values[feature] == other[feature]);
     }

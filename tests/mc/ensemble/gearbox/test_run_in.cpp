@@ -17,17 +17,17 @@ namespace {
 lockstep::MeshRecord first_mesh(const Scene& scene, int run_in) {
     Realization gearbox = scene.sampler().draw({Group::test, 3});
     gearbox.inputs.fault_size = 0.0;
-    const dynamics::GearboxInputs inputs = scene.inputs(gearbox.inputs);
+    const dynamics::GearboxInputs inputs = scene.gearbox().inputs(gearbox.inputs);
     const auto errors =
         draw_tooth_errors(*scene.gearbox().tooth_errors, scene.draw(), std::span(&gearbox, 1));
-    lockstep::FaultCurves faults{&scene.pairs(), scene.pattern(), {}};
-    faults.curve.assign(static_cast<std::size_t>(scene.fault().curves()), {nullptr});
+    lockstep::FaultCurves faults{&scene.gearbox().pairs(), scene.gearbox().fault().pattern(), {}};
+    faults.curve.assign(static_cast<std::size_t>(scene.gearbox().fault().curves()), {nullptr});
     const lockstep::FullSolution solution{
-        .convergence = {.tolerance = 1e-10, .max_meshes = scene.max_meshes()},
+        .convergence = {.tolerance = 1e-10, .max_meshes = scene.solve().convergence.max_meshes},
         .span = {.meshes = 1, .run_in_meshes = run_in},
         .tooth_errors = &errors};
     const lockstep::TileResult tile =
-        lockstep::run_tile<1>(scene.plan(), std::span(&inputs, 1), faults, solution);
+        lockstep::run_tile<1>(scene.solve().integration(), std::span(&inputs, 1), faults, solution);
     REQUIRE(tile.status.front() == lockstep::LaneStatus::ok);
     return tile.records.at(static_cast<std::size_t>(tile.content.front()));
 }

@@ -46,7 +46,7 @@ class Tile {
     const GearboxTile& operator*() const { return tile_; }
     const GearboxTile* operator->() const { return &tile_; }
     std::vector<double> sensor(int lane) const {
-        return lane_signals(scene_.tile(), tile_, lane, scene_.signal_meshes()).sensor;
+        return lane_signals(scene_.tile(), tile_, lane, scene_.record().signal_meshes).sensor;
     }
     double forecast_meshes() const { return scene_.solve().integrated_meshes; }
 
@@ -155,16 +155,16 @@ class ContactLimit {
         std::vector<dynamics::GearboxInputs> inputs;
         for (std::uint64_t i = first; i < first + 8; ++i) {
             gearboxes.push_back(scene_.sampler().draw({Group::test, i}));
-            inputs.push_back(scene_.inputs(gearboxes.back().inputs));
+            inputs.push_back(scene_.gearbox().inputs(gearboxes.back().inputs));
         }
         const auto errors =
             draw_tooth_errors(*scene_.gearbox().tooth_errors, scene_.draw(), gearboxes);
-        const lockstep::FaultCurves faults{&scene_.pairs(), {}, {}};
-        const lockstep::Convergence convergence{1e-10, scene_.max_meshes()};
+        const lockstep::FaultCurves faults{&scene_.gearbox().pairs(), {}, {}};
+        const lockstep::Convergence convergence{1e-10, scene_.solve().convergence.max_meshes};
         const lockstep::RecordedSpan span{.meshes = 12,
                                           .run_in_meshes = scene_.solve().run_in_meshes};
         const auto run = [&](const lockstep::Solution& solution) {
-            return lockstep::run_tile<8>(scene_.plan(), inputs, faults, solution);
+            return lockstep::run_tile<8>(scene_.solve().integration(), inputs, faults, solution);
         };
         return use_superposition ? run(lockstep::SuperposedSolution{errors, convergence, span})
                                  : run(lockstep::FullSolution{convergence, span, &errors});

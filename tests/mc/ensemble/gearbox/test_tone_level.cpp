@@ -64,7 +64,7 @@ TEST_CASE("Calibration uses the given level") {
     const mc::StudyScene loud = scene_with({tones(6.0)});
     const std::vector<const features::Feature*> used{features::find_feature("sensor_rms"),
                                                      features::find_feature("window_ratio")};
-    const mc::RecordLengths lengths(2, {quiet.scene->span_meshes()});
+    const mc::RecordLengths lengths(2, {quiet.scene->record().span.meshes()});
     const mc::RecordValues ones(2, {std::vector<double>(used.size(), 1.0)});
     const mc::SetSummary summary(used, ones);
     const std::vector<mc::GivenInput> given{{mc::input_id("sensor.tone_level"), 3.0}};

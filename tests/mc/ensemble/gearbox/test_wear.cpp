@@ -61,12 +61,13 @@ TEST_CASE("The pairs of the worn gear have gaps that grow from the pitch point")
           {worn_pinion(), {}, {0}}}) {
         const Study study = test::study_of_text(text, more);
         const Scene scene(study);
-        CHECK(scene.fault().worn_pairs() == worn);
-        const lockstep::IntegrationPlan& plan = scene.plan();
+        CHECK(scene.gearbox().fault().worn_pairs() == worn);
+        const lockstep::IntegrationPlan& plan = scene.solve().integration();
         const lockstep::StiffnessNodes& nodes = plan.nodes;
         const bool spur = study.gearbox.helix_angle_rad == 0.0;
         for (int pair = 0; pair < nodes.pairs; ++pair) {
-            const double pitch = lockstep::phase_in_period(scene.pairs().pitch_phase(pair));
+            const double pitch =
+                lockstep::phase_in_period(scene.gearbox().pairs().pitch_phase(pair));
             double least_at_pitch = 1.0, largest = 0.0;
             for (std::size_t step = 0; step < plan.grid.steps.size(); ++step) {
                 const bool at_pitch = std::abs(plan.grid.steps[step].phase - pitch) < 1e-9;
@@ -80,7 +81,7 @@ TEST_CASE("The pairs of the worn gear have gaps that grow from the pitch point")
                     }
                 }
             }
-            INFO(scene.drivetrain().pair_name(pair));
+            INFO(scene.gearbox().drivetrain->pair_name(pair));
             const bool wears = std::ranges::count(worn, pair) > 0;
             CHECK(largest == Approx(wears ? 1.0 : 0.0).margin(spur ? 0.05 : 0.2));
             // Steps of worn spur teeth end at the pitch point; some integrators do not evaluate

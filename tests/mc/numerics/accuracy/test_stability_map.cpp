@@ -14,8 +14,9 @@ TEST_CASE("the stability map has the steps of hard cases next to those of the st
     const Study study = test::shipped_study("published/tian-fig-4-9.toml", {});
     const Scene plan(study);
     const StabilityMap map = stability_map(
-        {plan.plan().layout, plan.inputs(nominal_inputs(study)), plan.stiffest_pairs()},
-        Planner(plan).steps(study.numerics));
+        {plan.solve().integration().layout, plan.gearbox().inputs(nominal_inputs(study)),
+         plan.gearbox().stiffness->stiffest_pairs()},
+        Planner(study).steps(study.numerics));
     const std::size_t own = map.factors.size() / 2;
     REQUIRE(map.factors[own] == Approx(1.0));
     REQUIRE(map.hard.size() == 3);

@@ -167,7 +167,8 @@ TEST_CASE("Every shipped study is measured with at most one tile per thread if t
         }
         const Scene scene(study);
         const BatchPlan plan(study.ensemble.threshold_instances, study.ensemble.instances);
-        const RunCost calibration = measure_run_cost(scene, plan, 1, kNoBudget_s);
+        const RunCost calibration =
+            measure_run_cost(scene.tile(), scene.ensemble(), plan, 1, kNoBudget_s);
         // The analysis of thousands of gearboxes takes seconds for any study: one study suffices.
         const bool tried = plan.rows() < kTrialRows / 3 || name == "reference-10k.toml";
         const AnalysisTrial trial = tried ? measure_analysis(scene.sampler(), scene.ensemble(),
@@ -177,7 +178,7 @@ TEST_CASE("Every shipped study is measured with at most one tile per thread if t
                                                   verification_s(Planner(study), calibration), 0.0);
         ++studies;
         trials += tried ? 1 : 0;
-        CHECK(calibration.to_record == scene.signal_meshes());
+        CHECK(calibration.to_record == scene.record().signal_meshes);
         if (!calibration.integration_only) {
             CHECK(!calibration.gearboxes.empty());
             CHECK(calibration.gearboxes.size() <= static_cast<std::size_t>(study.numerics.lanes));
@@ -205,12 +206,12 @@ TEST_CASE(
     const Scene scene(test::shipped_study("planet-crack-ideal.toml", overrides));
     const auto before = bits_of(first_tile(scene));
     const BatchPlan plan(16, 32);
-    const RunCost cut = measure_run_cost(scene, plan, 1, kNoBudget_s);
+    const RunCost cut = measure_run_cost(scene.tile(), scene.ensemble(), plan, 1, kNoBudget_s);
     CHECK(cut.recorded == kFewestMeshes);
     CHECK(cut.to_record == 2511);
     // Run-in to the periodic orbit, and eight mesh periods.
     CHECK(cut.meshes >= kFewestMeshes + 2);
-    CHECK(cut.meshes < kFewestMeshes + scene.max_meshes());
+    CHECK(cut.meshes < kFewestMeshes + scene.solve().convergence.max_meshes);
     const Seconds& whole = cut.cost[0].integrated.whole;
     CHECK(whole.integration > 20.0 * whole.signals);
     // Sensor signals recorded during integration need no stored records, in a run or here.
@@ -223,7 +224,7 @@ TEST_CASE("Synthetic results have the run's gearboxes and values similar to comp
     const Study study = test::shipped_study("planet-crack-ideal.toml", kFast);
     const Scene scene(study);
     const BatchPlan plan(study.ensemble.threshold_instances, study.ensemble.instances);
-    const RunCost calibration = measure_run_cost(scene, plan, 2, 0.5);
+    const RunCost calibration = measure_run_cost(scene.tile(), scene.ensemble(), plan, 2, 0.5);
     const std::size_t rows = 1100, shown = 1;
     const Results made =
         synthetic_results(scene.sampler(), scene.ensemble(), calibration, plan, rows, {1, 2});

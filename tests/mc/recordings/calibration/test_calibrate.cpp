@@ -58,7 +58,7 @@ struct Synthetic {
         for (const std::string& name : kUsed) {
             used.push_back(features::find_feature(name));
         }
-        task.lengths.assign(3, {scene->span_meshes()});
+        task.lengths.assign(3, {scene->record().span.meshes()});
         // Scales for the features, all of which are positive.
         const RecordValues ones(3, {std::vector<double>(used.size(), 1.0)});
         summary = std::make_unique<SetSummary>(used, ones);
