@@ -1,30 +1,19 @@
 // Data sets that tests share with the reference programs (reference/make_reference.*).
 #pragma once
 
-#include <filesystem>
-#include <fstream>
-#include <sstream>
-#include <stdexcept>
 #include <string>
 #include <vector>
 
+#include "tests/reference_tables.hpp"
+
 namespace gearpod::analysis {
 
-// Columns of reference/<name>; its first line is a heading.
+// Columns of reference/<name>.h5.
 inline std::vector<std::vector<double>> reference_columns(const std::string& name) {
-    std::ifstream file(std::filesystem::path(GEARPOD_REFERENCE_DIR) / name);
-    std::string line;
-    if (!std::getline(file, line)) {
-        throw std::runtime_error("cannot read the reference data " + name);
-    }
+    const auto table = test::reference_table("analysis/reference/" + name + ".h5");
     std::vector<std::vector<double>> columns;
-    while (std::getline(file, line)) {
-        std::istringstream cells(line);
-        std::string cell;
-        for (std::size_t c = 0; std::getline(cells, cell, ','); ++c) {
-            columns.resize(std::max(columns.size(), c + 1));
-            columns[c].push_back(std::stod(cell));
-        }
+    for (const std::string& column : table.names) {
+        columns.push_back(table.numbers.at(column));
     }
     return columns;
 }

@@ -98,6 +98,20 @@ Curves from_json(const Golden& golden) {
     return curves;
 }
 
+mc::Hdf5Handle opened(const std::string& path) {
+    return {H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), H5Fclose, "open " + path};
+}
+
+// A column is named as the last part of the path of its dataset.
+Curves read_datasets(const mc::Hdf5Handle& file, const std::vector<std::string>& paths) {
+    Curves curves;
+    for (const std::string& path : paths) {
+        curves.names.push_back(path.substr(path.rfind('/') + 1));
+        curves.columns.push_back(mc::read_numbers(file.get(), path, kMostValues).values);
+    }
+    return curves;
+}
+
 // The program's results file; the destructor removes it.
 class ResultsFile {
   public:
@@ -110,14 +124,7 @@ class ResultsFile {
     ResultsFile& operator=(const ResultsFile&) = delete;
 
     Curves datasets(const std::vector<std::string>& names) const {
-        const mc::Hdf5Handle file(H5Fopen(path_.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), H5Fclose,
-                                  "open " + path_.string());
-        Curves curves;
-        for (const std::string& name : names) {
-            curves.names.push_back(name);
-            curves.columns.push_back(mc::read_numbers(file.get(), name, kMostValues).values);
-        }
-        return curves;
+        return read_datasets(opened(path_), names);
     }
 
   private:
@@ -175,33 +182,26 @@ Curves compute(const Golden& golden) {
 }
 
 std::string curves_path(const Golden& golden) {
-    return std::string(GEARPOD_SOURCE_DIR) + "/tests/golden/curves/" + golden.name + ".csv";
+    return std::string(GEARPOD_SOURCE_DIR) + "/tests/golden/curves/" + golden.name + ".h5";
 }
 
 Curves read_curves(const Golden& golden) {
-    std::ifstream file(curves_path(golden));
-    if (!file) {
-        throw std::runtime_error(curves_path(golden) + " cannot be read: make_golden " +
-                                 golden.name + " writes it");
+    const std::string path = curves_path(golden);
+    if (!fs::exists(path)) {
+        throw std::runtime_error(path + " does not exist: make_golden " + golden.name +
+                                 " writes it");
     }
-    return parse_csv(file);
+    const mc::Hdf5Handle file = opened(path);
+    return read_datasets(file, mc::link_names(file.get()));
 }
 
 void write_curves(const Golden& golden, const Curves& curves) {
-    std::string text = fmt::format("# gearpod {}\n", golden.command);
+    const mc::Hdf5Handle file = mc::create_file(curves_path(golden));
+    mc::write_text(file.get(), ".", "source", "output of gearpod (tests/golden/table.cpp)");
+    mc::write_text(file.get(), ".", "command", "gearpod " + golden.command);
     for (std::size_t c = 0; c < curves.names.size(); ++c) {
-        text += fmt::format("{}{}", c == 0 ? "" : ",", curves.names[c]);
-    }
-    text += "\n";
-    for (std::size_t row = 0; row < curves.columns.front().size(); ++row) {
-        for (std::size_t c = 0; c < curves.columns.size(); ++c) {
-            text += fmt::format("{}{:.10g}", c == 0 ? "" : ",", curves.columns[c][row]);
-        }
-        text += "\n";
-    }
-    std::ofstream file(curves_path(golden));
-    if (!(file << text)) {
-        throw std::runtime_error(curves_path(golden) + " cannot be written");
+        const std::vector<double>& values = curves.columns[c];
+        mc::write_numbers(file.get(), curves.names[c], {values.size()}, values);
     }
 }
 

@@ -1,4 +1,4 @@
-// Golden curves: output of the built program for a study, kept as a table under curves/ so that a
+// Golden curves: output of the built program for a study, kept as a table under curves/, so that a
 // change of any curve is detected. The README of tests/ has the commands.
 #pragma once
 
@@ -21,7 +21,7 @@ enum class Source {
 };
 
 struct Golden {
-    std::string name;     // name of curves/<name>.csv
+    std::string name;     // name of curves/<name>.h5
     std::string command;  // arguments of gearpod, from the project's top folder
     Source source = Source::csv;
     // Columns, JSON keys or dataset paths to keep; all columns of a CSV if empty. A dataset's
@@ -39,7 +39,7 @@ const std::vector<Golden>& goldens();
 Curves compute(const Golden& golden);
 
 std::string curves_path(const Golden& golden);
-// Reads the kept curves. Throws std::runtime_error if the file cannot be read.
+// Reads the kept curves. Throws std::runtime_error if the file is missing or damaged.
 Curves read_curves(const Golden& golden);
 void write_curves(const Golden& golden, const Curves& curves);
 

@@ -2,49 +2,42 @@
 #pragma once
 
 #include <catch2/catch.hpp>
-#include <fstream>
+#include <cmath>
 #include <map>
-#include <sstream>
+#include <memory>
 #include <string>
 #include <vector>
 
+#include "tests/reference_tables.hpp"
+
 namespace finite_elements {
 
-// A line of a table with cells by column name; cells may be empty.
+// A line of a table.
 class Row {
   public:
-    explicit Row(std::map<std::string, std::string> cells) : cells_(std::move(cells)) {}
-    const std::string& text(const std::string& column) const { return cells_.at(column); }
-    bool has(const std::string& column) const { return !text(column).empty(); }
-    double number(const std::string& column) const { return std::stod(text(column)); }
-    int count(const std::string& column) const { return std::stoi(text(column)); }
+    Row(std::shared_ptr<const gearpod::test::ReferenceTable> table, std::size_t row)
+        : table_(std::move(table)), row_(row) {}
+    const std::string& text(const std::string& column) const {
+        return table_->texts.at(column).at(row_);
+    }
+    double number(const std::string& column) const { return table_->numbers.at(column).at(row_); }
+    int count(const std::string& column) const {
+        const double number = this->number(column);
+        REQUIRE(number == std::round(number));
+        return static_cast<int>(number);
+    }
 
   private:
-    std::map<std::string, std::string> cells_;
+    std::shared_ptr<const gearpod::test::ReferenceTable> table_;
+    std::size_t row_;
 };
 
-inline std::vector<std::string> split(const std::string& line) {
-    std::vector<std::string> cells;
-    std::istringstream text(line + ",");
-    for (std::string cell; std::getline(text, cell, ',');)
-        cells.push_back(cell);
-    return cells;
-}
-
 inline std::vector<Row> table(const std::string& name) {
-    std::ifstream file(GEARPOD_SOURCE_DIR "/tests/peers/fem-gear-pairs/" + name);
-    std::string line;
-    REQUIRE(std::getline(file, line));
-    const std::vector<std::string> columns = split(line);
+    const auto all = std::make_shared<const gearpod::test::ReferenceTable>(
+        gearpod::test::reference_table("peers/fem-gear-pairs/" + name + ".h5"));
     std::vector<Row> rows;
-    while (std::getline(file, line)) {
-        const std::vector<std::string> cells = split(line);
-        REQUIRE(cells.size() == columns.size());
-        std::map<std::string, std::string> row;
-        for (std::size_t i = 0; i < columns.size(); ++i)
-            row[columns[i]] = cells[i];
-        rows.emplace_back(std::move(row));
-    }
+    for (std::size_t row = 0; row < all->numbers.begin()->second.size(); ++row)
+        rows.emplace_back(all, row);
     REQUIRE(!rows.empty());
     return rows;
 }

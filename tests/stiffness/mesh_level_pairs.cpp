@@ -144,7 +144,7 @@ double mean_of_rows(const LevelPair& pair, double compliance) {
     std::vector<double> more, fewer;
     const double ratio = pair.geometry.contact_ratio();
     const int most = static_cast<int>(std::floor(ratio)) + 1;
-    for (const finite_elements::Row& row : finite_elements::table("mesh.csv"))
+    for (const finite_elements::Row& row : finite_elements::table("mesh"))
         if (row.text("case") == pair.elements)
             (row.count("pairs") == most ? more : fewer)
                 .push_back(without(row.number("flank_N_m"), compliance));

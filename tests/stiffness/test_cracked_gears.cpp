@@ -98,7 +98,7 @@ double loss_of(const Row& row) {
     return 1 - row.number("cracked_N_m") / row.number("healthy_N_m");
 }
 
-// Spatial crack of a row of spatial.csv.
+// Spatial crack of a row of spatial.h5.
 CrackGrowth growth_of(const Row& row) {
     const auto metres = [&](const char* column) { return 1e-3 * row.number(column); };
     return {{metres("depth_mm")},
@@ -113,7 +113,7 @@ CrackGrowth growth_of(const Row& row) {
             16};
 }
 
-// A spatial crack of spatial.csv, and plane cracks of its local depths.
+// A spatial crack of spatial.h5, and plane cracks of its local depths.
 class SpatialCase {
   public:
     explicit SpatialCase(const Row& row)
@@ -158,13 +158,14 @@ class SpatialCase {
     std::vector<std::unique_ptr<const ToothFault>> plane_;
 };
 
-// Calls visit(row, case) for every row of spatial.csv; rows of one crack follow each other.
+// Calls visit(row, case) for every row of spatial.h5; rows of one crack follow each other.
 template <class Visit>
 void for_spatial_rows(Visit visit) {
     std::unique_ptr<SpatialCase> one;
     std::string before;
-    for (const Row& row : finite_elements::table("spatial.csv")) {
-        const std::string crack = row.text("tooth") + row.text("shape") + row.text("share");
+    for (const Row& row : finite_elements::table("spatial")) {
+        const std::string crack =
+            row.text("tooth") + row.text("shape") + std::to_string(row.number("share"));
         if (crack != before)
             one = std::make_unique<SpatialCase>(row);
         before = crack;
@@ -184,8 +185,8 @@ constexpr Profile kProfiles[] = {Profile::fillet, Profile::root_circle};
 
 TEST_CASE("a crack reduces the mesh stiffness as in finite elements, within 15 %", "[crack]") {
     int rows = 0;
-    for (const Row& row : finite_elements::table("cracks.csv")) {
-        INFO(row.text("tooth") << " " << row.text("profile") << ", " << row.text("share")
+    for (const Row& row : finite_elements::table("cracks")) {
+        INFO(row.text("tooth") << " " << row.text("profile") << ", " << row.number("share")
                                << " of the section, at " << position(row));
         const CrackedPair pair(row.text("tooth"), profile_named(row.text("profile")));
         const double depth_m = 1e-3 * row.number("depth_mm");
@@ -204,7 +205,7 @@ TEST_CASE("a spatial crack reduces the mesh stiffness as in solid elements, with
     // any support between slices, is an upper bound of the program's loss.
     int rows = 0;
     for_spatial_rows([&](const Row& row, const SpatialCase& one) {
-        INFO(row.text("tooth") << " " << row.text("shape") << ", " << row.text("share")
+        INFO(row.text("tooth") << " " << row.text("shape") << ", " << row.number("share")
                                << " of the section, at " << position(row));
         const double elements = loss_of(row), loss = one.loss(row);
         const bool shared = row.count("pairs") > 1;
@@ -313,13 +314,13 @@ TEST_CASE("a spatial crack of one depth equals the plane crack by fracture mecha
 
 TEST_CASE("loss of mesh stiffness by a crack, over the finite elements'", "[.fem]") {
     std::puts("| tooth | profile | share | at | elements % | fracture mechanics % | ratio |");
-    for (const Row& row : finite_elements::table("cracks.csv")) {
+    for (const Row& row : finite_elements::table("cracks")) {
         const CrackedPair pair(row.text("tooth"), profile_named(row.text("profile")));
         const double elements = loss_of(row),
                      loss = pair.loss(1e-3 * row.number("depth_mm"), position(row));
-        std::printf("| %s | %s | %s | %.3f of %d | %.2f | %.2f | %.3f |%s\n",
+        std::printf("| %s | %s | %g | %.3f of %d | %.2f | %.2f | %.3f |%s\n",
                     row.text("tooth").c_str(), row.text("profile").c_str(),
-                    row.text("share").c_str(), position(row), row.count("pairs"), 100 * elements,
+                    row.number("share"), position(row), row.count("pairs"), 100 * elements,
                     100 * loss, loss / elements,
                     std::abs(loss - elements) > margin_of(elements) ? " off" : "");
     }
@@ -332,8 +333,8 @@ TEST_CASE("loss of mesh stiffness by a spatial crack, over the solid finite elem
     for_spatial_rows([](const Row& row, const SpatialCase& one) {
         const double elements = loss_of(row), loss = one.loss(row);
         std::printf(
-            "| %s | %s | %s | %.3f of %d | %.2f | %.2f | %.2f | %.3f | %.2f | %.3f | %.3f |%s\n",
-            row.text("tooth").c_str(), row.text("shape").c_str(), row.text("share").c_str(),
+            "| %s | %s | %g | %.3f of %d | %.2f | %.2f | %.2f | %.3f | %.2f | %.3f | %.3f |%s\n",
+            row.text("tooth").c_str(), row.text("shape").c_str(), row.number("share"),
             position(row), row.count("pairs"), 100 * elements,
             100 * (1 - row.number("even_cracked_N_m") / row.number("even_healthy_N_m")), 100 * loss,
             loss / elements, 100 * one.mean_plane_loss(row), row.number("load_share"),

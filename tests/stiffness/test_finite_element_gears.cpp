@@ -83,7 +83,7 @@ std::vector<Row> rows_of(const std::string& file, const std::string& name) {
 }
 
 double force_of(const std::string& name) {
-    return rows_of("cases.csv", name).front().number("force_N");
+    return rows_of("cases", name).front().number("force_N");
 }
 
 // The least and the largest of a ratio.
@@ -100,7 +100,7 @@ struct Range {
 Range over_elements(const MeshStiffness& mesh, const std::string& name, int pairs,
                     const std::string& column = "flank_N_m") {
     Range range;
-    for (const Row& row : rows_of("mesh.csv", name))
+    for (const Row& row : rows_of("mesh", name))
         if (row.count("pairs") == pairs)
             range.add(total_at(mesh, row.number("phase")) / row.number(column));
     return range;
@@ -122,7 +122,7 @@ ToothRatios tooth_ratios(const std::string& name, int which) {
                         which == 1 ? c.held_1 : c.held_2);
     const double contact = 0.5 / hertz_stiffness(material);
     ToothRatios ratios;
-    for (const Row& row : rows_of("teeth.csv", name)) {
+    for (const Row& row : rows_of("teeth", name)) {
         if (row.count("gear") != which)
             continue;
         const double angle = c.geometry.contact_angle(which, row.number("tau"));
@@ -148,20 +148,20 @@ std::vector<Cracked> cracked_rows(const std::string& name) {
     const Case c = case_named(name);
     const ToothCrack cracks(c.geometry, test_pairs::kLiangSteel, c.profile, 1,
                             test_pairs::kCrackAngle);
-    const auto crack = cracks.at(1e-3 * rows_of("cases.csv", name).front().number("crack_mm"));
+    const auto crack = cracks.at(1e-3 * rows_of("cases", name).front().number("crack_mm"));
     const auto ring = model(c, FoundationModel::elastic_ring);
     const auto rigid = model(c, FoundationModel::none);
     const auto cracked_ring = ring->with_fault(*crack), cracked_rigid = rigid->with_fault(*crack);
-    std::map<std::string, double> healthy;
-    for (const Row& row : rows_of("mesh.csv", "liang-ring"))
-        healthy[row.text("phase")] = row.number("flank_N_m");
+    std::map<double, double> healthy;
+    for (const Row& row : rows_of("mesh", "liang-ring"))
+        healthy[row.number("phase")] = row.number("flank_N_m");
     std::vector<Cracked> rows;
-    for (const Row& row : rows_of("mesh.csv", name)) {
+    for (const Row& row : rows_of("mesh", name)) {
         const double phase = row.number("phase"), tau = phase + row.count("cracked");
         const double left = total_at(*cracked_ring, ring->transitions(), tau);
         rows.push_back(
             {phase, row.count("cracked"), row.count("pairs"),
-             row.number("flank_N_m") / healthy.at(row.text("phase")), left / total_at(*ring, phase),
+             row.number("flank_N_m") / healthy.at(row.number("phase")), left / total_at(*ring, phase),
              total_at(*cracked_rigid, rigid->transitions(), tau) / total_at(*rigid, phase),
              left / row.number("flank_N_m")});
     }
@@ -203,7 +203,7 @@ Helical helical_named(const std::string& name) {
 
 TEST_CASE("the finite elements' outlines are in contact where the program's gears are") {
     const std::vector<mesh_level::LevelPair> levels = mesh_level::all_pairs();
-    for (const Row& row : finite_elements::table("cases.csv")) {
+    for (const Row& row : finite_elements::table("cases")) {
         const std::string& name = row.text("case");
         const auto level = std::find_if(levels.begin(), levels.end(),
                                         [&](const auto& pair) { return pair.elements == name; });
@@ -290,7 +290,7 @@ TEST_CASE("the drop of the ring-planet mesh by a root circle below the base circ
         double formulas = 0, elements = 0, real = 0;
         int rows = 0;
     } zones[2];
-    for (const Row& row : finite_elements::table("drop.csv")) {
+    for (const Row& row : finite_elements::table("drop")) {
         const double phase = row.number("phase");
         const double formulas = 1 - total_at(root, phase) / total_at(base, phase);
         const double elements = 1 - row.number("root_centre_N_m") / row.number("base_centre_N_m");
@@ -324,10 +324,10 @@ TEST_CASE(
                                                    {"helix-20-wide", {0.932, 0.944, 1.045}},
                                                    {"helix-0.5", {0.977, 1.0, 1.036}},
                                                    {"helix-0.5-wide", {0.986, 1.0, 1.028}}};
-    for (const Row& row : finite_elements::table("helical.csv")) {
+    for (const Row& row : finite_elements::table("helical")) {
         if (row.text("what") != "mesh")
             continue;
-        INFO(row.text("case") << " at " << row.text("tau"));
+        INFO(row.text("case") << " at " << row.number("tau"));
         const Expected& as = expected.at(row.text("case"));
         const Helical h = helical_named(row.text("case"));
         const double at = row.number("tau"), helical = total_at(*h.helical, at),
@@ -382,7 +382,7 @@ TEST_CASE("remaining mesh stiffness of cracked gears", "[.fem]") {
 
 TEST_CASE("helical mesh stiffness over the solids'", "[.fem]") {
     std::puts("| case | phase | helical/solid | spur/slices | solid/slices | factors |");
-    for (const Row& row : finite_elements::table("helical.csv")) {
+    for (const Row& row : finite_elements::table("helical")) {
         if (row.text("what") != "mesh")
             continue;
         const Helical h = helical_named(row.text("case"));

@@ -1,12 +1,11 @@
 // Checks Liang (2016), section 3.7: 23/23 aluminium gears, healthy and with a crack of 4.7 mm,
 // against finite elements. Table and its computation: tests/peers/fem-liang-table-3-5/README.md.
 #include <catch2/catch.hpp>
-#include <fstream>
-#include <sstream>
 
 #include "stiffness/additive_mesh.hpp"
 #include "stiffness/coupled_mesh.hpp"
 #include "stiffness/faults/tooth_crack.hpp"
+#include "tests/reference_tables.hpp"
 #include "tests/stiffness/gear_pairs.hpp"
 
 namespace test_finite_elements {
@@ -24,22 +23,13 @@ struct Row {
 };
 
 std::vector<Row> finite_element_table() {
-    std::ifstream file(std::string(GEARPOD_SOURCE_DIR) +
-                       "/tests/peers/fem-liang-table-3-5/table.csv");
-    std::string line;
-    REQUIRE(std::getline(file, line));
-    REQUIRE(line ==
-            "phase,pairs,gears_N_m,cracked_entering_N_m,cracked_leaving_N_m,teeth_N_m,beams_N_m");
+    const auto numbers = test::reference_table("peers/fem-liang-table-3-5/table.h5").numbers;
     std::vector<Row> rows;
-    while (std::getline(file, line)) {
-        std::vector<double> values;
-        std::istringstream cells(line);
-        for (std::string cell; std::getline(cells, cell, ',');) {
-            values.push_back(cell.empty() ? 0.0 : std::stod(cell));
-        }
-        REQUIRE(values.size() == 7);
-        rows.push_back({values[0], static_cast<int>(values[1]), values[2], values[3], values[4],
-                        values[5], values[6]});
+    for (std::size_t i = 0; i < numbers.at("phase").size(); ++i) {
+        const auto cell = [&](const char* column) { return numbers.at(column)[i]; };
+        rows.push_back({cell("phase"), static_cast<int>(cell("pairs")), cell("gears_N_m"),
+                        cell("cracked_entering_N_m"), cell("cracked_leaving_N_m"),
+                        cell("teeth_N_m"), cell("beams_N_m")});
     }
     REQUIRE(rows.size() == 10);
     return rows;

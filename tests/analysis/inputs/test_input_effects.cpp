@@ -25,7 +25,7 @@ HitMissPod pod_of_form(const PodForm& form, double smallest, double largest) {
 }
 
 TEST_CASE("Test and a90 map agree with statsmodels and Fieller's bounds") {
-    const auto columns = reference_columns("inputs_300.csv");
+    const auto columns = reference_columns("inputs_300");
     const std::vector<int> hit(columns[2].begin(), columns[2].end());
     const HitMissPod pod = pod_of_form({Link::logit, false, 0.0, false}, 0.1, 20.0);
     const InputEffects result =

@@ -2,14 +2,36 @@
 #pragma once
 
 #include <cmath>
+#include <fstream>
+#include <sstream>
+#include <stdexcept>
+#include <string>
 
 #include "analysis/inspection.hpp"
-#include "tests/analysis/reference_data.hpp"
 
 namespace gearpod::analysis {
 
+// Columns of a table that is also an input of the command `pod`; its first line is a heading.
+inline std::vector<std::vector<double>> table_columns(const std::string& name) {
+    std::ifstream file(GEARPOD_TESTS_DIR "/analysis/reference/" + name);
+    std::string line;
+    if (!std::getline(file, line)) {
+        throw std::runtime_error("cannot read the table " + name);
+    }
+    std::vector<std::vector<double>> columns;
+    while (std::getline(file, line)) {
+        std::istringstream cells(line);
+        std::string cell;
+        for (std::size_t c = 0; std::getline(cells, cell, ','); ++c) {
+            columns.resize(std::max(columns.size(), c + 1));
+            columns[c].push_back(std::stod(cell));
+        }
+    }
+    return columns;
+}
+
 inline Inspections hits(bool repeated) {
-    const auto columns = reference_columns("inspections_hits.csv");
+    const auto columns = table_columns("inspections_hits.csv");
     Inspections data{columns[1], columns[2], {}};
     for (std::size_t i = 0; i < columns[0].size(); ++i) {
         data.specimen.push_back(repeated ? std::lround(columns[0][i]) : static_cast<long>(i));
@@ -18,7 +40,7 @@ inline Inspections hits(bool repeated) {
 }
 
 inline Inspections responses(bool repeated) {
-    const auto columns = reference_columns("inspections_responses.csv");
+    const auto columns = table_columns("inspections_responses.csv");
     Inspections data;
     for (std::size_t i = 0; i < columns[0].size(); ++i) {
         for (std::size_t m = 2; m < (repeated ? 5 : 3); ++m) {

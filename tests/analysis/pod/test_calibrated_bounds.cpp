@@ -202,7 +202,7 @@ TEST_CASE("A curve is fitted where no line passes the checks") {
 }
 
 TEST_CASE("The documented coverage is that printed next to the bounds") {
-    std::ifstream stream(GEARPOD_REFERENCE_DIR "/../../../docs/validation/coverage.md");
+    std::ifstream stream(GEARPOD_TESTS_DIR "/../docs/validation/coverage.md");
     const std::string page(std::istreambuf_iterator<char>(stream), {});
     for (const MeasuredCoverage& row : kMeasuredCoverage) {
         const std::string line = fmt::format("| {} | {} | {} | {} | {} |", row.kind, row.specimens,

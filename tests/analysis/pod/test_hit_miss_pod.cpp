@@ -15,12 +15,12 @@ namespace {
 using Where = SizeEstimate::Where;
 
 HitMissTable targets() {
-    const auto columns = reference_columns("hit_miss_60.csv");
+    const auto columns = reference_columns("hit_miss_60");
     return hit_miss_table(columns[0], std::vector<char>(columns[1].begin(), columns[1].end()));
 }
 
 HitMissTable levels() {
-    const auto columns = reference_columns("hit_miss_levels.csv");
+    const auto columns = reference_columns("hit_miss_levels");
     HitMissTable table;
     for (std::size_t i = 0; i < columns[0].size(); ++i) {
         table.push_back({columns[0][i], columns[1][i], columns[2][i]});

@@ -60,7 +60,7 @@ TEST_CASE("Lines and checks agree with statsmodels on the standard's a-hat examp
                          {1.111504673, 0.294608836},
                          {3.98890609, 0.04580079021},
                          {4.686209623, 1.060484516e-11}}};
-    const auto columns = reference_columns("ahat_92.csv");
+    const auto columns = reference_columns("ahat_92");
     for (const Row& row : rows) {
         const auto x = row.log_size ? logs(columns[0]) : columns[0];
         const auto y = row.log_response ? logs(columns[1]) : columns[1];
@@ -80,7 +80,7 @@ TEST_CASE("Lines and checks agree with statsmodels on the standard's a-hat examp
 }
 
 TEST_CASE("A POD from a line with normal scatter agrees with statsmodels and the delta method") {
-    const auto columns = reference_columns("line_60.csv");
+    const auto columns = reference_columns("line_60");
     const SignalResponsePod pod =
         signal_response_pod(columns[0], columns[1], {2.0, Alarm::high, 0.95});
     CHECK(pod.refusal == "");
@@ -97,7 +97,7 @@ TEST_CASE("A POD from a line with normal scatter agrees with statsmodels and the
 }
 
 TEST_CASE("A low alarm on the reciprocal gives the same detector") {
-    const auto columns = reference_columns("line_60.csv");
+    const auto columns = reference_columns("line_60");
     std::vector<double> reciprocal;
     for (const double value : columns[1]) {
         reciprocal.push_back(1.0 / value);

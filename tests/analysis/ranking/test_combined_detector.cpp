@@ -38,7 +38,7 @@ struct Study {
 };
 
 TEST_CASE("The combined detector agrees with scikit-learn on the same halves") {
-    const auto columns = reference_columns("combined_600.csv");
+    const auto columns = reference_columns("combined_600");
     Study study(3, {0.0, 1.0, 2.0});
     study.request.false_alarm_rate = 0.1;
     for (std::size_t i = 0; i < columns[0].size(); ++i) {

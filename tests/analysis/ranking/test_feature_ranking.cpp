@@ -127,7 +127,7 @@ struct Columns {
 };
 
 Columns reference() {
-    const auto columns = reference_columns("features_40.csv");
+    const auto columns = reference_columns("features_40");
     Columns out;
     for (std::size_t i = 0; i < columns[0].size(); ++i) {
         for (std::size_t f = 0; f < 3; ++f) {

@@ -1,14 +1,20 @@
 """Probabilities of the noncentral F law by adaptive integration in scipy (python3-scipy), for any
-noncentrality.
+noncentrality. Writes noncentral_f.h5.
 
-    cd tests/analysis/reference && python3 make_noncentral_f_reference.py > noncentral_f.csv
+    cd tests/analysis/reference && /usr/bin/python3 make_noncentral_f_reference.py
 
 The numerator is (root(noncentrality) + z)^2 + c with z normal and c chi-squared with one degree of
 freedom less. Its probability for a denominator y is integrated over y through its normal-like root,
 with scipy's own functions (Cephes and cdflib).
 """
+import pathlib
+import sys
+
 import numpy as np
 from scipy import integrate, special
+
+sys.path.append(str(pathlib.Path(__file__).resolve().parents[2]))
+from reference_tables import TableFile
 
 
 def numerator_cdf(x, freedom, noncentrality):
@@ -33,10 +39,11 @@ def cdf(f, d1, d2, noncentrality):
     return integrate.quad(slice_at, low, high, points=points or None, epsabs=1e-12, epsrel=1e-11, limit=400)[0]
 
 
-print("f,numerator_degrees,denominator_degrees,noncentrality,probability")
-for d1, d2 in ((4, 15), (11, 188), (42, 9957)):
-    for noncentrality in (50.0, 3e3, 9e4, 1.5e6, 1e7, 1e9, 1e10):
-        for scale in (-1.5, 0.0, 1.0):
-            spread = np.sqrt(2 / d2 + (4 * noncentrality + 2 * d1) / (noncentrality + d1) ** 2)
-            f = float(f"{(noncentrality + d1) / d1 * np.exp(scale * spread):.10g}")
-            print(f"{f!r},{d1},{d2},{noncentrality:g},{cdf(f, d1, d2, noncentrality):.10g}")
+with TableFile("noncentral_f.h5", "adaptive integration in scipy", " ".join(sys.argv)) as table:
+    table.write("f,numerator_degrees,denominator_degrees,noncentrality,probability\n")
+    for d1, d2 in ((4, 15), (11, 188), (42, 9957)):
+        for noncentrality in (50.0, 3e3, 9e4, 1.5e6, 1e7, 1e9, 1e10):
+            for scale in (-1.5, 0.0, 1.0):
+                spread = np.sqrt(2 / d2 + (4 * noncentrality + 2 * d1) / (noncentrality + d1) ** 2)
+                f = float(f"{(noncentrality + d1) / d1 * np.exp(scale * spread):.10g}")
+                table.write(f"{f!r},{d1},{d2},{noncentrality:g},{cdf(f, d1, d2, noncentrality):.10g}\n")

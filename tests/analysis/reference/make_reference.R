@@ -1,26 +1,29 @@
 # Reference numbers for tests/analysis from R and pROC (Robin et al., BMC Bioinformatics 12 (2011), 77):
 #   cd tests/analysis/reference && Rscript make_reference.R > reference_R.txt
-# hit_miss_60.csv: the 60-target set of the US Air Force Research Laboratory's POD 4.5
+# hit_miss_60.h5: the 60-target set of the US Air Force Research Laboratory's POD 4.5
 #   (github.com/AFRL-Material-State-Awareness/POD4.5, HitMissData_Good_1.csv); its results file gives
 #   for the logit on size: intercept -11.83265105, slope 45.30678376, a90 0.309663906,
 #   AIC 28.45673968 and, by Wald, a90/95 0.381546911.
-# hit_miss_levels.csv, features_40.csv: drawn once by this script.
+# hit_miss_levels.h5, features_40.h5: drawn once by this script.
 options(digits = 12)
 say <- function(name, ...) cat(name, format(c(...), digits = 10), "\n")
+tables <- "/usr/bin/python3 ../../reference_tables.py"
+read <- function(name) read.csv(pipe(paste(tables, name)))
+write <- function(data, name)
+  write.csv(data, pipe(paste(tables, name, "'drawn once by R' 'Rscript make_reference.R'")), row.names = FALSE, quote = FALSE)
 
 set.seed(20)
 sizes <- c(0.5, 1, 1.5, 2, 3, 4.28)
 pod <- 0.05 + (0.97 - 0.05) * plogis(-6 + 3.2 * sizes)
 levels <- data.frame(size = sizes, hits = rbinom(6, 400, pod), tests = 400)
-if (!file.exists("hit_miss_levels.csv")) write.csv(levels, "hit_miss_levels.csv", row.names = FALSE, quote = FALSE)
-levels <- read.csv("hit_miss_levels.csv")
-if (!file.exists("features_40.csv")) {
+if (!file.exists("hit_miss_levels.h5")) write(levels, "hit_miss_levels.h5")
+levels <- read("hit_miss_levels.h5")
+if (!file.exists("features_40.h5")) {
   faulty <- rep(0:1, each = 20)
   common <- rnorm(40)
-  write.csv(data.frame(faulty, a = round(faulty + common + rnorm(40), 1),
-                       b = round(0.7 * faulty + common + rnorm(40), 1),
-                       c = round(rnorm(40) + 0.3 * faulty, 1)),
-            "features_40.csv", row.names = FALSE, quote = FALSE)
+  write(data.frame(faulty, a = round(faulty + common + rnorm(40), 1),
+                   b = round(0.7 * faulty + common + rnorm(40), 1),
+                   c = round(rnorm(40) + 0.3 * faulty, 1)), "features_40.h5")
 }
 
 # Upper and lower one-sided 95 % likelihood-ratio bounds of the size with POD p: the curve passes
@@ -38,7 +41,7 @@ bounds <- function(x, y, n, link, p) {
   c(uniroot(beyond, c(min(x), at), tol = 1e-11)$root, at, uniroot(beyond, c(at, max(x)), tol = 1e-11)$root)
 }
 
-targets <- read.csv("hit_miss_60.csv")
+targets <- read("hit_miss_60.h5")
 for (link in c("logit", "probit")) for (scale in c("size", "log_size")) {
   x <- if (scale == "size") targets$size else log(targets$size)
   fit <- glm(targets$hit ~ x, family = binomial(link), control = list(epsilon = 1e-14))
@@ -84,7 +87,7 @@ say("levels floor POD at 2", curve(c(uniroot(beyond, c(eta2 - 1, eta2), tol = 1e
     curve(c(eta2, 0, 1), 0, 0.05), curve(c(uniroot(beyond, c(eta2, eta2 + 1), tol = 1e-9)$root, 0, 1), 0, 0.05))
 
 suppressMessages(library(pROC))
-features <- read.csv("features_40.csv")
+features <- read("features_40.h5")
 rocs <- lapply(c("a", "b", "c"), function(f) roc(features$faulty, features[[f]], direction = "<", quiet = TRUE))
 for (i in 1:3) say(paste("features auc variance", c("a", "b", "c")[i]), auc(rocs[[i]]), var(rocs[[i]], method = "delong"))
 for (pair in list(c(1, 2), c(1, 3), c(2, 3))) {

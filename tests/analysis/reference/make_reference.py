@@ -2,16 +2,23 @@
 
     cd tests/analysis/reference && python3 make_reference.py > reference_py.txt
 
-ahat_92.csv: Example 1 of MIL-HDBK-1823A (a-hat against a), from the US Air Force Research
+ahat_92.h5: Example 1 of MIL-HDBK-1823A (a-hat against a), from the US Air Force Research
 Laboratory's POD 4.5 (github.com/AFRL-Material-State-Awareness/POD4.5,
 ahat_vs_a_1823_Example1_LogY.csv); sizes in 1e-3 inch.
 """
+import os
+import pathlib
+import sys
+
 import numpy as np
 import statsmodels.api as sm
 from scipy import stats
 from statsmodels.stats.diagnostic import het_breuschpagan, normal_ad
 
-size, ahat = np.loadtxt("ahat_92.csv", delimiter=",", skiprows=1, unpack=True)
+sys.path.append(str(pathlib.Path(__file__).resolve().parents[2]))
+from reference_tables import TableFile, read_table
+
+size, ahat = read_table("ahat_92.h5").values()
 
 
 def say(name, *values):
@@ -57,15 +64,14 @@ for log_size in (False, True):
         say(f"{name} aic with jacobian", -2 * fit.llf + 6 + (2 * np.log(ahat).sum() if log_response else 0))
 
 # The standard's own example is curved on all scales according to these tests. Bounds are therefore
-# compared on line_60.csv, generated once: log response on log size.
-import os
-if not os.path.exists("line_60.csv"):
+# compared on line_60.h5, generated once: log response on log size.
+if not os.path.exists("line_60.h5"):
     rng = np.random.default_rng(4)
     drawn = rng.uniform(0.5, 4.0, 60)
     response = np.exp(0.3 + 1.1 * np.log(drawn) + 0.25 * rng.standard_normal(60))
-    np.savetxt("line_60.csv", np.column_stack([drawn, response]), delimiter=",", fmt="%.6g",
-               header="size,response", comments="")
-size, ahat = np.loadtxt("line_60.csv", delimiter=",", skiprows=1, unpack=True)
+    with TableFile("line_60.h5", "drawn once by numpy: log response on log size", " ".join(sys.argv)) as table:
+        np.savetxt(table, np.column_stack([drawn, response]), delimiter=",", fmt="%.6g", header="size,response", comments="")
+size, ahat = read_table("line_60.h5").values()
 x, y = np.log(size), np.log(ahat)
 fit = sm.OLS(y, sm.add_constant(x)).fit()
 say("line threshold 2 a50", *bounds(fit, x, np.log(2.0), 0.5, np.exp))

@@ -3,10 +3,12 @@ scikit-learn and scipy (python3-statsmodels, python3-sklearn).
 
     cd tests/analysis/reference && python3 make_robustness_reference.py > robustness_py.txt
 
-inputs_300.csv (size, input, hit) and combined_600.csv (group 0: threshold sample, 1: graded; size;
+inputs_300.h5 (size, input, hit) and combined_600.h5 (group 0: threshold sample, 1: graded; size;
 three features) were generated once by this script.
 """
 import os
+import pathlib
+import sys
 
 import numpy as np
 import statsmodels.api as sm
@@ -14,30 +16,35 @@ from scipy import optimize, stats
 from sklearn.linear_model import LogisticRegression
 from sklearn.metrics import roc_auc_score
 
+sys.path.append(str(pathlib.Path(__file__).resolve().parents[2]))
+from reference_tables import TableFile, read_table
+
 
 def say(name, *values):
     print(name, *(f"{v:.10g}" for v in values))
 
 
 rng = np.random.default_rng(12)
-if not os.path.exists("inputs_300.csv"):
+if not os.path.exists("inputs_300.h5"):
     size, z = rng.uniform(0.5, 4.0, 300), rng.normal(10.0, 2.0, 300)
     p = 1 / (1 + np.exp(-(-4.0 + 2.0 * size + 0.4 * (z - 10))))
-    np.savetxt("inputs_300.csv", np.column_stack([size, z, rng.random(300) < p]), delimiter=",", fmt="%.6g",
-               header="size,input,hit", comments="")
-if not os.path.exists("combined_600.csv"):
+    with TableFile("inputs_300.h5", "drawn once by numpy", " ".join(sys.argv)) as table:
+        np.savetxt(table, np.column_stack([size, z, rng.random(300) < p]), delimiter=",", fmt="%.6g",
+                   header="size,input,hit", comments="")
+if not os.path.exists("combined_600.h5"):
     group = np.repeat([0, 1], [240, 360])
     a = np.where(group == 1, np.tile([0.0, 1.0, 2.0], 200), 0.0)
     common = rng.standard_normal(600)
     features = np.exp(np.column_stack([0.5 * a + 0.9 * common + 0.6 * rng.standard_normal(600),
                                        -common + 0.5 * rng.standard_normal(600) - 0.2 * a,
                                        rng.standard_normal(600)]))
-    np.savetxt("combined_600.csv", np.column_stack([group, a, features]), delimiter=",", fmt="%.6g",
-               header="group,size,f1,f2,f3", comments="")
+    with TableFile("combined_600.h5", "drawn once by numpy", " ".join(sys.argv)) as table:
+        np.savetxt(table, np.column_stack([group, a, features]), delimiter=",", fmt="%.6g",
+                   header="group,size,f1,f2,f3", comments="")
 
 # Likelihood ratio of a quadratic in the input in addition to the size, and a90 with Fieller's
 # bounds.
-size, z, hit = np.loadtxt("inputs_300.csv", delimiter=",", skiprows=1, unpack=True)
+size, z, hit = read_table("inputs_300.h5").values()
 full = sm.GLM(hit, np.column_stack([np.ones(300), size, z, z * z]), family=sm.families.Binomial()).fit(tol=1e-13)
 less = sm.GLM(hit, np.column_stack([np.ones(300), size]), family=sm.families.Binomial()).fit(tol=1e-13)
 ratio = 2 * (full.llf - less.llf)
@@ -51,7 +58,7 @@ for value in np.quantile(z, [0.05, 0.25, 0.5, 0.75, 0.95]):
         *(optimize.brentq(beyond, 0.0, 20.0, args=(sign,), xtol=1e-12) for sign in (1, 0, -1)))
 
 # The combined detector: same split, scores, penalty.
-group, a, *features = np.loadtxt("combined_600.csv", delimiter=",", skiprows=1, unpack=True)
+group, a, *features = read_table("combined_600.h5").values()
 features = np.column_stack(features)
 
 

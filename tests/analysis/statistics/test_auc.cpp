@@ -18,7 +18,7 @@ struct Sample {
 };
 
 Sample feature(std::size_t column) {
-    const auto columns = reference_columns("features_40.csv");
+    const auto columns = reference_columns("features_40");
     Sample sample;
     for (std::size_t i = 0; i < columns[0].size(); ++i) {
         (columns[0][i] != 0.0 ? sample.faulty : sample.healthy).push_back(columns[column][i]);

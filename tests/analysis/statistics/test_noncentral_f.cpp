@@ -18,7 +18,7 @@ using namespace gearpod::analysis;
 namespace {
 
 TEST_CASE("the noncentral F law agrees with its integral up to a noncentrality of 1e10") {
-    const auto reference = reference_columns("noncentral_f.csv");
+    const auto reference = reference_columns("noncentral_f");
     REQUIRE(reference[0].size() == 63);
     for (std::size_t i = 0; i < reference[0].size(); ++i) {
         CAPTURE(i, reference[0][i], reference[1][i], reference[2][i], reference[3][i]);

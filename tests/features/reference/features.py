@@ -1,19 +1,22 @@
 #!/usr/bin/python3
 """Every feature of the gearbox of small.toml from its definition, with numpy alone.
 
-    features.py SIGNAL.csv HEALTHY.csv ... > expected.json
-    features.py --change SIGNAL.csv BASELINE.csv > expected-change.json
+    features.py SIGNAL.h5 HEALTHY.h5 ... > expected.json
+    features.py --change SIGNAL.h5 BASELINE.h5 > expected-change.json
 
 Columns mesh_phase, sensor (m/s^2) and te (rad); P samples per mesh period.
 """
-import csv
 import json
+import pathlib
 import sys
 
 import numpy as np
 
 from parts import (P, P_TE, PLANETS, TAPER, TE_HARMONICS, ZP, ZR, ZS, averaged, moment, rms,
                    separate, tukey)
+
+sys.path.append(str(pathlib.Path(__file__).resolve().parents[2]))
+from reference_tables import read_table
 
 
 def tooth_signals(y, teeth, turns, offset):
@@ -337,20 +340,12 @@ def change_features(y, baseline):
     return out | {name: teeth[name] for name in ("change_window_ratio", "change_window_z")}
 
 
-def columns(path):
-    with open(path, newline="") as file:
-        rows = list(csv.reader(file))
-    names = [name.split("[")[0].strip() for name in rows[0]]
-    values = np.array(rows[1:], float)
-    return {name: values[:, i] for i, name in enumerate(names)}
-
-
 def main(arguments):
     if arguments[0] == "--change":
-        now, before = (columns(path)["sensor"] for path in arguments[1:])
+        now, before = (read_table(path)["sensor"] for path in arguments[1:])
         print(json.dumps(change_features(now, before), indent=1))
         return
-    signal, healthy = columns(arguments[0]), [columns(path)["sensor"] for path in arguments[1:]]
+    signal, healthy = read_table(arguments[0]), [read_table(path)["sensor"] for path in arguments[1:]]
     out = te_features(signal["te"]) | sensor_features(signal["sensor"], healthy)
     print(json.dumps(out, indent=1))
 

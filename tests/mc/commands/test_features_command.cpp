@@ -80,9 +80,9 @@ std::vector<double> simulated_feature(const std::string& path, const std::string
 
 // Definitions in numpy on stored signals: tests/features/reference/README.md.
 TEST_CASE("Every feature equals the numpy result for the same signals") {
-    const auto result = features_of(kReference + "faulty.csv", kSmall + " --healthy " + kReference +
-                                                                   "healthy-1.csv --healthy " +
-                                                                   kReference + "healthy-2.csv");
+    const auto result = features_of(kReference + "faulty.h5", kSmall + " --healthy " + kReference +
+                                                                   "healthy-1.h5 --healthy " +
+                                                                   kReference + "healthy-2.h5");
     std::ifstream stream(kReference + "expected.json");
     const auto expected = nlohmann::json::parse(stream);
     CHECK(result["unavailable"].empty());

@@ -97,8 +97,8 @@ TEST_CASE("A measured baseline gives the result of the simulated one, for any st
 TEST_CASE("Features of the change equal the numpy result for the same signals") {
     const std::string reference = std::string(GEARPOD_SOURCE_DIR) + "/tests/features/reference/";
     const Outcome outcome =
-        program("features " + reference + "faulty.csv --study " + reference +
-                "small.toml --baseline " + reference + "healthy-1.csv --json -");
+        program("features " + reference + "faulty.h5 --study " + reference +
+                "small.toml --baseline " + reference + "healthy-1.h5 --json -");
     INFO(outcome.output);
     REQUIRE(outcome.code == 0);
     const auto result = nlohmann::json::parse(outcome.output)["features"];

@@ -1,15 +1,18 @@
 #!/usr/bin/env python3
-"""Corner contact of involute pairs by geometry alone: gap outside the path of contact (gap.csv), and loaded
-transmission error and load share through the change-over (loaded.csv). Tables of README.md."""
+"""Corner contact of involute pairs by geometry alone: gap outside the path of contact (gap.h5), and loaded
+transmission error and load share through the change-over (loaded.h5). Tables of README.md."""
 import csv
 import math
 import pathlib
+import sys
 
 import numpy as np
 
 from gear_mesh import Gear, GearPair, MeshTable, planetary_pairs
 
 HERE = pathlib.Path(__file__).resolve().parent
+sys.path.append(str(HERE.parents[1]))
+from reference_tables import TableFile
 LIANG = planetary_pairs(3.175e-3, (19, 31, 81))
 
 
@@ -50,37 +53,42 @@ def pairs():
             "27/35 external": bell[0], "35/99 internal": bell[1]}
 
 
-def write_gaps(path):
-    with open(path, "w", newline="") as file:
+def table_file(name):
+    return TableFile(HERE / name, "geometry and quadrature (gear_mesh.py) of tests/peers/corner-contact, see its README.md",
+                     " ".join(sys.argv))
+
+
+def write_gaps(name):
+    with table_file(name) as file:
         table = csv.writer(file)
         table.writerow(["pair", "base_pitches_outside", "gap_before_start_um", "gap_after_end_um",
                         "before_um_at_one_path", "after_um_at_one_path"])
-        for name, pair in pairs().items():
+        for label, pair in pairs().items():
             for t in (0.005, 0.01, 0.02, 0.03, 0.05, 0.075, 0.1, 0.15, 0.2, 0.25, 0.3, 0.4, 0.5):
                 outside = t * pair.base_pitch
                 before, after = pair.gap(pair.start - outside), pair.gap(pair.end + outside)
                 path_share = (outside / pair.path_length)**2
-                table.writerow([name, t] + [f"{1e6 * v:.5f}" for v in (before, after)]
+                table.writerow([label, t] + [f"{1e6 * v:.5f}" for v in (before, after)]
                                + [f"{1e6 * v / path_share:.1f}" for v in (before, after)])
 
 
-def write_loaded(path, phases=400):
+def write_loaded(name, phases=400):
     rb = LIANG[0].one.base
     phase = (np.arange(phases) + 0.5) / phases
-    with open(path, "w", newline="") as file:
+    with table_file(name) as file:
         table = csv.writer(file)
         table.writerow(["pair", "onset", "torque_N_m", "phase", "deflection_um", "share_tau_is_phase_minus_1",
                         "share_tau_is_phase", "share_tau_is_phase_plus_1", "share_tau_is_phase_plus_2"])
-        for name in ("19/31 external", "31/81 internal"):
+        for pair in ("19/31 external", "31/81 internal"):
             for onset in ("abrupt", "extended"):
-                mesh = MeshTable(pairs()[name], onset)
+                mesh = MeshTable(pairs()[pair], onset)
                 for torque in (429.0, 3000.0):
                     d, force = mesh.deflection(phase, torque / 4 / rb)
                     share = force / force.sum(1, keepdims=True)
                     for row in zip(phase, d, *share.T):
-                        table.writerow([name, onset, torque] + [f"{row[0]:.5f}", f"{1e6 * row[1]:.6f}"]
+                        table.writerow([pair, onset, torque] + [f"{row[0]:.5f}", f"{1e6 * row[1]:.6f}"]
                                        + [f"{v:.6f}" for v in row[2:]])
-                    print(f"{name:15} {onset:8} {torque:6.0f} N m: mean {1e6 * d.mean():.4f} um, peak to peak "
+                    print(f"{pair:15} {onset:8} {torque:6.0f} N m: mean {1e6 * d.mean():.4f} um, peak to peak "
                           f"{1e6 * np.ptp(d):.4f} um, steepest {1e6 * np.abs(np.diff(d)).max() * phases:.2f} um a period, "
                           f"one pair alone {(share.max(1) > 1 - 1e-9).mean():.3f} of the time")
 
@@ -93,5 +101,5 @@ if __name__ == "__main__":
         print(f"{name:15} contact ratio {pair.contact_ratio:.4f}, path {1e3 * pair.path_length:.4f} mm, working angle "
               f"{math.degrees(pair.working_angle):.4f} deg; gap at one path length {limit[0]:.0f} before, {limit[1]:.0f} um after "
               f"(closed form, in the limit: {closed[0]:.0f}, {closed[1]:.0f})")
-    write_gaps(HERE / "gap.csv")
-    write_loaded(HERE / "loaded.csv")
+    write_gaps("gap.h5")
+    write_loaded("loaded.h5")

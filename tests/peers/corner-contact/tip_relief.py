@@ -1,15 +1,13 @@
 #!/usr/bin/env python3
-"""Long and short tip relief against transmission error (relief.csv): the classical rules (Munro; Smith, Gear Noise
+"""Long and short tip relief against transmission error (relief.h5): the classical rules (Munro; Smith, Gear Noise
 and Vibration) with abrupt and with corner contact, teeth without and with index errors."""
 import csv
-import pathlib
 
 import numpy as np
 
-from corner_contact import pairs
+from corner_contact import pairs, table_file
 from gear_mesh import MeshTable, Relief
 
-HERE = pathlib.Path(__file__).resolve().parent
 PERIODS, PHASES, SEEDS = 20, 100, 4
 
 
@@ -46,7 +44,7 @@ def main():
                             median, most = peak_to_peak(mesh, load * force, error)
                             rows.append([name, onset, kind, f"{1e3 * length:.4f}", f"{1e6 * amount:.4f}", share, load,
                                          1e6 * error, f"{1e6 * median:.4f}", f"{1e6 * most:.4f}"])
-    with open(HERE / "relief.csv", "w", newline="") as file:
+    with table_file("relief.h5") as file:
         table = csv.writer(file)
         table.writerow(["pair", "onset", "relief", "length_mm", "amount_um", "amount_over_deflection_of_one_pair",
                         "load_over_design", "index_error_um_rms_per_flank", "median_peak_to_peak_um", "largest_um"])

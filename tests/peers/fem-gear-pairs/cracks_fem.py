@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Mesh stiffness with a cracked tooth by plane finite elements: README.md.
 
-Usage: cracks_fem.py [--size F] [--folder DIR] [--only CASE ...]. Writes cracks.csv. A case is one
+Usage: cracks_fem.py [--size F] [--folder DIR] [--only CASE ...]. Writes cracks.h5. A case is one
 gear of a set, the mate that loads its cracked flank, and the profile of both.
 """
 import argparse
@@ -12,7 +12,7 @@ import os
 import numpy as np
 
 from pairs_fem import CRACK_ANGLE, MODULE, STEEL, bell, gear_geometry, phases, put, stiffness
-from plane_fem import many_compliances
+from plane_fem import many_compliances, table_file
 from teeth import Contact, Gear, Pair
 
 SHARES = (0.1, 0.25, 0.4, 0.6)  # relative to the critical section
@@ -94,7 +94,7 @@ def main():
     parser.add_argument("--only", nargs="*", help="cases, such as sun-fillet")
     parser.add_argument("--shares", nargs="*", type=float, default=SHARES)
     chosen = parser.parse_args()
-    with open(os.path.join(chosen.folder, "cracks.csv"), "w") as table:
+    with table_file(os.path.join(chosen.folder, "cracks.h5")) as table:
         put(table, "tooth,profile,share,depth_mm,phase,pairs,cracked,healthy_N_m,cracked_N_m")
         for tooth, (mate, which, profiles) in TEETH.items():
             for profile in profiles:

@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 """Helical pairs as solids against thin slices, by finite elements (gmsh, CalculiX's matrices,
-scipy's solver): README.md. Writes helical.csv.
+scipy's solver): README.md. Writes helical.h5.
 
-Usage: helical_fem.py [--size F] [--layers N] [--out helical.csv] [--only CASE]
+Usage: helical_fem.py [--size F] [--layers N] [--out helical.h5] [--only CASE]
 
 solid: the drawn gears; slices: mean over the slices in contact; _weber: with Weber and Banaschek's
 contact instead of the linear one. Lengths in mm, forces in N; stiffness in N/m.
@@ -17,7 +17,7 @@ import scipy.sparse as sparse
 from scipy.sparse.linalg import splu
 
 from pairs_fem import linear_hertz, tooth_outline
-from plane_fem import Geometry, Mesh, run_ccx
+from plane_fem import Geometry, Mesh, run_ccx, table_file
 from teeth import Contact, Gear, Pair, weber
 
 
@@ -329,15 +329,14 @@ if __name__ == "__main__":
     parser = argparse.ArgumentParser()
     parser.add_argument("--size", type=float, default=1.0, help="factor on the section's elements")
     parser.add_argument("--layers", type=int, help="instead of the case's own")
-    parser.add_argument("--out", default="helical.csv")
+    parser.add_argument("--out", default="helical.h5")
     parser.add_argument("--only", choices=sorted(CASES))
     chosen = parser.parse_args()
-    with open(chosen.out, "w") as f:
+    with table_file(chosen.out) as f:
         f.write("case,what,tau,solid_N_m,slices_N_m,solid_weber_N_m,slices_weber_N_m\n")
         for name in [chosen.only] if chosen.only else CASES:
             for what, tau, solid, slices in rows(name, chosen.size,
                                                   chosen.layers or CASES[name][1]):
                 values = ",".join(f"{v[i]:.6g}" for i in (0, 1) for v in (solid, slices))
                 f.write(f"{name},{what},{tau:.6f},{values}\n")
-                f.flush()
                 print(name, what, f"{tau:.4f}", values, solid / slices, flush=True)

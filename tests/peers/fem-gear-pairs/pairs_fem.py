@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 """Mesh and tooth stiffness of spur pairs by plane finite elements (gmsh, CalculiX): README.md.
 
-Usage: pairs_fem.py [--size F] [--folder DIR] [--only pairs|drop|checks]. Writes cases.csv, mesh.csv,
-teeth.csv and drop.csv. Lengths in mm, forces in N; stiffness in N/m, compliance in m/N.
+Usage: pairs_fem.py [--size F] [--folder DIR] [--only pairs|drop|checks]. Writes cases.h5, mesh.h5,
+teeth.h5 and drop.h5. Lengths in mm, forces in N; stiffness in N/m, compliance in m/N.
 """
 import argparse
 import functools
@@ -11,7 +11,7 @@ import os
 
 import numpy as np
 
-from plane_fem import Geometry, compliance
+from plane_fem import Geometry, compliance, table_file
 from teeth import (TRANSVERSE_ANGLE, Contact, Gear, Pair, inverse_involute, involute, shifts_for,
                    turned, weber)
 
@@ -296,8 +296,7 @@ def healthy_rows(size, name, pair, mesh, teeth):
 
 def put(file, line):
     file.write(line + "\n")
-    file.flush()
-    print(line)
+    print(line, flush=True)
 
 
 def alone(size, gear, contact, material, chord=None):
@@ -324,7 +323,7 @@ def drop_row(size, pair, taus):
 
 def drop_table(size, folder):
     pair = liang_ring()
-    with open(os.path.join(folder, "drop.csv"), "w") as f:
+    with table_file(os.path.join(folder, "drop.h5")) as f:
         put(f, "phase,pairs,root_N_m,root_centre_N_m,base_N_m,base_centre_N_m")
         for pairs, phase in phases(pair.contact_ratio):
             values = drop_row(size, pair, tuple(phase + i for i in range(pairs)))
@@ -332,9 +331,9 @@ def drop_table(size, folder):
 
 
 def tables(size, folder, names):
-    with open(os.path.join(folder, "cases.csv"), "w") as cases, \
-         open(os.path.join(folder, "mesh.csv"), "w") as mesh, \
-         open(os.path.join(folder, "teeth.csv"), "w") as teeth:
+    with table_file(os.path.join(folder, "cases.h5")) as cases, \
+         table_file(os.path.join(folder, "mesh.h5")) as mesh, \
+         table_file(os.path.join(folder, "teeth.h5")) as teeth:
         put(cases, "case,contact_ratio,force_N,tip_1_mm,tip_2_mm,crack_mm")
         put(mesh, "case,phase,pairs,cracked,flank_N_m,centre_N_m,plane_stress_N_m")
         put(teeth, "case,gear,tau,flank_m_N,centre_m_N")

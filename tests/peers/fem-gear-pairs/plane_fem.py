@@ -2,10 +2,22 @@
 Lengths in mm, forces in N."""
 import math
 import os
+import pathlib
 import subprocess
+import sys
 import tempfile
 
 import numpy as np
+
+sys.path.append(str(pathlib.Path(__file__).resolve().parents[2]))
+from reference_tables import TableFile, read_table
+
+
+def table_file(path):
+    """Open table of the running script."""
+    folder = pathlib.Path(sys.argv[0]).resolve().parent.name
+    return TableFile(path, f"finite elements (gmsh, CalculiX, scipy) of tests/peers/{folder}, see its README.md",
+                     " ".join(sys.argv))
 
 
 class Geometry:

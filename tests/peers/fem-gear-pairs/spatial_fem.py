@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 """Spatial cracks (depth changes along the face) as solids, by finite elements (gmsh, CalculiX's
-matrices, scipy's solver): README.md. Writes spatial.csv.
+matrices, scipy's solver): README.md. Writes spatial.h5.
 
-Usage: spatial_fem.py [--size F] [--layers N] [--out spatial.csv] [--only TOOTH ...] [--plane]
+Usage: spatial_fem.py [--size F] [--layers N] [--out spatial.h5] [--only TOOTH ...] [--plane]
        spatial_fem.py --check
 
 Lengths in mm, forces in N; stiffness in N/m.
@@ -18,7 +18,7 @@ import numpy as np
 from cracks_fem import PHASES, TEETH, contacts_of, depth_of, pair_of, touching
 from helical_fem import Solid
 from pairs_fem import STEEL, Slit, put, stiffness, tooth_outline
-from plane_fem import Geometry, Mesh
+from plane_fem import Geometry, Mesh, table_file
 from teeth import weber
 
 WIDTH = STEEL[2]
@@ -325,7 +325,7 @@ def main():
     parser = argparse.ArgumentParser()
     parser.add_argument("--size", type=float, default=SIZE, help="factor on all element sizes")
     parser.add_argument("--layers", type=int, default=LAYERS)
-    parser.add_argument("--out", default="spatial.csv")
+    parser.add_argument("--out", default="spatial.h5")
     parser.add_argument("--only", nargs="*", default=TOOTH_NAMES, help="teeth")
     parser.add_argument("--plane", action="store_true", help="plane strain: through cracks only")
     parser.add_argument("--check", action="store_true", help="forces between the lips")
@@ -333,7 +333,7 @@ def main():
     if chosen.check:
         print(f"largest difference {check():.1e}")
         return
-    with open(chosen.out, "w") as table:
+    with table_file(chosen.out) as table:
         put(table, "tooth,shape,share,depth_mm,end_depth_mm,length_mm,phase,pairs,cracked,healthy_N_m,cracked_N_m,"
                    "even_healthy_N_m,even_cracked_N_m,load_share")
         for tooth in chosen.only:

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Geometry factors of an edge crack in a strip by plane finite elements: README.md.
 
-Usage: strip_fem.py [--size F] [--folder DIR]. Writes strip.csv. The energy release rate is the
+Usage: strip_fem.py [--size F] [--folder DIR]. Writes strip.h5. The energy release rate is the
 central difference of the strain energy between two crack lengths, K = sqrt(E' G). By symmetry half
 of the strip is modelled, with its ligament fixed across. Width, stress and modulus are 1.
 """
@@ -14,7 +14,7 @@ import numpy as np
 from scipy.sparse.linalg import splu
 
 from pairs_fem import put
-from plane_fem import Geometry, Mesh, stiffness_matrix
+from plane_fem import Geometry, Mesh, stiffness_matrix, table_file
 
 LENGTH, POISSON, STEP = 3.0, 0.3, 0.01
 
@@ -63,7 +63,7 @@ def main():
     parser.add_argument("--size", type=float, default=1.0, help="factor on all element sizes")
     parser.add_argument("--folder", default=".", help="where the table goes")
     chosen = parser.parse_args()
-    with open(os.path.join(chosen.folder, "strip.csv"), "w") as table:
+    with table_file(os.path.join(chosen.folder, "strip.h5")) as table:
         put(table, "share,tension,bending")
         for share in (0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7):
             tension, bending = factors(chosen.size, share)

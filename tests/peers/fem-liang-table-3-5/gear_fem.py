@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 """Mesh stiffness of Liang (2016), Table 3.4, by plane-strain finite elements (gmsh, CalculiX).
 
-Writes table.csv (README.md explains its columns) and prints the checks. Lengths in mm, forces in N.
-Usage: gear_fem.py [--size F] [--out table.csv] [--only checks|table]
+Writes table.h5 (README.md explains its columns) and prints the checks. Lengths in mm, forces in N.
+Usage: gear_fem.py [--size F] [--out table.h5] [--only checks|table]
 """
 import argparse
 import math
@@ -13,7 +13,7 @@ import tempfile
 import numpy as np
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent / "fem-gear-pairs"))
-from plane_fem import Geometry, Mesh, compliance, edge_loads, solve
+from plane_fem import Geometry, Mesh, compliance, edge_loads, solve, table_file
 
 TEETH, MODULE, PRESSURE_ANGLE = 23, 6.0, math.radians(20)
 YOUNG, POISSON, WIDTH = MATERIAL = 69e3, 0.33, 15.0
@@ -185,7 +185,7 @@ def row(size, taus):
 def table(size, out):
     double = np.linspace(0.04, CONTACT_RATIO - 1.04, 5)
     single = np.linspace(CONTACT_RATIO - 0.99, 0.99, 5)
-    with open(out, "w") as f:
+    with table_file(out) as f:
         f.write("phase,pairs,gears_N_m,cracked_entering_N_m,cracked_leaving_N_m,teeth_N_m,"
                 "beams_N_m\n")
         for pairs, phases in ((2, double), (1, single)):
@@ -193,8 +193,7 @@ def table(size, out):
                 values = row(size, [phase, phase + 1][:pairs])
                 line = ",".join("" if v != v else f"{v:.6g}" for v in values)
                 f.write(f"{phase:.6f},{pairs},{line}\n")
-                f.flush()
-                print(f"{phase:.4f} {line}")
+                print(f"{phase:.4f} {line}", flush=True)
 
 
 def beam_check(length, height):
@@ -234,7 +233,7 @@ def checks():
 if __name__ == "__main__":
     parser = argparse.ArgumentParser()
     parser.add_argument("--size", type=float, default=1.0, help="factor on all element sizes")
-    parser.add_argument("--out", default="table.csv")
+    parser.add_argument("--out", default="table.h5")
     parser.add_argument("--only", choices=["checks", "table"])
     chosen = parser.parse_args()
     if chosen.only != "table":

@@ -49,7 +49,7 @@ TEST_CASE("Geometry factors of an edge crack match published ones", "[growth]") 
 TEST_CASE("Geometry factors of an edge crack match finite elements", "[growth]") {
     // Source: tests/peers/fem-gear-pairs/strip_fem.py.
     double handbook_low = 0.0;
-    for (const finite_elements::Row& row : finite_elements::table("strip.csv")) {
+    for (const finite_elements::Row& row : finite_elements::table("strip")) {
         const double share = row.number("share"), half = 0.5 * pi * share;
         INFO(share);
         CHECK(edge_crack_tension(share) == Approx(row.number("tension")).epsilon(2.5e-3));
