@@ -20,6 +20,7 @@ from study_reach import reach_of
 PARTS = ("src", "analysis", "mc")  # folders of the library, the lowest first
 CODE = (".cpp", ".hpp")
 SCRIPTS = (".py", ".sh", ".cmake", ".txt")
+DATA = (".csv", ".json", ".txt")  # text data of the tests, CMakeLists.txt not counted
 INCLUDE = re.compile(r'\s*#\s*include\s*["<]([^">]+)[">]')
 QUOTED = re.compile(r'\s*#\s*include\s*"')
 # Headers that src must not include: files and messages.
@@ -283,9 +284,12 @@ def measured(tree):
     lines = {top: sum(len(tree.lines(file)) for file in tree.files
                       if file.startswith(f"{top}/") and file.endswith(CODE + (".py",)))
              for top in PARTS + ("tests",)}
+    data = sum(len(tree.lines(file)) for file in tree.files
+               if file.startswith("tests/") and file.endswith(DATA) and not file.endswith("/CMakeLists.txt"))
     reach = reach_of(tree.root)
     return {"lines of src, mc and analysis": sum(lines[top] for top in PARTS),
             "lines of tests": lines["tests"],
+            "lines of text data in tests": data,
             "functions and members that reach a study": len(reach.found),
             "functions that answer yes or no about a study": len(reach.questions)}
 

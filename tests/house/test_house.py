@@ -19,6 +19,7 @@ mc on src/high src/beside
 CEILINGS = """
 lines of src, mc and analysis                   30  # only lowered
 lines of tests                                  10
+lines of text data in tests                      1
 functions and members that reach a study         3
 functions that answer yes or no about a study    0
 """
@@ -69,6 +70,7 @@ class House(unittest.TestCase):
             "the sources are in order\n"
             "lines of src, mc and analysis: 15, at most 30, 15 left\n"
             "lines of tests: 2, at most 10, 8 left\n"
+            "lines of text data in tests: 0, at most 1, 1 left\n"
             "functions and members that reach a study: 0, at most 3, 3 left\n"
             "functions that answer yes or no about a study: 0, at most 0, 0 left\n", 0))
 
@@ -152,6 +154,9 @@ class House(unittest.TestCase):
                      ceilings=CEILINGS.replace("30 ", "29 ").replace("  10", "   9"),
                      *("ceilings: lines of src, mc and analysis: 30 are 1 too many",
                        "ceilings: lines of tests: 10 are 1 too many"))
+        self.refused({"tests/high/tile.csv": "1\n", "tests/high/data/tile.json": "{\n}\n",
+                      "tests/high/CMakeLists.txt": "\n" * 9},
+                     "ceilings: lines of text data in tests: 3 are 2 too many")
         self.refused({}, "ceilings: lines of tests has no line", "ceilings: lines is not measured",
                      ceilings=CEILINGS.replace("lines of tests", "lines         "))
 
