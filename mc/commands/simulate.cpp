@@ -99,7 +99,8 @@ int simulate_command(const SimulateOptions& options) {
     }
     Simulation simulation;
     try {
-        simulation = simulate_row(*scene, options.instance, options.meshes);
+        simulation =
+            simulate_row(scene->tile(), scene->ensemble(), options.instance, options.meshes);
     } catch (const BadInput& error) {
         fmt::print(stderr, "{}\n", error.what());
         return kBadInput;

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "mc/files/input/problems.hpp"
+#include "mc/numerics/study_scene.hpp"
 #include "mc/results/result_rows.hpp"
 
 namespace gearpod::mc {
@@ -19,40 +20,45 @@ std::string text_of(Problems problems, bool with_lines) {
 
 }  // namespace
 
-OpenStudy::OpenStudy(std::string name, const std::optional<std::string>& text,
-                     const std::vector<std::string>& overrides, bool with_lines)
-    : name_(std::move(name)),
-      with_lines_(with_lines),
-      reading_(text ? read_study_text(*text, name_, overrides, PythonFiles::run)
-                    : read_study(name_, overrides)),
-      notices_(text_of(reading_.notices, with_lines)) {
-    if (!reading_.study) {
-        throw BadInput(text_of(reading_.problems, with_lines));
+OpenStudy::OpenStudy(const std::string& name, const std::optional<std::string>& text,
+                     const std::vector<std::string>& overrides, bool with_lines) {
+    StudyReading reading = text ? read_study_text(*text, name, overrides, PythonFiles::run)
+                                : read_study(name, overrides);
+    if (!reading.study) {
+        throw BadInput(text_of(reading.problems, with_lines));
     }
-}
-
-const Scene& OpenStudy::scene() {
-    const std::scoped_lock lock(making_);
-    if (!scene_) {
-        StudyScene made = make_scene(name_, reading_);
-        if (!made) {
-            throw BadInput(text_of(made.problems, with_lines_));
+    notices_ = text_of(reading.notices, with_lines);
+    modes_ = [=, study = *reading.study] {
+        try {
+            return make_modal_plan(study);
+        } catch (const SceneError& error) {
+            throw BadInput(
+                text_of({{name, 0, error.key(), error.what(), error.remedy()}}, with_lines));
         }
-        scene_ = std::move(made.scene);
+    };
+    make_plans_ = [=, reading = std::move(reading)] {
+        const StudyScene made = make_scene(name, reading);
+        if (!made) {
+            throw BadInput(text_of(made.problems, with_lines));
+        }
+        return Plans{made.scene->tile(), made.scene->ensemble()};
+    };
+}
+
+const OpenStudy::Plans& OpenStudy::plans() {
+    const std::scoped_lock lock(making_);
+    if (!plans_) {
+        plans_ = make_plans_();
     }
-    return *scene_;
+    return *plans_;
 }
 
-std::string OpenStudy::message(const SceneError& error) const {
-    return text_of({{name_, 0, error.key(), error.what(), error.remedy()}}, with_lines_);
-}
-
-Simulation simulate_row(const Scene& scene, long row, long meshes) {
-    const auto rows = static_cast<long>(scene.ensemble().batches().rows());
-    const long simulated = meshes > 0 ? meshes : scene.record().span.planet_teeth;
+Simulation simulate_row(const TilePlan& tile, const EnsemblePlan& ensemble, long row, long meshes) {
+    const auto rows = static_cast<long>(ensemble.batches().rows());
+    const RecordPlan& record = tile.record;
+    const long simulated = meshes > 0 ? meshes : record.span.planet_teeth;
     // A record of given length begins within the span.
-    const int most =
-        scene.record().signal_meshes - (scene.record().length ? scene.record().span.meshes() : 0);
+    const int most = record.signal_meshes - (record.length ? record.span.meshes() : 0);
     std::string problems;
     if (row < 0 || row >= rows) {
         problems =
@@ -65,7 +71,7 @@ Simulation simulate_row(const Scene& scene, long row, long meshes) {
     if (!problems.empty()) {
         throw BadInput(problems);
     }
-    return simulate(scene.tile(), scene.draw().rows.id_of(row), simulated);
+    return simulate(tile, tile.draw().rows.id_of(row), simulated);
 }
 
 }  // namespace gearpod::mc

@@ -1,14 +1,15 @@
-// Study that is read once, with its scene, for programs that link the library.
+// Study that is read once, with its plans, for programs that link the library.
 #pragma once
 
-#include <memory>
+#include <functional>
 #include <mutex>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "mc/ensemble/gearbox/simulation.hpp"
-#include "mc/numerics/study_scene.hpp"
+#include "mc/plan/ensemble_plan.hpp"
+#include "mc/plan/modal_plan.hpp"
 
 namespace gearpod::mc {
 
@@ -18,25 +19,27 @@ class OpenStudy {
     // Study file `name`, or the TOML text, which messages then call `name`; overrides are those of
     // read_study(). Without `with_lines` messages have no line numbers. Throws BadInput
     // (mc/files/input/problems.hpp) with every problem.
-    explicit OpenStudy(std::string name, const std::optional<std::string>& text = std::nullopt,
+    explicit OpenStudy(const std::string& name,
+                       const std::optional<std::string>& text = std::nullopt,
                        const std::vector<std::string>& overrides = {}, bool with_lines = true);
 
-    const Study& study() const { return *reading_.study; }
+    struct Plans {
+        TilePlan tile;
+        EnsemblePlan ensemble;
+    };
     // Made by the first call. Throws BadInput with every problem.
-    const Scene& scene();
+    const Plans& plans();
+    // Plan of the vibration modes, which a study without teeth has, too. Throws BadInput.
+    ModalPlan modes() const { return modes_(); }
     // Text of accepted statements that should be written in another way; may be empty.
     const std::string& notices() const { return notices_; }
 
-    // Message for an error found while the scene is built.
-    std::string message(const SceneError& error) const;
-
   private:
-    std::string name_;
-    bool with_lines_;
-    StudyReading reading_;
     std::string notices_;
+    std::function<ModalPlan()> modes_;
+    std::function<Plans()> make_plans_;
     std::mutex making_;
-    std::unique_ptr<const Scene> scene_;
+    std::optional<Plans> plans_;
 };
 
 // Simulates the gearbox in a row of the results of a study.
@@ -44,6 +47,7 @@ class OpenStudy {
 // The first `meshes` mesh periods of the gearbox; 0: one planet turn. Throws BadInput
 // (mc/files/input/problems.hpp) if there is no such row or too many mesh periods are requested, and
 // std::runtime_error if the gearbox fails.
-Simulation simulate_row(const Scene& scene, long row, long meshes = 0);
+Simulation simulate_row(const TilePlan& tile, const EnsemblePlan& ensemble, long row,
+                        long meshes = 0);
 
 }  // namespace gearpod::mc

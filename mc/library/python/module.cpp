@@ -42,7 +42,7 @@ class GearboxFailed : public std::runtime_error {
 // the first row, then those of the second, and so on. `interrupted` is polled by the calling thread
 // between gearboxes; if it returns true, the result is empty. Throws BadInput for rows that do not
 // exist and GearboxFailed. The values do not depend on the number of threads.
-mc::Simulation simulate_rows(const mc::Scene& scene, const std::vector<long>& rows, long meshes,
+mc::Simulation simulate_rows(mc::OpenStudy& study, const std::vector<long>& rows, long meshes,
                              const std::function<bool()>& interrupted);
 
 namespace {
@@ -63,12 +63,13 @@ void append(mc::Simulation& all, const mc::Simulation& next) {
 
 }  // namespace
 
-mc::Simulation simulate_rows(const mc::Scene& scene, const std::vector<long>& rows, long meshes,
+mc::Simulation simulate_rows(mc::OpenStudy& study, const std::vector<long>& rows, long meshes,
                              const std::function<bool()>& interrupted) {
+    const auto& [tile, ensemble] = study.plans();
     std::vector<mc::Simulation> each(rows.size());
     std::atomic<bool> stopped{false};
     const auto caller = std::this_thread::get_id();
-    machine::for_each_index(rows.size(), mc::thread_count(scene.ensemble()), [&](std::size_t i) {
+    machine::for_each_index(rows.size(), mc::thread_count(ensemble), [&](std::size_t i) {
         if (std::this_thread::get_id() == caller && interrupted()) {
             stopped = true;
         }
@@ -76,7 +77,7 @@ mc::Simulation simulate_rows(const mc::Scene& scene, const std::vector<long>& ro
             return;
         }
         try {
-            each[i] = mc::simulate_row(scene, rows[i], meshes);
+            each[i] = mc::simulate_row(tile, ensemble, rows[i], meshes);
         } catch (const mc::BadInput&) {
             stopped = true;
             throw;
@@ -123,19 +124,15 @@ py::list stiffness(mc::OpenStudy& study, int points, bool transmission_error) {
     }
     return list_of(unlocked([&] {
                        return transmission_error
-                                  ? mc::transmission_error_columns(study.scene().gearbox(), points)
-                                  : mc::stiffness_columns(study.scene().gearbox(), points);
+                                  ? mc::transmission_error_columns(*study.plans().tile.gearbox,
+                                                                   points)
+                                  : mc::stiffness_columns(*study.plans().tile.gearbox, points);
                    }),
                    {points});
 }
 
 Doubles modes(const mc::OpenStudy& study) {
-    try {
-        return array_of(unlocked(
-            [&] { return mc::natural_frequencies_Hz(mc::make_modal_plan(study.study())); }));
-    } catch (const mc::SceneError& error) {
-        throw mc::BadInput(study.message(error));
-    }
+    return array_of(unlocked([&] { return mc::natural_frequencies_Hz(study.modes()); }));
 }
 
 bool keyboard_interrupt() {
@@ -146,7 +143,7 @@ bool keyboard_interrupt() {
 // Signals have the shape of `rows` x samples, features that of `rows` x noise levels.
 py::dict simulate(mc::OpenStudy& study, const std::vector<long>& rows, long meshes) {
     mc::Simulation all =
-        unlocked([&] { return simulate_rows(study.scene(), rows, meshes, &keyboard_interrupt); });
+        unlocked([&] { return simulate_rows(study, rows, meshes, &keyboard_interrupt); });
     if (PyErr_Occurred() != nullptr) {
         throw py::error_already_set();
     }
@@ -194,7 +191,7 @@ std::string features(mc::OpenStudy& study, const py::object& signal, const py::o
     request.feature = feature;
     return unlocked([&] {
         return mc::json_text(
-            mc::signal_features_json(mc::signal_features(request, study.scene().tile()), request));
+            mc::signal_features_json(mc::signal_features(request, study.plans().tile), request));
     });
 }
 

@@ -24,7 +24,8 @@ int main(int, char** argv) {
                     total_at(*cracked, mesh.transitions(), 0.8));
 
         mc::OpenStudy study(argv[1]);
-        const mc::Simulation gearbox = mc::simulate_row(study.scene(), 0);
+        const mc::Simulation gearbox =
+            mc::simulate_row(study.plans().tile, study.plans().ensemble, 0);
         for (const mc::SignalColumn& signal : gearbox.columns) {
             std::printf("%s [%s]: %zu samples\n", signal.name.c_str(), signal.unit.c_str(),
                         signal.values.size());

@@ -43,14 +43,16 @@ TEST_CASE("A study that is read by a program reports every problem in one except
     CHECK(mentions(without, "text: gearbox.sun_teth: unknown key"));
 
     mc::OpenStudy study(kStudy);
-    CHECK(&study.scene() == &study.scene());
-    CHECK(mentions(message_of([&] { mc::simulate_row(study.scene(), -1); }),
-                   "must be a row of the results, 0 to"));
+    CHECK(&study.plans() == &study.plans());
+    CHECK(mentions(
+        message_of([&] { mc::simulate_row(study.plans().tile, study.plans().ensemble, -1); }),
+        "must be a row of the results, 0 to"));
 }
 
 TEST_CASE("A recording in memory gives the features of its gearbox") {
     mc::OpenStudy study(kStudy);
-    const mc::Simulation simulated = mc::simulate_row(study.scene(), 0);
+    const mc::Simulation simulated =
+        mc::simulate_row(study.plans().tile, study.plans().ensemble, 0);
     std::vector<mc::SignalColumn> recorded;
     for (const mc::SignalColumn& column : simulated.columns) {
         if (column.name == "mesh_phase" || column.name == "sensor") {
@@ -59,21 +61,21 @@ TEST_CASE("A recording in memory gives the features of its gearbox") {
     }
     mc::SignalRequest request;
     request.signal = {"memory", recorded};
-    const mc::SignalFeatures found = mc::signal_features(request, study.scene().tile());
+    const mc::SignalFeatures found = mc::signal_features(request, study.plans().tile);
     CHECK(found.signal.tracking == "column mesh_phase");
     CHECK(found.signal.sensor_meshes > 0);
 
     request.signal = {"memory", {{"force", "N", {1, 2, 3}}}};
-    CHECK_THROWS_WITH(mc::signal_features(request, study.scene().tile()),
+    CHECK_THROWS_WITH(mc::signal_features(request, study.plans().tile),
                       Catch::Contains("memory: it has neither a column sensor nor"));
 }
 
 TEST_CASE("Stiffness columns start with the phase and have one value per point") {
     mc::OpenStudy study(kStudy);
-    const auto columns = mc::stiffness_columns(study.scene().gearbox(), 4);
+    const auto columns = mc::stiffness_columns(*study.plans().tile.gearbox, 4);
     CHECK(columns.front().values == std::vector<double>{0, 0.25, 0.5, 0.75});
     CHECK(columns.back().unit == "N/m");
-    CHECK(mc::transmission_error_columns(study.scene().gearbox(), 2).size() == 9);
+    CHECK(mc::transmission_error_columns(*study.plans().tile.gearbox, 2).size() == 9);
 }
 
 TEST_CASE("A table in memory is inspected like one of a file") {
