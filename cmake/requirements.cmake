@@ -29,8 +29,6 @@ find_package(nlohmann_json QUIET)
 gearpod_need(json "${nlohmann_json_FOUND}")
 find_package(CLI11 QUIET)
 gearpod_need(CLI11 "${CLI11_FOUND}")
-find_package(pugixml QUIET)
-gearpod_need(pugixml "${pugixml_FOUND}")
 # These come without a CMake package, or as headers alone.
 find_path(RANDOM123_INCLUDE_DIR Random123/philox.h)
 gearpod_need(Random123 "${RANDOM123_INCLUDE_DIR}")

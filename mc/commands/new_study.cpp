@@ -1,8 +1,10 @@
 #include <fmt/format.h>
 
 #include <filesystem>
+#include <nlohmann/json.hpp>
 #include <set>
 #include <string>
+#include <tuple>
 
 #include "mc/commands/commands.hpp"
 #include "mc/commands/options/options.hpp"
@@ -19,10 +21,10 @@ struct NewOptions {
     std::string kind;     // gearbox kind; empty for a stage of a REXS model
     std::string command;  // command line, quoted in the study's first comment
     PlanetaryDatasheet planetary;
-    std::string rexs;  // model file; empty: the datasheet's values are options
-    RexsChoices rexs_choices;
-    std::string out = "-";  // "-": standard output
-    bool force = false;     // overwrite a file
+    std::string rexs;              // model file; empty: the datasheet's values are options
+    std::string stage, load_case;  // of the model
+    std::string out = "-";         // "-": standard output
+    bool force = false;            // overwrite a file
 };
 
 // Comment from which editors take the JSON schema of the study.
@@ -80,28 +82,30 @@ void check_new_options(const CLI::App& command, const NewOptions& options) {
     }
 }
 
-// Values that are given in addition to a model.
-void take_choices(const CLI::App& command, NewOptions& options) {
+// Options that are given in addition to a model, as new_from_rexs() takes them.
+nlohmann::json model_options(const CLI::App& command, const NewOptions& options) {
     const PlanetaryDatasheet& data = options.planetary;
-    RexsChoices& choices = options.rexs_choices;
-    const auto given = [&](const char* name) { return command.count(name) > 0; };
-    if (given("--input")) {
-        choices.input = data.input;
+    nlohmann::json given;
+    for (const auto& [name, key, value] :
+         {std::tuple{"--stage", "stage", nlohmann::json(options.stage)},
+          std::tuple{"--load-case", "load_case", nlohmann::json(options.load_case)},
+          std::tuple{"--input", "input", nlohmann::json(data.input)},
+          std::tuple{"--planets", "planets", nlohmann::json(data.planets)},
+          std::tuple{"--quality", "quality", nlohmann::json(data.quality)},
+          std::tuple{"--addendum", "addendum", nlohmann::json(data.addendum.value_or(0))},
+          std::tuple{"--face-width", "face_width_mm",
+                     nlohmann::json(data.face_width_mm.value_or(0))},
+          std::tuple{"--torque", "torque_N_m", nlohmann::json(data.torque_N_m.value_or(0))},
+          std::tuple{"--speed", "speed_rpm", nlohmann::json(data.speed_rpm.value_or(0))},
+          std::tuple{"--power", "power_kW", nlohmann::json(data.power_kW.value_or(0))}}) {
+        if (command.count(name) > 0) {
+            given[key] = value;
+        }
     }
-    if (given("--planets")) {
-        choices.planets = data.planets;
-    }
-    if (given("--quality")) {
-        choices.quality = data.quality;
-    }
-    choices.face_width_mm = data.face_width_mm;
-    choices.addendum = data.addendum;
-    choices.torque_N_m = data.torque_N_m;
-    choices.speed_rpm = data.speed_rpm;
-    choices.power_kW = data.power_kW;
+    return given;
 }
 
-int new_command(const NewOptions& options) {
+int new_command(const CLI::App& command, const NewOptions& options) {
     const bool exists = options.out != "-" && std::filesystem::exists(options.out);
     if (exists && !options.force) {
         fmt::print(stderr, "--out {}: exists already; choose another file, or give --force\n",
@@ -109,9 +113,10 @@ int new_command(const NewOptions& options) {
     }
     const bool writable = can_write({"--out", options.out}, {{"the model", options.rexs}}) &&
                           (!exists || options.force);
-    const NewStudy made = options.rexs.empty()
-                              ? new_planetary(options.planetary, options.command)
-                              : new_from_rexs(options.rexs, options.rexs_choices, options.command);
+    const NewStudy made =
+        options.rexs.empty()
+            ? new_planetary(options.planetary, options.command)
+            : new_from_rexs(options.rexs, model_options(command, options), options.command);
     print_problems(made.problems);
     if (!made.problems.empty() || !writable ||
         !write_text_to(options.out, schema_line() + made.text)) {
@@ -178,16 +183,15 @@ void add_new(CLI::App& app, int& code) {
     require_file_name(command->add_option("--rexs", options->rexs,
                                           "gear-unit model to read instead (REXS 1.0 to 1.6, XML): "
                                           "a planetary or cylindrical stage"));
-    command->add_option("--stage", options->rexs_choices.stage,
+    command->add_option("--stage", options->stage,
                         "id of the model's stage; needed if it has several");
-    command->add_option("--load-case", options->rexs_choices.load_case,
+    command->add_option("--load-case", options->load_case,
                         "id of the model's load case; needed if it has several");
     require_file_name(command->add_option("--out", options->out,
                                           "study file to write (default: - for standard output)"));
     command->add_flag("--force", options->force, "overwrite an existing file");
     command->callback([command, options, &code] {
         check_new_options(*command, *options);
-        take_choices(*command, *options);
         options->command = options->kind.empty() ? "new" : "new " + options->kind;
         for (const CLI::Option* option : command->parse_order()) {
             if (option->nonpositional() && !option->check_lname("out") &&
@@ -195,7 +199,7 @@ void add_new(CLI::App& app, int& code) {
                 options->command += " " + option->get_name() + " " + option->results().front();
             }
         }
-        code = new_command(*options);
+        code = new_command(*command, *options);
     });
 }
 

@@ -74,3 +74,13 @@ expect 2 "apt-get install libfmt-dev"
 fake id 'echo 0'
 fake apt-get 'echo "apt-get $*"'
 expect 0 "installing with apt-get: libfmt-dev" "install -q -y --no-install-recommends libfmt-dev"
+
+# Models in REXS need lxml.
+fake dpkg-query 'case $* in *python3-lxml*) exit 1;; esac; printf "install ok installed"'
+asked="new --rexs model.rexs"
+expect 0 "installing with apt-get: python3-lxml"
+asked=--version
+expect 0 "started gearpod"
+if grep -q lxml "$work/said"; then
+    fail "it installs lxml without need"
+fi

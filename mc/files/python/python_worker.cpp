@@ -12,7 +12,6 @@
 #include <atomic>
 #include <cerrno>
 #include <cstdint>
-#include <cstdlib>
 #include <cstring>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -21,7 +20,7 @@
 #include "machine/clocks.hpp"
 #include "machine/team.hpp"
 #include "mc/files/file_descriptor.hpp"
-#include "python_worker_source.hpp"
+#include "python_sources.hpp"
 
 namespace gearpod::mc {
 namespace {
@@ -31,11 +30,6 @@ constexpr double kNotice_s = 60.0;
 constexpr int kPoll_ms = 100;
 
 std::atomic<double> waited_total_s{0.0};
-
-std::string interpreter() {
-    const char* given = std::getenv("GEARPOD_PYTHON");
-    return given != nullptr && *given != '\0' ? given : "/usr/bin/python3";
-}
 
 // Environment of this process, with a fixed order of Python's sets.
 std::vector<std::string> worker_environment() {
@@ -61,7 +55,7 @@ std::vector<char*> pointers_to(std::vector<std::string>& texts) {
 }  // namespace
 
 PythonWorker::PythonWorker() {
-    const std::string python = interpreter();
+    const std::string python = python_interpreter();
     std::array<int, 2> ends{-1, -1};
     if (::socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends.data()) != 0) {
         throw PythonError(
@@ -70,7 +64,7 @@ PythonWorker::PythonWorker() {
     here_ = Descriptor(ends[0]);
     const Descriptor there(ends[1]);
     // -B: write no compiled files next to the user's; -u: show at once what features print.
-    std::vector<std::string> words{python, "-Bu", "-c", kPythonWorkerSource};
+    std::vector<std::string> words{python, "-Bu", "-c", kWorkerSource};
     std::vector<std::string> environment = worker_environment();
     posix_spawn_file_actions_t streams;
     posix_spawn_file_actions_init(&streams);

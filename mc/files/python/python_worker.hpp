@@ -7,19 +7,14 @@
 #include <map>
 #include <nlohmann/json_fwd.hpp>
 #include <span>
-#include <stdexcept>
 #include <string>
 #include <vector>
 
 #include "mc/files/file_descriptor.hpp"
 #include "mc/files/input/python_hashes.hpp"
+#include "mc/files/python/python_program.hpp"
 
 namespace gearpod::mc {
-
-// Message for the user: a file that cannot be used, or a process that ended.
-struct PythonError : std::runtime_error {
-    using std::runtime_error::runtime_error;
-};
 
 // Feature in a Python file.
 struct PythonFunction {

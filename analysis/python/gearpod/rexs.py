@@ -1,0 +1,846 @@
+"""Reads a stage of a gear-unit model in REXS (www.rexs.info, versions 1.0 to 1.6) as a datasheet.
+
+The program contains this file and starts it as a process for `gearpod new --rexs FILE`. The argument is the file.
+Standard input is a JSON object with the options that choose a stage or replace values. Standard output is a JSON
+object with the datasheet's values under the names of the program's structs, notes, names of the values for
+messages, and problems. Only lxml is needed.
+"""
+
+# mypy: ignore-errors
+
+import collections
+import io
+import json
+import math
+import os
+import re
+import resource
+import stat
+import sys
+
+LARGEST_FILE, MOST_TAGS, DEEPEST_NESTING = 64 << 20, 2_000_000, 16  # a matrix has seven levels
+MOST_MEMORY, MOST_SECONDS = 4 << 30, 60
+MOST_PROBLEMS, MOST_STAGES, MOST_PAIRS = 1000, 200, 200
+NEWEST_VERSION = 6  # of 1.x
+LAST_LINE = 65535  # libxml2 counts no further
+BLANKS = " \t\r\n"
+
+# Factors that convert to the first unit of a quantity. Blanks in units do not matter. "mum" is REXS's micrometre.
+UNITS = {
+    "number": {"none": 1.0, "": 1.0, "-": 1.0, "1": 1.0, "%": 0.01},
+    "length": {"mm": 1.0, "m": 1e3, "mum": 1e-3, "um": 1e-3, "\u00b5m": 1e-3, "\u03bcm": 1e-3, "cm": 10.0,
+               "dm": 100.0, "in": 25.4},
+    "angle": {"deg": 1.0, "\u00b0": 1.0, "rad": 180.0 / math.pi, "mrad": 0.18 / math.pi},
+    "modulus": {"N/mm^2": 1e6, "MPa": 1e6, "GPa": 1e9, "Pa": 1.0, "kPa": 1e3, "N/m^2": 1.0, "kN/mm^2": 1e9,
+                "N/mm\u00b2": 1e6, "N/m\u00b2": 1.0},
+    "stiffness": {"N/m": 1.0, "N/mm": 1e3, "N/mum": 1e6, "N/um": 1e6, "kN/mm": 1e6, "kN/m": 1e3, "MN/m": 1e6},
+    "speed": {"1/min": 1.0, "rpm": 1.0, "U/min": 1.0, "rev/min": 1.0, "min^-1": 1.0, "1/s": 60.0, "Hz": 60.0,
+              "rad/s": 30.0 / math.pi},
+    "torque": {"Nm": 1.0, "kNm": 1e3, "Nmm": 1e-3, "MNm": 1e6}}
+NUMBER = re.compile(r"[+-]?([0-9]+\.?[0-9]*|\.[0-9]+)([eE][+-]?[0-9]+)?")
+
+# Attributes that place a component in space or describe it to a user.
+POSITIONS = {"support_vector", "u_axis_vector", "v_axis_vector", "w_axis_vector", "reference_component_for_position",
+             "u_coordinate_on_shaft", "u_coordinate_on_shaft_inner_side", "u_coordinate_on_shaft_outer_side",
+             "rotating_angle_around_neg_u_axis", "name", "display_color"}
+
+# Versions of REXS differ in the spelling.
+SHIFTS = ("addendum_modification_coefficient", "profile_shift_coefficient")
+SHIFTS_MM = ("addendum_modification", "profile_shift")
+HELICES = ("helix_angle_reference_diameter", "helix_angle")
+DISTANCES = ("center_distance", "centre_distance")
+
+
+class Unusable(Exception):
+    """Ends the reading of a model after its last problem."""
+
+
+class Attribute:
+    def __init__(self, node):
+        self.id, self.unit, self.line = node.get("id", ""), node.get("unit", "").strip(BLANKS), line_of(node)
+        text, self.scalar, self.used = node.text, True, False
+        if arrays := children(node, "array"):  # its first value counts
+            text, self.scalar = next((c.text for c in children(arrays[0], "c")), ""), False
+        elif children(node, "matrix"):
+            text, self.scalar = "matrix", False
+        self.text = (text or "").strip(BLANKS)
+
+    def ignored(self):
+        """True if a study has to take nothing from it: used, a position, zero, false or empty."""
+        return self.used or self.id in POSITIONS or self.text in ("", "false") or parsed(self.text) == 0.0
+
+
+class Component:
+    def __init__(self, node, model):
+        self.id, self.type, self.name = (node.get(key, "") for key in ("id", "type", "name"))
+        self.label, self.line, self.considered = f"{self.type} {self.id}", line_of(node), False
+        self.attributes = {}
+        for child in children(node, "attribute"):
+            new = Attribute(child)
+            old = self.attributes.setdefault(new.id, new)
+            if (old.text, old.unit) != (new.text, new.unit):
+                model.problem(f"{self.label}: {new.id}", f"occurs twice, as {old.text} {old.unit} and as {new.text} "
+                              f"{new.unit}", "keep one of them", new.line)
+
+    def find(self, name):
+        """Attribute of that name, or None. Empty attributes count as missing."""
+        attribute = self.attributes.get(name)
+        return attribute if attribute and attribute.text else None
+
+
+def children(node, name):
+    return [child for child in node if child.tag.rpartition("}")[2] == name]
+
+
+def line_of(node):
+    return node.sourceline if (node.sourceline or LAST_LINE) < LAST_LINE else 0
+
+
+def parsed(text):
+    """Finite number that takes the whole text, or None."""
+    value = float(text) if NUMBER.fullmatch(text) else math.inf
+    return value if math.isfinite(value) else None
+
+
+def magnitude(value):
+    return None if value is None else abs(value)
+
+
+def content(path, refuse):
+    """Bytes of a file. Opening a pipe without O_NONBLOCK would wait for a writer."""
+    try:
+        file = os.open(path, os.O_RDONLY | os.O_CLOEXEC | os.O_NONBLOCK)
+        found = os.fstat(file)
+        if not stat.S_ISREG(found.st_mode):
+            refuse("is a folder" if stat.S_ISDIR(found.st_mode) else "is a device, a pipe or a socket",
+                   "name a REXS file (*.rexs)")
+        if found.st_size > LARGEST_FILE:
+            refuse(f"has {found.st_size >> 20} MB; models of gear units with up to {LARGEST_FILE >> 20} MB are read",
+                   "export the model without meshes and results")
+        with open(file, "rb") as opened:
+            return opened.read(LARGEST_FILE)
+    except OSError as error:
+        return refuse(f"cannot be read ({error.strerror})", "name an existing REXS file (*.rexs)")
+
+
+def root_of(data, refuse):
+    """Root element of a REXS file. Refuses other formats, document type declarations (they define entities), and
+    texts that are too deep or too long."""
+    from lxml import etree
+    start = data.lstrip(BLANKS.encode() + b"\xef\xbb\xbf")[:1]
+    if data.startswith(b"PK\x03\x04"):
+        refuse("is a ZIP archive (.rexsz); unpack it and name the .rexs file in it")
+    if data.startswith(b"\x1f\x8b"):
+        refuse("is compressed by gzip; unpack it")
+    if not start or start == b"{":
+        refuse("is JSON; export the model as XML (.rexs)" if start else "is empty")
+    if data.count(b"<") > MOST_TAGS:
+        refuse(f"has more than {MOST_TAGS} XML tags, too many for a gear unit",
+               "export the model without meshes and results")
+    depth, root = 0, None
+    try:
+        for event, node in etree.iterparse(io.BytesIO(data), ("start", "end"), no_network=True, load_dtd=False,
+                                           resolve_entities=False, huge_tree=False, remove_comments=True,
+                                           remove_pis=True):
+            root = node if root is None else root
+            depth += 1 if event == "start" else -1
+            if depth == 1 and root.getroottree().docinfo.internalDTD is not None:
+                refuse("has a document type declaration (DOCTYPE), which REXS does not have",
+                       "remove it; entities that it defines are not expanded")
+            if depth > DEEPEST_NESTING:
+                refuse(f"has elements nested more than {DEEPEST_NESTING} deep")
+    except etree.XMLSyntaxError as error:
+        first = next(iter(error.error_log.filter_from_errors()), None)
+        refuse(f"is not well-formed XML ({first.message if first else error.msg})", line=first.line if first else 0)
+    name = root.tag.rpartition("}")[2]
+    if name != "model":
+        refuse(f"is XML, but not REXS: its root is <{name}>", "a REXS file has the root <model>", line_of(root))
+    return root
+
+
+class Model:
+    """Components with attributes, and relations between components, with the problems and notes that arise when they
+    are read."""
+
+    def __init__(self):
+        self.problems, self.notices = [], []  # each as line, key, what is wrong, remedy
+        self.notes, self.lacking = [], []
+        self.components = {}
+        # Relations, each as component ids by role: all by type, and by type and id.
+        self.relations, self.index = collections.defaultdict(list), collections.defaultdict(list)
+
+    def read(self, path):
+        root = root_of(content(path, self.refuse), self.refuse)
+        self.check_version(root.get("version", ""), line_of(root))
+        for node in (node for whole in children(root, "components")[:1] for node in children(whole, "component")):
+            new = Component(node, self)
+            if self.components.setdefault(new.id, new) is not new:
+                self.problem(new.label, "the id occurs twice", "give every component its own id", new.line)
+        for node in (node for whole in children(root, "relations")[:1] for node in children(whole, "relation")):
+            kind, relation = node.get("type", ""), {}
+            for ref in children(node, "ref"):
+                role, name = ref.get("role", ""), ref.get("id", "")
+                relation.setdefault(role, name)
+                if name not in self.components:
+                    self.problem(f"relation {kind}", f"component {name} ({role}) does not exist", "", line_of(node))
+            self.relations[kind].append(relation)
+            for name in set(relation.values()):
+                self.index[kind, name].append(relation)
+        self.load_cases = [(node.get("id", ""), [Component(child, self) for child in children(node, "component")])
+                           for spectrum in children(root, "load_spectrum") for node in children(spectrum, "load_case")]
+        if self.problems:
+            raise Unusable
+
+    def check_version(self, version, line):
+        self.version, known = version, re.fullmatch(r"1\.([0-9]{1,9})", version)
+        if not known:
+            self.problem("model", f"version {version} of REXS is not known" if version else "states no version",
+                         "export the model in version 1.0 to 1.6", line)
+        elif int(known[1]) > NEWEST_VERSION:
+            self.notices.append((line, "model", f"version {version} is newer than 1.{NEWEST_VERSION}, the newest that "
+                                 "this program knows", "attributes that were renamed since count as missing"))
+
+    def problem(self, key, what, remedy="", line=0):
+        if len(self.problems) < MOST_PROBLEMS and (line, key, what, remedy) not in self.problems:
+            self.problems.append((line, key, what, remedy))
+
+    def refuse(self, what, remedy="", line=0):
+        self.problem("", what, remedy, line)
+        raise Unusable
+
+    def reject(self, component, attribute, what, remedy=""):
+        found = component.find(attribute)
+        self.problem(f"{component.label}: {attribute}", what, remedy, found.line if found else component.line)
+
+    def parts(self, relation, *roles):
+        """Components with these roles in a relation; None for those that it lacks."""
+        return [self.components.get(relation.get(role)) for role in roles]
+
+    def related(self, kind, role, component, to):
+        """Components with the role `to` in relations in which a component has the role `role`."""
+        found = [self.components.get(relation.get(to)) for relation in self.index[kind, component.id]
+                 if relation.get(role) == component.id]
+        return [part for part in dict.fromkeys(found) if part]
+
+    def shaft_of(self, part):
+        """Shaft that carries a gear, load or other part, in a list; [] if there is none."""
+        return [whole for whole in self.related("assembly", "part", part, "assembly") if whole.type == "shaft"][:1]
+
+    def number(self, component, names, quantity):
+        """Number of the first of these attributes that the component has, in the unit that the datasheet has; None
+        if it has none. A value that is no finite number, or has another unit, is a problem."""
+        attribute = next(filter(None, map(component.find, names)), None)
+        if attribute is None:
+            return None
+        attribute.used = True
+        value = parsed(attribute.text) if attribute.scalar else None
+        factor = UNITS[quantity].get(re.sub("[ \t]", "", attribute.unit))
+        if value is None:
+            self.reject(component, attribute.id, f"must be a number, but is {attribute.text}" if attribute.scalar
+                        else "must be one number, but is an array")
+        if factor is None:
+            self.reject(component, attribute.id, f"unit {attribute.unit} is not known" if attribute.unit
+                        else "states no unit", "the units known here are " + ", ".join(filter(None, UNITS[quantity])))
+        return None if value is None or factor is None else value * factor
+
+    def count(self, component, name):
+        value = self.number(component, [name], "number")
+        if value is not None and (value != round(value) or abs(value) > 1e6):
+            return self.reject(component, name, f"must be a whole number, but is {value:g}")
+        return None if value is None else int(value)
+
+    def flag(self, component, name):
+        """True for "true"; None if the attribute is missing. Of an array, for its first value."""
+        attribute = component.find(name)
+        if attribute is None:
+            return None
+        attribute.used = True
+        return attribute.text in ("true", "1")
+
+    def common(self, components, names, quantity):
+        """Value that several components give, such as both flanks of a gear. Values that differ are a problem that
+        names both."""
+        stated = [(new, component) for component in components
+                  if (new := self.number(component, names, quantity)) is not None]
+        for new, component in stated:
+            value, first = stated[0]
+            if abs(new - value) > 1e-6 * max(1.0, abs(value)):
+                self.reject(component, names[0], f"is {new:.9g}, but {first.label} has {value:.9g}",
+                            "a study has one value for both")
+        return stated[0][0] if stated else None
+
+    def apply_load_case(self, name):
+        """Replaces attributes by those of the chosen load case, or of the only one."""
+        ids = [case for case, _ in self.load_cases]
+        chosen = [case for case in self.load_cases if case[0] == name or not name and len(ids) == 1][-1:]
+        for case, components in chosen:
+            self.notes.append(f"load case {case}")
+            for loaded in components:
+                if loaded.id in self.components:
+                    self.components[loaded.id].attributes |= loaded.attributes
+        if name and not chosen:
+            self.problem("--load-case", f"the model has no load case {name}",
+                         "it has " + ", ".join(ids) if ids else "it has none")
+        elif ids and not chosen:
+            self.problem("--load-case", f"the model has {len(ids)} load cases", "choose one: " + ", ".join(ids))
+
+    def unused(self):
+        """Attributes of considered components that were not used, and components that were not considered, a line
+        for each type."""
+        attributes, types = collections.defaultdict(dict), collections.Counter()
+        for component in self.components.values():
+            types[component.type] += not component.considered
+            for attribute in component.attributes.values() if component.considered else []:
+                if not attribute.ignored():
+                    unit = "" if attribute.unit == "none" else " " + attribute.unit
+                    here = attribute.text + unit if attribute.scalar else "an array"
+                    if attributes[component.type].setdefault(attribute.id, here) != here:
+                        attributes[component.type][attribute.id] = "several values"
+        lines = [f"{kind}: " + ", ".join(f"{name} ({value})" for name, value in sorted(values.items()))
+                 for kind, values in sorted(attributes.items())]
+        others = ", ".join(f"{number} {kind}" for kind, number in sorted(types.items()) if number)
+        return lines + (["components: " + others] if others else [])
+
+
+class Stage:
+    """Gears that mesh. `first` and `second`: sun and ring of a planetary stage, gear_1 and gear_2 of a cylindrical
+    one. A planetary stage has its gear pairs by mesh; a cylindrical one is its own pair. `obstacle`: reason why no
+    study can be written."""
+
+    def __init__(self, component, kind="other", obstacle=""):
+        self.component, self.kind, self.obstacle, self.teeth = component, kind, obstacle, ""
+        self.first = self.second = None
+        self.planets, self.first_pairs, self.second_pairs = [], [], []
+
+    def description(self):
+        """For example "9 (Planetenstufe [9], planetary, 17/22/61 teeth, 3 planets)"."""
+        kind = "planetary" if self.kind == "planetary" else self.component.type
+        obstacle = f"; not possible: {self.obstacle}" if self.obstacle else ""
+        return f"{self.component.id} ({', '.join(filter(None, [self.component.name, kind, self.teeth]))}{obstacle})"
+
+    def ends(self, model):
+        """Shafts of the first member, and of the second: the carrier of a planetary stage."""
+        return [model.shaft_of(self.first), carriers(model, self) if self.planets else model.shaft_of(self.second)]
+
+
+def carriers(model, stage):
+    return model.related("planet_carrier_shaft", "planetary_stage", stage.component, "shaft")
+
+
+def teeth_text(model, gears):
+    return "/".join("?" if gear.find("number_of_teeth") is None
+                    else str(abs(model.count(gear, "number_of_teeth") or 0)) for gear in gears) + " teeth"
+
+
+def planetary_stage(model, component, pairs):
+    """Sorts the gear pairs of a planetary stage by mesh and finds sun, planets and ring."""
+    stage = Stage(component, "planetary")
+    if len(pairs) > MOST_PAIRS:
+        stage.obstacle = f"it has {len(pairs)} gear pairs"
+        return stage
+    suns, planets, rings, inner = {}, {}, {}, []  # dicts keep the order
+    for pair, gear_1, gear_2 in pairs:
+        if gear_1 is None or gear_2 is None:
+            stage.obstacle = pair.label + " names no gear_1 or no gear_2"
+            return stage
+        if "ring_gear" in (gear_1.type, gear_2.type):
+            ring, planet = (gear_1, gear_2) if gear_1.type == "ring_gear" else (gear_2, gear_1)
+            rings[ring] = planets[planet] = True
+            stage.second_pairs.append(pair)
+        else:
+            inner.append((pair, gear_1, gear_2))
+    stage.first_pairs = [pair for pair, _, _ in inner]
+    for pair, gear_1, gear_2 in inner:
+        if (gear_1 in planets) == (gear_2 in planets):
+            which = "both planets" if gear_1 in planets else "neither of them with a ring"
+            stage.obstacle = (f"in {pair.label} {gear_1.label} and {gear_2.label} mesh, {which}, so that the planets "
+                              "are stepped or paired")
+        else:
+            suns[gear_2 if gear_1 in planets else gear_1] = True
+    if not stage.obstacle and (len(suns), len(rings)) != (1, 1):
+        stage.obstacle = f"it has {len(suns)} suns and {len(rings)} rings, not one of each"
+    if stage.obstacle:
+        return stage
+    (stage.first,), (stage.second,), stage.planets, number = suns, rings, list(planets), len(planets)
+    stage.teeth = (teeth_text(model, [stage.first, stage.planets[0], stage.second]) +
+                   f", {number} planet{'' if number == 1 else 's'}")
+    if not number == len(stage.first_pairs) == len(stage.second_pairs):
+        stage.obstacle = (f"{number} planets have {len(stage.first_pairs)} meshes with the sun and "
+                          f"{len(stage.second_pairs)} with the ring")
+    return stage
+
+
+def cylindrical_stage(model, component, gear_1, gear_2):
+    stage = Stage(component, "cylindrical")
+    stage.first, stage.second, stage.first_pairs = gear_1, gear_2, [component]
+    if gear_1 is None or gear_2 is None:
+        stage.obstacle = "it names no gear_1 or no gear_2"
+        return stage
+    stage.teeth = teeth_text(model, [gear_1, gear_2])
+    if "ring_gear" in (gear_1.type, gear_2.type):
+        stage.obstacle = "internal gears on fixed shafts are not simulated"
+    return stage
+
+
+def stages_of(model):
+    """All stages, those within a planetary stage excepted."""
+    pairs = {}
+    for stage, *gears in (model.parts(relation, "stage", "gear_1", "gear_2") for relation in model.relations["stage"]):
+        pairs[stage] = (stage, *gears)
+    planetary, within = collections.defaultdict(list), set()
+    for whole, part in (model.parts(relation, "assembly", "part") for relation in model.relations["assembly"]):
+        if whole and part and whole.type == "planetary_stage" and part in pairs and part not in within:
+            within.add(part)
+            planetary[whole].append(pairs[part])
+    return [planetary_stage(model, component, planetary[component]) if component.type == "planetary_stage" else
+            cylindrical_stage(model, *pairs.get(component, (component, None, None)))
+            if component.type == "cylindrical_stage" else
+            Stage(component, obstacle="only planetary and cylindrical stages are simulated")
+            for component in model.components.values() if component.type.endswith("_stage")
+            and (component.type == "planetary_stage" or component not in within)]
+
+
+def chosen_stage(model, stages, name):
+    """Stage with that id, or the only one that is possible. Refuses with a list of all."""
+    if not stages:
+        model.refuse("has no gear stages", "name a model with a planetary or cylindrical stage")
+    if len(stages) > MOST_STAGES:
+        model.refuse(f"has {len(stages)} gear stages", f"models of up to {MOST_STAGES} are read")
+    found = [stage for stage in stages if (stage.component.id == name if name else not stage.obstacle)]
+    listed = "; ".join(stage.description() for stage in stages)
+    if len(found) == 1 and not found[0].obstacle:
+        return found[0]
+    if len(found) > 1:
+        model.problem("--stage", f"the model has {len(stages)} stages", "choose one: " + listed)
+    else:
+        model.problem("--stage", f"stage {name} is not possible: {found[0].obstacle}" if found
+                      else f"there is no stage {name}" if name else "no stage of the model can be simulated",
+                      "the model has " + listed)
+    raise Unusable
+
+
+class Gear:
+    """Values of one gear, or of equal ones such as all planets; missing ones are None. Internal gears have positive
+    numbers. Shifts follow ISO 21771."""
+
+    def __init__(self, model, gears):
+        self.component = gears[0]
+        # Versions differ in whether gears or flanks state angles and shifts.
+        parts = gears + [flank for gear in gears for side in ("left", "right")
+                         for flank in model.related("flank", "gear", gear, side)]
+        made_of = [material for gear in gears for material in model.related("reference", "origin", gear, "referenced")
+                   if material.type == "material"]
+        for part in parts + made_of:
+            part.considered = True
+        teeth = model.common(gears, ["number_of_teeth"], "number")
+        for gear in gears:
+            model.count(gear, "number_of_teeth")
+        self.teeth = int(min(abs(teeth or 0.0), 10001))
+        self.module = model.common(gears, ["normal_module"], "length")
+        for name, value in (("number_of_teeth", teeth), ("normal_module", self.module)):
+            if value is None and self.component.find(name) is None:
+                model.reject(self.component, name, "is missing")
+        self.pressure_angle = model.common(parts, ["normal_pressure_angle"], "angle")
+        self.helix = magnitude(model.common(gears, HELICES, "angle"))
+        self.shift = self.profile_shift(model, parts)
+        self.face_width = model.common(gears, ["face_width"], "length")
+        self.tip = magnitude(model.common(parts, ["tip_diameter"], "length"))
+        self.young_modulus = model.common(made_of, ["elastic_modulus"], "modulus")
+        self.poisson_ratio = model.common(made_of, ["poisson_ratio"], "number")
+
+    def profile_shift(self, model, parts):
+        """Coefficient, from the coefficient or the shift in mm."""
+        coefficient = model.common(parts, SHIFTS, "number")
+        shift_mm = model.common(parts, SHIFTS_MM, "length")
+        if shift_mm is None or not self.module:
+            return coefficient
+        from_mm = shift_mm / self.module
+        if coefficient is not None and abs(coefficient - from_mm) > 1e-3:
+            model.reject(parts[0], SHIFTS_MM[0], f"{shift_mm:.6g} mm are {from_mm:.6g} modules, but the coefficient is "
+                         f"{coefficient:.6g}", "correct one of them")
+        return from_mm if coefficient is None else coefficient
+
+
+def shared(model, gears, name, attribute):
+    """Value of a property that all gears of a stage should share. A gear that differs is a problem."""
+    stated = [gear for gear in gears if getattr(gear, name) is not None]
+    for gear in stated:
+        value, first = getattr(gear, name), getattr(stated[0], name)
+        if abs(value - first) > 1e-6 * max(1.0, value):
+            model.reject(gear.component, attribute, f"is {value:.9g}, but that of {stated[0].component.label} is "
+                         f"{first:.9g}; meshing gears have the same")
+    return getattr(stated[0], name) if stated else None
+
+
+def harmonic_mean(model, gears, name, title):
+    """Mean of a property, as of stiffnesses in series. Notes values that differ."""
+    stated = [(getattr(gear, name), gear.component.label) for gear in gears if (getattr(gear, name) or 0.0) > 0.0]
+    if len({value for value, _ in stated}) < 2:
+        return stated[0][0] if stated else None
+    mean = len(stated) / sum(1.0 / value for value, _ in stated)
+    listed = ", ".join(f"{value:.6g} of {label}" for value, label in stated)
+    model.notes.append(f"{title}: {listed}; a study has one value, their harmonic mean {mean:.6g}")
+    return mean
+
+
+def common_width(model, pairs, gears):
+    stated = [gear for gear in gears if gear.face_width is not None]
+    different, width = {gear.face_width for gear in stated}, model.common(pairs, ["common_face_width"], "length")
+    if width is None and different:
+        width = min(different)
+    if different - {width}:
+        listed = ", ".join(f"{gear.face_width:g} mm of {gear.component.label}" for gear in stated)
+        model.notes.append(f"face widths {listed}; a study has one, the common {width:g} mm")
+    return width
+
+
+def inverse_involute(value):
+    """Angle a > 0 with tan a - a = value, by Newton's method from above; 0 if there is none."""
+    angle, new = 0.0, min(math.pow(3.0 * value, 1.0 / 3.0), 1.57) if value > 0.0 else 0.0
+    while new != angle and (angle == 0.0 or new < angle):
+        angle, new = new, new - (math.tan(new) - new - value) / math.tan(new) ** 2
+    return angle
+
+
+def check_centre_distance(model, pair, teeth, gear_1, gear_2):
+    """Rejects a centre distance that does not fit the teeth and shifts of two gears, with the one that does. Notes a
+    small backlash."""
+    distance, module = teeth["centre_distance_mm"], teeth["module_mm"]
+    sign = -1 if gear_2.component.type == "ring_gear" else 1
+    number = gear_1.teeth + sign * gear_2.teeth
+    if None in (distance, gear_1.shift, gear_2.shift) or not (module > 0.0 and gear_1.teeth and gear_2.teeth and number):
+        return
+    helix = math.radians(teeth["helix_deg"] or 0.0)
+    normal = 20.0 if teeth["pressure_angle_deg"] is None else teeth["pressure_angle_deg"]
+    angle = math.atan(math.tan(math.radians(normal)) / math.cos(helix))
+    shift = (gear_1.shift + gear_2.shift) * math.cos(helix)
+    working = angle if shift == 0.0 else inverse_involute(
+        math.tan(angle) - angle + 2.0 * math.tan(angle) * shift / number)
+    fits = 0.5 * abs(number) * module / math.cos(helix) * math.cos(angle) / math.cos(working)
+    # Backlash in modules: larger distances open external meshes and close internal ones. Shifts are rounded to two
+    # decimals; no allowance of tooth thickness is 0.1.
+    gap = sign * (distance - fits) * 2.0 * math.tan(angle) / module
+    if 0.01 < gap <= 0.1:
+        model.notes.append(f"{gear_1.component.label} and {gear_2.component.label} have a backlash of about "
+                           f"{gap * module:.3g} mm at {distance:.6g} mm")
+    elif not -0.01 <= gap <= 0.1:
+        model.reject(pair, DISTANCES[0], f"is {distance:.6g} mm, but {gear_1.teeth} and {gear_2.teeth} teeth with "
+                     f"shifts of {gear_1.shift:g} and {gear_2.shift:g} fit at {fits:.6g} mm",
+                     "correct the distance, the teeth or the shifts (a positive shift makes teeth thicker, also those "
+                     "of a ring: ISO 21771)")
+
+
+def teeth_of(model, stage, gears, options):
+    """Values that all gears of a stage share. Options replace the model's."""
+    pairs = stage.first_pairs + stage.second_pairs
+    for pair in pairs:
+        pair.considered = True
+        for data in model.related("stage_gear_data", "stage", pair, "stage_gear_data"):
+            data.considered = True
+            model.flag(data, "is_driving_gear")
+    stage.component.considered = True
+    teeth = {"module_mm": shared(model, gears, "module", "normal_module") or 0.0,
+             "pressure_angle_deg": shared(model, gears, "pressure_angle", "normal_pressure_angle"),
+             "helix_deg": shared(model, gears, "helix", HELICES[0]),
+             "centre_distance_mm": magnitude(model.common(pairs, DISTANCES, "length"))}
+    meshes = [(stage.first_pairs[0], *gears[:2]), *((pair, *gears[1:]) for pair in stage.second_pairs[:1])]
+    for mesh in meshes:
+        check_centre_distance(model, mesh[0], teeth, *mesh[1:])
+    width = teeth["face_width_mm"] = common_width(model, pairs, gears)
+    teeth["young_modulus_Pa"] = harmonic_mean(model, gears, "young_modulus", "Young's modulus, Pa")
+    teeth["poisson_ratio"] = harmonic_mean(model, gears, "poisson_ratio", "Poisson's ratio")
+    if stage.kind == "cylindrical":
+        first, second = (model.number(gear, HELICES, "angle") or 0.0 for gear in (stage.first, stage.second))
+        if first * second > 0.0:
+            model.reject(stage.second, HELICES[0], f"{second:g} and {first:g} deg of {stage.first.label} have the same "
+                         "sign; external gears on parallel shafts have opposite hands")
+    teeth |= {name: options[name] for name in ("face_width_mm", "addendum", "quality") if name in options}
+    for name, title in (("pressure_angle_deg", "normal pressure angle (20 deg)"), ("helix_deg", "helix angle (0 deg)"),
+                        ("face_width_mm", "face width"), ("centre_distance_mm", "centre distance"),
+                        ("young_modulus_Pa", "Young's modulus"), ("poisson_ratio", "Poisson's ratio"),
+                        ("quality", "tooth quality")):
+        if teeth.get(name) is None:
+            model.lacking.append(title)
+    if "face_width_mm" in options and width is not None:
+        model.notes.append(f"an option replaces the model's face width of {width:g} mm")
+    return teeth
+
+
+def bearings(model, shafts, member, notes):
+    """Radial stiffness of all bearings between these shafts and other parts. None without bearings, or if any of them
+    is rigid or has none; a note names these."""
+    total, unusable, ids = 0.0, [], {shaft.id for shaft in shafts}
+    for relation in model.relations["side"] if ids else []:
+        bearing, = model.parts(relation, "assembly")
+        if not bearing or "bearing" not in bearing.type or \
+                not ids & {relation.get("inner_part"), relation.get("outer_part")}:
+            continue
+        bearing.considered = True
+        stiffness = model.number(bearing, ["radial_stiffness"], "stiffness")
+        if stiffness is not None and 0.0 < stiffness < 1e13:
+            total += stiffness
+        else:
+            unusable.append(bearing.label + ("" if stiffness is None else f" ({stiffness:g} N/m)"))
+    if unusable:
+        notes.append(f"bearings of the {member} that are rigid or state no radial stiffness, replaced by the rule: " +
+                     ", ".join(unusable))
+    return total if total > 0.0 and not unusable else None
+
+
+def shaft_links(model, stages):
+    """Connected shafts, each with its speed divided by that of the first."""
+    links = collections.defaultdict(list)
+
+    def connect(a, b, ratio):
+        if a is not b and ratio > 0.0:
+            links[a].append((b, ratio))
+            links[b].append((a, 1.0 / ratio))
+
+    for stage in stages:
+        if stage.first and stage.second:
+            first, second = (abs(model.count(gear, "number_of_teeth") or 0) for gear in (stage.first, stage.second))
+            whole = first + second if stage.planets else second
+            for a, b in ((a, b) for ends in [stage.ends(model)] for a in ends[0] for b in ends[1] if whole):
+                connect(a, b, first / whole)
+    for between, *shafts in (model.parts(relation, "assembly", "inner_part", "outer_part")
+                             for relation in model.relations["side"]):
+        if between and between.type.endswith("coupling") and model.flag(between, "is_engaged") is not False and \
+                all(shaft and shaft.type == "shaft" for shaft in shafts):
+            connect(*shafts, 1.0)
+    return links
+
+
+def reached_from(links, start):
+    """Ratio of the speed of each shaft that can be reached to that of `start`, and the number of links between them.
+    Ratios that no gear unit has end the search."""
+    reached, waiting = {start: (1.0, 0)}, collections.deque([start])
+    while waiting:
+        here = waiting.popleft()
+        ratio, number = reached[here]
+        for shaft, faster in links.get(here, []):
+            if shaft not in reached and 1e-30 < ratio * faster < 1e30:
+                reached[shaft] = ratio * faster, number + 1
+                waiting.append(shaft)
+    return reached
+
+
+class Load:
+    """Speed and torque at the driving member of a stage, followed from the shafts that state them through gear pairs,
+    planetary stages with a fixed ring, and couplings. Losses are neglected. Torque and speed of the same sense drive.
+    Without a torque, a stage's driving gear, else its sun or gear_1, drives. Speeds that contradict each other are
+    problems."""
+
+    def __init__(self, model, stages, stage):
+        self.speed, self.torque, self.notes, self.links = None, None, [], shaft_links(model, stages)
+        self.second_drives = stage.kind == "cylindrical" and any([
+            model.flag(data, "is_driving_gear")
+            for data in model.related("stage_gear_data", "gear", stage.second, "stage_gear_data")])
+        speeds, torques, ends = {}, [], stage.ends(model)
+        for part in model.components.values():
+            if part.type == "shaft":
+                model.flag(part, "defines_speed")
+                if speed := model.number(part, ["rotational_speed"], "speed"):
+                    speeds[part] = speed
+            elif part.type == "external_load":
+                part.considered = True
+                defines, _ = model.flag(part, "defines_torque"), model.flag(part, "transmits_torque")
+                torque = model.number(part, ["torque_around_u_axis"], "torque")
+                torques += [(not defines, shaft, part, torque) for shaft in model.shaft_of(part) if torque]
+        if torques:
+            self.follow_torque(speeds, sorted(torques, key=lambda torque: torque[0]), ends)
+        for driver in ends[self.second_drives][:1]:
+            self.follow_speed(model, speeds, driver)
+
+    def follow_torque(self, speeds, torques, ends):
+        """Takes the first torque, preferably one that defines the load; notes others that differ."""
+        (_, shaft, by, torque), *others = torques
+        reached = reached_from(self.links, shaft)
+        first, second = (min((reached[shaft] for shaft in side if shaft in reached), key=lambda at: at[1], default=None)
+                         for side in ends)
+        if first and second:
+            drives = speeds.get(shaft, torque) * torque > 0.0
+            self.second_drives = (second[1] < first[1]) == drives
+            self.torque = abs(torque) / (second if self.second_drives else first)[0]
+            self.notes.append(f"torque from {by.label} ({torque:.6g} N m)")
+        for _, other, load, value in others:
+            expected = abs(torque) / reached[other][0] if other in reached else abs(value)
+            if abs(abs(value) - expected) > 0.2 * expected:  # losses lower a torque
+                self.notes.append(f"{repr(value).removesuffix('.0')} N m of {load.label} are not used; "
+                                  f"{expected:.6g} N m follow from {by.label}")
+
+    def follow_speed(self, model, speeds, driver):
+        reached, source = reached_from(self.links, driver), None
+        for shaft, speed in speeds.items():
+            here = abs(speed) / reached[shaft][0] if shaft in reached else None
+            if here is not None and source is None:
+                self.speed, source = here, shaft
+                self.notes.append(f"speed from {shaft.label} ({speed:.6g} rpm)")
+            elif here is not None and abs(here - self.speed) > 0.01 * here:
+                model.reject(shaft, "rotational_speed", f"{speed:.6g} rpm contradict {speeds[source]:.6g} rpm of "
+                             f"{source.label}: the stage's driving shaft would turn at {here:.6g} and at "
+                             f"{self.speed:.6g} rpm", "correct one of them")
+
+    def drive_other(self, model, sun, ring, options):
+        """Driving member of a planetary stage: the model's, or with the balancing load that of an option."""
+        modelled = "carrier" if self.second_drives else "sun"
+        given = options.get("input", modelled)
+        if given == modelled or not sun.teeth:
+            return modelled
+        faster = 1.0 + ring.teeth / sun.teeth
+        faster = 1.0 / faster if modelled == "sun" else faster
+        if self.speed is not None and self.torque is not None:
+            model.notes.append(f"an option replaces the model's input, the {modelled}")
+        self.speed = None if self.speed is None else self.speed * faster
+        self.torque = None if self.torque is None else self.torque / faster
+        return given
+
+    def values(self, model, options):
+        """Torque, speed and power: given ones, completed by the model's."""
+        given = {name: options[name] for name in ("torque_N_m", "speed_rpm", "power_kW") if name in options}
+        stated = [("speed_rpm", self.speed, "speed", "rpm"), ("torque_N_m", self.torque, "torque", "N m")]
+        for name, value, _, _ in stated:
+            if len(given) < 2 and value is not None:
+                given.setdefault(name, value)
+        if len(given) < 2:
+            has, lacks = ("torque", "speed") if self.torque is not None else ("speed", "torque")
+            none = self.torque is None and self.speed is None
+            model.problem("--torque, --speed, --power", "the model states neither torque nor speed of the stage"
+                          if none else f"the model states a {has}, but no {lacks} of the stage",
+                          "give two of the three, for the driving member" if none else f"give --{lacks} or --power")
+            return given
+        model.notes += [f"an option replaces the model's {title} of {value:.6g} {unit}"
+                        for name, value, title, unit in reversed(stated) if value not in (None, given.get(name))]
+        return given
+
+
+def check_ring(model, stage):
+    """Rejects a planetary stage whose ring turns."""
+    why = ""
+    for shaft in model.shaft_of(stage.second):
+        if speed := model.number(shaft, ["rotational_speed"], "speed"):
+            why = f"its {shaft.label} turns at {speed:.6g} rpm"
+        for held in carriers(model, stage) + model.shaft_of(stage.first):
+            if not why and model.number(held, ["rotational_speed"], "speed") == 0.0 and \
+                    model.flag(held, "defines_speed"):
+                why = f"{held.label} stands still instead (rotational_speed 0)"
+    if why:
+        model.problem(stage.component.label, f"the ring is not the fixed member: {why}",
+                      "new writes studies with a fixed ring; edit operation.fixed in one")
+
+
+def planets_of(model, stage, options):
+    """Number of planets: given as an option, stated or modelled. Notes planets that are not spaced equally."""
+    modelled, given = len(stage.planets), options.get("planets")
+    stated = model.count(stage.component, "number_of_planets")
+    if stated is not None and modelled > 1 and stated != modelled:
+        model.reject(stage.component, "number_of_planets", f"is {stated}, but the model has {modelled} planet gears",
+                     "correct one of them")
+    if modelled == 1 and stated is None and given is None:
+        model.lacking.append("number of planets (3; the model has one planet gear)")
+    here = stated if stated is not None else 3 if modelled == 1 else modelled
+    if given not in (None, here) and modelled > 1:
+        model.notes.append(f"an option replaces the model's number of planets, {here}")
+    angles = [model.number(pair, ["rotating_angle_around_neg_u_axis"], "angle") for pair in stage.first_pairs]
+    angles = sorted(angle % 360.0 for angle in angles if angle is not None)
+    if any(abs(angle - angles[0] - 360.0 * i / len(angles)) > 0.5 for i, angle in enumerate(angles)):
+        listed = ", ".join(f"{angle - angles[0]:.4g}" for angle in angles)
+        model.notes.append(f"planets at {listed} deg; the study spaces them equally or as nearly as the teeth allow "
+                           "(gearbox.planet_positions_deg)")
+    return here if given is None else given
+
+
+def names_of(stage, members):
+    """Names of values for messages, by study key: attributes of the model, else options."""
+    names = {f"gearbox.{key}": f"{stage.component.label}: {attribute}" for key, attribute in (
+        ("normal_module_mm", "normal_module"), ("module_mm", "normal_module"), ("helix_angle_deg", HELICES[0]),
+        ("pressure_angle_deg", "normal_pressure_angle"), ("face_width_mm", "face_width"),
+        ("young_modulus_Pa", "elastic_modulus"), ("poisson_ratio", "poisson_ratio"),
+        ("centre_distance_mm", DISTANCES[0]))}
+    return names | {f"gearbox.{member}_{key}": f"{gear.component.label}: {attribute}"
+                    for member, gear in members.items()
+                    for key, attribute in (("teeth", "number_of_teeth"), ("shift", SHIFTS[0]),
+                                           ("tip_mm", "tip_diameter"))} | {"operation.pinion_speed_rpm": "--speed"}
+
+
+def stage_values(model, stages, stage, options):
+    """Values of the datasheet, and the gears by the names that they have in a study."""
+    load = Load(model, stages, stage)
+    first, second = (stage.second, stage.first) if load.second_drives and not stage.planets else \
+        (stage.first, stage.second)
+    gears = {"sun": [first], "planet": stage.planets, "ring": [second]} if stage.planets else \
+        {"pinion": [first], "gear": [second]}
+    owners = {"sun": "sun's", "planet": "planets'", "ring": "ring's", "carrier": "carrier's",
+              "pinion": "driving gear's", "gear": "driven gear's"}
+    members = {member: Gear(model, parts) for member, parts in gears.items()}
+    values = {member: gear.teeth for member, gear in members.items()}
+    values |= teeth_of(model, stage, list(members.values()), options)
+    if stage.planets:
+        check_ring(model, stage)
+        values["planets"] = planets_of(model, stage, options)
+    for name in () if stage.planets else ("input", "planets"):
+        if name in options:
+            model.problem(f"--{name}", "a gear pair has none", "leave it out for a cylindrical stage")
+    for planet in stage.planets:
+        bearings(model, model.shaft_of(planet), "planets", [])  # all count as considered
+    shafts = {member: model.shaft_of(parts[0]) for member, parts in gears.items()}
+    shafts |= {"carrier": carriers(model, stage)} if stage.planets else {}
+    for key, title, numbers in (
+            ("{}_shift", "shift", {member: gear.shift for member, gear in members.items()}),
+            ("{}_tip_mm", "tip circle", {member: gear.tip for member, gear in members.items()}),
+            ("{}_bearing_N_m", "bearing stiffness",
+             {member: bearings(model, held, re.sub("'s?$", "", owners[member]), model.notes)
+              for member, held in shafts.items()})):
+        values |= {key.format(member): value for member, value in numbers.items()}
+        model.lacking += [f"{owners[member]} {title}" for member, value in numbers.items()
+                          if value is None]
+    if stage.planets:
+        values["input"] = load.drive_other(model, members["sun"], members["ring"], options)
+    else:
+        model.lacking.append("shafts, motor and load")
+        model.notes.append(f"{first.label} drives (the study's pinion)")
+    model.notes += load.notes
+    return values | load.values(model, options), members
+
+
+def datasheet(model, options):
+    """Datasheet of the chosen stage. Raises Unusable if the model has problems."""
+    model.apply_load_case(options.get("load_case", ""))
+    stages = stages_of(model)
+    stage = chosen_stage(model, stages, options.get("stage", ""))
+    values, members = stage_values(model, stages, stage, options)
+    if model.problems:
+        raise Unusable
+    model.lacking += ["gear bodies, masses and inertias", "damping", "sensor and noise"]
+    lacks = "ot in the model, by rule or chosen: " + ", ".join(model.lacking)
+    unused = ["ot taken from the model: " + line for line in model.unused()]
+    head = f"Stage {stage.description()} of {options['name']} (REXS {model.version})."
+    return {"kind": stage.kind, "names": names_of(stage, members),
+            "values": {name: value for name, value in values.items() if value is not None},
+            "notes": [head] + model.notes + ["N" + line for line in [lacks] + unused],
+            "notices": model.notices + [(0, "", line, "") for line in
+                                        model.notes + ["n" + line for line in [lacks] + unused]]}
+
+
+def main():
+    resource.setrlimit(resource.RLIMIT_AS, (MOST_MEMORY, MOST_MEMORY))
+    resource.setrlimit(resource.RLIMIT_CPU, (MOST_SECONDS, MOST_SECONDS))
+    model, reply = Model(), {}
+    try:
+        model.read(sys.argv[1])
+        reply = datasheet(model, json.load(sys.stdin))
+        json.dumps(reply, allow_nan=False)
+    except Unusable:
+        pass
+    except ImportError as error:
+        model.problem("", f"cannot be read: {sys.executable}: {error}",
+                      "install python3-lxml, or name a Python 3 with lxml in GEARPOD_PYTHON")
+    except MemoryError:
+        model.problem("", "needs more memory than reading a model may use",
+                      "export the model without meshes and results")
+    except (ArithmeticError, ValueError):
+        model.problem("", "has values that no gear unit can have")
+    json.dump({**(reply if not model.problems else {}), "problems": model.problems}, sys.stdout)
+
+
+if __name__ == "__main__":
+    main()
