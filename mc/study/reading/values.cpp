@@ -20,6 +20,9 @@ constexpr FormerSpelling kFormerSpellings[] = {{"numerics.horizon", "reuse", "pe
                                                {"numerics.horizon", "superpose", "superposed"},
                                                {"numerics.horizon", "march", "full"}};
 
+// Values of earlier versions that are refused, each with the value to use instead.
+constexpr FormerSpelling kRemovedValues[] = {{"numerics.integrator", "bs3", "rk4"}};
+
 class ValueReader {
   public:
     ValueReader(StudyDraft& draft, const Key& key, const Entry& entry)
@@ -54,6 +57,13 @@ class ValueReader {
             names.push_back(name.text);
             if (value_.kind == Value::Kind::text && text == name.text) {
                 access.set(draft_.study, name.value);
+                return;
+            }
+        }
+        for (const FormerSpelling& removed : kRemovedValues) {
+            if (key_.path() == removed.key && text == removed.former) {
+                reject(fmt::format("\"{}\" of an earlier version was removed", text),
+                       fmt::format("use \"{}\"", removed.current));
                 return;
             }
         }

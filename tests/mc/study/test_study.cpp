@@ -200,6 +200,18 @@ TEST_CASE("Spellings of earlier versions are accepted with a notice") {
     CHECK(read_study_text(kExampleStudy, "s.toml", {}).notices.empty());
 }
 
+TEST_CASE("Integrators of earlier versions are refused, with the one to use instead") {
+    const std::string key = "numerics.integrator=";
+    const auto [former, current] = GENERATE(table<std::string, std::string>({{"bs3", "rk4"}}));
+    const auto refused = read_study_text(kExampleStudy, "s.toml", {key + former});
+    CHECK(!refused.study);
+    REQUIRE(refused.problems.size() == 1);
+    CHECK(refused.problems[0].key == "numerics.integrator");
+    CHECK(refused.problems[0].what == "\"" + former + "\" of an earlier version was removed");
+    CHECK(refused.problems[0].remedy == "use \"" + current + "\"");
+    CHECK(read_study_text(kExampleStudy, "s.toml", {key + current}).study);
+}
+
 TEST_CASE("Keys with a new name are accepted under their earlier name, with a notice") {
     const auto read = [](std::vector<std::string> overrides) {
         overrides.emplace_back("life.speed_scatter=0.01");
