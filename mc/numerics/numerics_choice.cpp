@@ -208,10 +208,7 @@ class Search {
 
     NumericsChoice run() {
         std::vector<SolverFamily> all = solver_families(planner_, given_, kBeyondOwnRule);
-        std::erase_if(all, [&](const SolverFamily& f) {
-            const bool never_chosen = lockstep::facts(*f.common.numerics.integrator).never_chosen;
-            return f.size() == 0 || (never_chosen && !given_.integrator);
-        });
+        std::erase_if(all, [](const SolverFamily& f) { return f.size() == 0; });
         // The least expensive families first: candidates that cost more than the best so far are
         // not tried.
         std::stable_sort(all.begin(), all.end(), [&](const SolverFamily& a, const SolverFamily& b) {

@@ -21,7 +21,8 @@ constexpr FormerSpelling kFormerSpellings[] = {{"numerics.horizon", "reuse", "pe
                                                {"numerics.horizon", "march", "full"}};
 
 // Values of earlier versions that are refused, each with the value to use instead.
-constexpr FormerSpelling kRemovedValues[] = {{"numerics.integrator", "bs3", "rk4"}};
+constexpr FormerSpelling kRemovedValues[] = {{"numerics.integrator", "bs3", "rk4"},
+                                             {"numerics.integrator", "bathe", "sdirk3"}};
 
 class ValueReader {
   public:

@@ -37,9 +37,6 @@ IntegratorFacts facts_of(std::string_view kernels) {
     if constexpr (requires { Method::kLeastMargin; }) {
         facts.least_margin = Method::kLeastMargin;
     }
-    if constexpr (requires { Method::kNeverChosen; }) {
-        facts.never_chosen = Method::kNeverChosen;
-    }
     if constexpr (requires { Method::kScalesMass; }) {
         facts.scales_mass = Method::kScalesMass;
     }

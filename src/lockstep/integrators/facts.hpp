@@ -33,7 +33,6 @@ struct IntegratorFacts {
     double (*stable_step)(const dynamics::GearboxMatrices&);  // of explicit ones without growth()
     double least_margin;                                      // of explicit ones
     bool scales_mass;                                         // may use plan/mode_inertia.hpp
-    bool never_chosen;                                        // by the program
 };
 
 const IntegratorFacts& facts(Integrator integrator);

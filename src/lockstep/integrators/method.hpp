@@ -17,8 +17,6 @@
 //                  the stability limit; kStepMargin for methods that damp motion near the limit
 //   kScalesMass    optional: true for methods that may give fast modes more inertia
 //                  (plan/mode_inertia.hpp)
-//   kNeverChosen   optional: true for methods that `accuracy` measures for comparison, but that the
-//                  program never takes by itself
 //   filter(s)      a step of the sensor's low-pass filter by the same method (sensor_filter.hpp)
 #pragma once
 
