@@ -94,10 +94,6 @@ std::optional<Operations> operations(const mc::Scene& scene, const Setting& sett
     if (setting.integrator == "central-difference") {
         return central_difference_operations(scene.solve().integration());
     }
-    if (setting.integrator == "generalized-alpha") {
-        return generalized_alpha_operations(scene.solve().integration(),
-                                            scene.gearbox().inputs(scene.gearbox().nominal));
-    }
     return {};
 }
 
@@ -172,9 +168,7 @@ void add_all() {
                     add({planets, torsional, method, "double", 8, set});
                     add({planets, torsional, method, "single", 16, set});
                 }
-                for (const char* method : {"generalized-alpha", "sdirk3"}) {
-                    add({planets, torsional, method, "double", 8, set});
-                }
+                add({planets, torsional, "sdirk3", "double", 8, set});
             }
         }
         for (const int lanes : {1, 4}) {

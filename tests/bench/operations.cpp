@@ -5,8 +5,6 @@
 
 #include "dynamics/planetary_motion.hpp"
 #include "lockstep/integrators/central_difference.hpp"
-#include "lockstep/integrators/facts.hpp"
-#include "lockstep/integrators/newmark.hpp"
 #include "lockstep/integrators/runge_kutta.hpp"
 
 namespace gearpod::lockstep {
@@ -68,12 +66,6 @@ Operations of_planetary(const lockstep::IntegrationPlan& plan, int i) {
     return operations_of<Integrator, Model>(plan, layout.planets, i);
 }
 
-// A filter channel takes two rows of two numbers, two rows of four, and three inputs each.
-void add_filter(int channels, Operations& sum) {
-    sum.fma += channels * (2 * 2 + 2 * 4 + 4 * 2);
-    sum.multiply += channels * 4;
-}
-
 }  // namespace
 
 Operations rk4_operations(const lockstep::IntegrationPlan& plan) {
@@ -88,39 +80,6 @@ Operations central_difference_operations(const lockstep::IntegrationPlan& plan) 
         ++i;
     }
     return of_planetary<lockstep::CentralDifference>(plan, i);
-}
-
-// Same order as lockstep/integrators/newmark.hpp and implicit_stage.hpp.
-Operations generalized_alpha_operations(const lockstep::IntegrationPlan& plan,
-                                        const dynamics::GearboxInputs& inputs) {
-    const auto lanes =
-        lockstep::make_implicit_lanes<1>(plan, lockstep::facts(plan.integrator).span, {&inputs, 1});
-    const long pairs = lanes.pairs, degrees = lanes.degrees, sources = lanes.sources;
-    const long entries = lanes.lu.lower.size() + lanes.lu.upper.size();
-    Operations sum;
-    sum.multiply += 1 + 3;                     // h and the stage's span
-    sum.multiply += 2 * degrees;               // known part of the stage
-    sum.fma += 3 * degrees;                    //
-    sum.multiply += pairs;                     // damping of the meshes
-    sum.fma += 2 * lanes.coupling.size();      // free forces
-    sum.fma += 2 * entries;                    // twice through the factors
-    sum.multiply += 2 * degrees;               //
-    sum.fma += 3 * pairs * lanes.row_entries;  // deflections
-    sum.multiply += 2 * pairs;                 // loads
-    sum.fma += 3 * pairs;                      //
-    for (long i = 0; i < pairs; ++i) {         // elimination of the meshes
-        const long below = pairs - i - 1;
-        sum.divide += 1;
-        sum.multiply += 2 + below;
-        sum.fma += 2 + below + below * below + 1 + i;
-    }
-    sum.fma += pairs * lanes.row_entries;  // mesh forces back to the degrees of freedom
-    sum.multiply += 5 * degrees;           // end of the step
-    sum.fma += 7 * degrees;                //
-    sum.multiply += 8 * sources;           // sensor input
-    sum.fma += 4 * sources;                //
-    add_filter(plan.channels(), sum);
-    return sum;
 }
 
 double bytes_streamed(const lockstep::IntegrationPlan& plan, int lanes) {

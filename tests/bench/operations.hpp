@@ -14,11 +14,6 @@ Operations rk4_operations(const lockstep::IntegrationPlan& plan);
 // further apart.
 Operations central_difference_operations(const lockstep::IntegrationPlan& plan);
 
-// Operations of one step of the generalized-alpha method at whose start no stiffness jumps, by the
-// lists of matrix entries that its kernel goes through.
-Operations generalized_alpha_operations(const lockstep::IntegrationPlan& plan,
-                                        const dynamics::GearboxInputs& inputs);
-
 // Bytes per step of a tile streamed from and to memory outside its own scratch: stiffness and
 // damping at the stage nodes are read, the mean of a mesh period's records is written.
 double bytes_streamed(const lockstep::IntegrationPlan& plan, int lanes);

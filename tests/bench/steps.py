@@ -10,7 +10,7 @@ operations are not counted, times over those of rk4. The last table is that of b
 """
 from measuring import arguments, bench_program, benchmark_runs, finished, parsed, ratio, show, table
 
-METHODS = ["rk4", "central-difference", "generalized-alpha", "sdirk3"]
+METHODS = ["rk4", "central-difference", "sdirk3"]
 MOTIONS = {"full": "x, y, rotation", "torsional": "rotations"}
 Setting = tuple[str, ...]  # method, planets, motion, precision, instruction set, lanes
 

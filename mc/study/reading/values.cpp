@@ -21,8 +21,10 @@ constexpr FormerSpelling kFormerSpellings[] = {{"numerics.horizon", "reuse", "pe
                                                {"numerics.horizon", "march", "full"}};
 
 // Values of earlier versions that are refused, each with the value to use instead.
-constexpr FormerSpelling kRemovedValues[] = {{"numerics.integrator", "bs3", "rk4"},
-                                             {"numerics.integrator", "bathe", "sdirk3"}};
+constexpr FormerSpelling kRemovedValues[] = {
+    {"numerics.integrator", "bs3", "rk4"},
+    {"numerics.integrator", "bathe", "sdirk3"},
+    {"numerics.integrator", "generalized-alpha", "sdirk3"}};
 
 class ValueReader {
   public:

@@ -16,7 +16,7 @@ inline constexpr double kFilterDamping[] = {1.8477590650225735, 0.76536686473017
 
 // Offsets in the coefficients of one step: the transition matrix without its zero block, then the
 // columns of the input at the stages, 0 where a method has none. newmark has start, none, end;
-// generalized_alpha the same, earlier by its lag; central_difference only the midpoint.
+// central_difference only the midpoint.
 inline constexpr int kFilterXX = 0;      // 2 x 2: x, x' from x, x'
 inline constexpr int kFilterYX = 4;      // 2 x 2: y, y' from x, x'
 inline constexpr int kFilterYY = 8;      // 2 x 2: y, y' from y, y'

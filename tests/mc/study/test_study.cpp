@@ -202,8 +202,8 @@ TEST_CASE("Spellings of earlier versions are accepted with a notice") {
 
 TEST_CASE("Integrators of earlier versions are refused, with the one to use instead") {
     const std::string key = "numerics.integrator=";
-    const auto [former, current] =
-        GENERATE(table<std::string, std::string>({{"bs3", "rk4"}, {"bathe", "sdirk3"}}));
+    const auto [former, current] = GENERATE(table<std::string, std::string>(
+        {{"bs3", "rk4"}, {"bathe", "sdirk3"}, {"generalized-alpha", "sdirk3"}}));
     const auto refused = read_study_text(kExampleStudy, "s.toml", {key + former});
     CHECK(!refused.study);
     REQUIRE(refused.problems.size() == 1);

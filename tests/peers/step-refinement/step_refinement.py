@@ -14,7 +14,7 @@ import tempfile
 import h5py
 import numpy as np
 
-METHODS = ("rk4", "central-difference", "newmark", "generalized-alpha", "sdirk3")
+METHODS = ("rk4", "central-difference", "newmark", "sdirk3")
 
 
 def simulate(given, onset, method, steps, folder):
