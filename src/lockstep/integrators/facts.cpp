@@ -25,7 +25,7 @@ IntegratorFacts facts_of(std::string_view kernels) {
     facts.supports_varying_forces = has("forced");
     facts.supports_variable_speed = has("variable_speed");
     if constexpr (kImplicit<Method>) {
-        facts.span = Method::kSpan;
+        facts.diagonal = Method::kDiagonal;
     }
     if constexpr (requires(std::complex<double> z) { Method::growth(z); }) {
         facts.growth = [](std::complex<double> z) { return Method::growth(z); };

@@ -27,7 +27,7 @@ struct IntegratorFacts {
     bool is_explicit, has_single_precision;
     bool supports_varying_forces,
         supports_variable_speed;  // under time-varying forces, at variable speed
-    ImplicitSpan span;            // 0 for an explicit method
+    double diagonal;              // 0 for an explicit method
     std::complex<double> (*growth)(std::complex<double>);  // or null
     FilterMap (*filter)(const FilterSystem&);
     double (*stable_step)(const dynamics::GearboxMatrices&);  // of explicit ones without growth()

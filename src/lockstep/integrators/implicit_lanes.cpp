@@ -218,7 +218,7 @@ void set_constants(ImplicitLanes<W>& lanes, const dynamics::GearboxMatrices& m, 
 }  // namespace
 
 template <int W>
-ImplicitLanes<W> make_implicit_lanes(const IntegrationPlan& plan, const ImplicitSpan& span,
+ImplicitLanes<W> make_implicit_lanes(const IntegrationPlan& plan, double diagonal,
                                      std::span<const dynamics::GearboxInputs> inputs) {
     EXPECTS(inputs.size() == W);
     ImplicitLanes<W> lanes;
@@ -246,7 +246,7 @@ ImplicitLanes<W> make_implicit_lanes(const IntegrationPlan& plan, const Implicit
         double* block = lanes.blocks.data() + l;
         for (const double length : plan.grid.lengths) {
             const double h = length * lanes.mesh_period[l];
-            set_block(lanes, m, rows, span.velocity * h, span.position * h * h, block);
+            set_block(lanes, m, rows, diagonal * h, diagonal * diagonal * h * h, block);
             block += lanes.block_size;
         }
         set_block(lanes, m, rows, 0.0, 0.0, block);
@@ -254,8 +254,8 @@ ImplicitLanes<W> make_implicit_lanes(const IntegrationPlan& plan, const Implicit
     return lanes;
 }
 
-#define GEARPOD_IMPLICIT_LANES(W, REAL)                                                           \
-    template ImplicitLanes<W> make_implicit_lanes<W>(const IntegrationPlan&, const ImplicitSpan&, \
+#define GEARPOD_IMPLICIT_LANES(W, REAL)                                              \
+    template ImplicitLanes<W> make_implicit_lanes<W>(const IntegrationPlan&, double, \
                                                      std::span<const dynamics::GearboxInputs>);
 GEARPOD_FOR_DOUBLE_WIDTHS(GEARPOD_IMPLICIT_LANES)
 #undef GEARPOD_IMPLICIT_LANES

@@ -93,10 +93,10 @@ struct ImplicitLanes {
     }
 };
 
-// Makes the lanes for the plan's grid and an integrator with the given span. `inputs` holds W
-// gearboxes of the plan's kind.
+// Makes the lanes for the plan's grid and an integrator with the given diagonal coefficient (a over
+// the step). `inputs` holds W gearboxes of the plan's kind.
 template <int W>
-ImplicitLanes<W> make_implicit_lanes(const IntegrationPlan& plan, const ImplicitSpan& span,
+ImplicitLanes<W> make_implicit_lanes(const IntegrationPlan& plan, double diagonal,
                                      std::span<const dynamics::GearboxInputs> inputs);
 
 }  // namespace gearpod::lockstep

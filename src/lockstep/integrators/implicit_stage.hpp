@@ -424,29 +424,4 @@ GEARPOD_INLINE void diagonal_stage(const IntegrationPlan& plan, const typename M
     Model::source_accelerations(lanes, positions, velocities, acceleration, input);
 }
 
-// Begins step i by the trapezoidal rule: computes the acceleration at the step's start with the
-// stiffness just after it, the sensor's input there, and x and v of the diagonal stage at the end
-// of the rule's interval, whose coefficient is span.a.
-template <class Model, int W = Model::kWidth>
-GEARPOD_INLINE void begin_trapezoid(const IntegrationPlan& plan, const typename Model::Lanes& lanes,
-                                    const MeshOverrides& overrides, int i, const StageSpan<W>& span,
-                                    const TileState& state, double* __restrict acceleration,
-                                    double* __restrict x, double* __restrict v,
-                                    double* __restrict input, StageScratch<Model>& meshes) {
-    const double* __restrict start_q = state.q.data();
-    const double* __restrict start_v = state.v.data();
-    load_pairs<Model>(plan, lanes, overrides, i, 0, meshes.pairs);
-    implicit_stage<Model>(lanes, lanes.block_at_rest(), StageSpan<W>{}, start_q, start_v,
-                          acceleration, meshes);
-    Model::source_accelerations(lanes, start_q, start_v, acceleration, input);
-    for (int j = 0; j < lanes.degrees * W; j += W) {
-#pragma omp simd
-        for (int l = 0; l < W; ++l) {
-            const double vj = std::fma(span.a[l], acceleration[j + l], start_v[j + l]);
-            v[j + l] = vj;
-            x[j + l] = std::fma(span.a[l], start_v[j + l] + vj, start_q[j + l]);
-        }
-    }
-}
-
 }  // namespace gearpod::lockstep

@@ -8,7 +8,7 @@
 //                  0.1 % (for an implicit method also the motion); the low-pass filter of an
 //                  explicit method tolerates half as many
 //   kCost          of a step
-//   kSpan          implicit methods: factors of a stage's own acceleration
+//   kDiagonal      implicit methods: factor of a stage's own slope, times the step
 //   growth(z)      explicit methods whose stages all use q' = v: factor by which a step multiplies
 //                  a mode, z = h lambda, from which the limit of stable steps follows
 //   stable_step(m) other explicit methods: longest step (s) for which no decaying mode of the
@@ -22,12 +22,6 @@
 
 namespace gearpod::lockstep {
 
-// Factors of a stage's own acceleration: in the velocity, times the step; in the position, times
-// its square.
-struct ImplicitSpan {
-    double velocity = 0.0, position = 0.0;
-};
-
 // Cost of one step of one gearbox in a full tile, relative to one step of rk4, by the gearbox's
 // model. The values are ratios measured by the command `accuracy` on an AVX-512 core. They are
 // constants, so that a study makes the same choice on every machine.
@@ -40,7 +34,7 @@ inline constexpr double kStepMargin = 1.2;
 
 template <class Method>
 inline constexpr bool kImplicit = requires {
-    Method::kSpan;
+    Method::kDiagonal;
 };
 
 }  // namespace gearpod::lockstep

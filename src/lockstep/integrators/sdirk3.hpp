@@ -24,8 +24,7 @@ struct Sdirk3 {
     static constexpr double kStageNodes[] = {Alexander::kDiagonal, Alexander::kSecond, 1.0};
     static constexpr double kStepsInBand = 25.0;
     static constexpr StepCost kCost{6.8, 4.0, 4.2};
-    static constexpr ImplicitSpan kSpan{Alexander::kDiagonal,
-                                        Alexander::kDiagonal* Alexander::kDiagonal};
+    static constexpr double kDiagonal = Alexander::kDiagonal;
 
     template <class System>
     static auto filter(const System& s) {

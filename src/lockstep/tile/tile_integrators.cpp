@@ -69,7 +69,7 @@ auto with_lanes(const IntegrationPlan& plan, std::span<const dynamics::GearboxIn
     const IntegratorFacts& integrator = facts(plan.integrator);
     if constexpr (std::is_same_v<Real, double>) {
         if (!integrator.is_explicit) {
-            return use(make_implicit_lanes<W>(plan, integrator.span, inputs),
+            return use(make_implicit_lanes<W>(plan, integrator.diagonal, inputs),
                        MotionModel::matrices);
         }
     }
