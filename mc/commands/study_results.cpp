@@ -31,11 +31,7 @@ StudyResults read_study_results(const std::string& path) {
     StudyResults requested{path, read_frame(path), {}};
     const FileRows rows(path, requested.frame);
     check_results(path, requested.frame, rows);
-    auto source = rare_event_source(requested.frame.provenance_value("study"), path);
-    if (!source) {
-        throw std::runtime_error(path + ": the study in the file cannot be read");
-    }
-    requested.source = std::move(*source);
+    requested.source = rare_event_source(requested.frame.provenance_value("study"), path);
     requested.frame.detection = detect_all(requested.frame, rows);
     return requested;
 }

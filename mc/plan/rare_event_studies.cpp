@@ -55,10 +55,11 @@ Study study_for_rare_rate(const Study& study, const RareRateRequest& request) {
     return restricted;
 }
 
-std::optional<RareEventSource> rare_event_source(const std::string& text, const std::string& name) {
-    const auto study = read_study_text(text, name).study;
+RareEventSource rare_event_source(const std::string& text, const std::string& name) {
+    const auto [study, problems, notices] = read_study_text(text, name);
     if (!study) {
-        return std::nullopt;
+        throw std::runtime_error(name + ": the study in the file cannot be read:\n" +
+                                 format(problems));
     }
     RareEventSource source{text, make_fault_plan(*study), {}};
     if (noise_by_density(*study)) {

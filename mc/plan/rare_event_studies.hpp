@@ -49,8 +49,9 @@ struct RareEventSource {
     // Reasons why its noise cannot be tilted, as sentences that follow the name of its file.
     std::vector<std::string> noise_problems;
 };
-// Empty if the text is no study. `name` stands for it in messages.
-std::optional<RareEventSource> rare_event_source(const std::string& text, const std::string& name);
+// Throws std::runtime_error with the problems of a text that this version cannot read. `name`
+// stands for it in messages.
+RareEventSource rare_event_source(const std::string& text, const std::string& name);
 // Texts of the studies for the requests.
 std::string miss_rate_text(const RareEventSource& source, const MissRateRequest& request);
 std::string rare_rate_text(const RareEventSource& source, const RareRateRequest& request);
