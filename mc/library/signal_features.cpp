@@ -113,7 +113,7 @@ HealthyReference reference_at(double noise_level, const TilePlan& tile) {
     }
     const auto level = static_cast<std::size_t>(found - levels.begin());
     const HealthyReference all = simulated_reference(tile);
-    return {{all.residual_variance[level]}, {all.envelope_variance[level]}, {all.amplitude[level]}};
+    return {{all.residual_variance[level]}};
 }
 
 }  // namespace

@@ -9,7 +9,7 @@
 #include "features/feature.hpp"
 #include "mc/study/study.hpp"
 #include "signals/tile_signals.hpp"
-#include "signals/windowing/vibration_separation.hpp"
+#include "signals/windowing/tooth_statistics.hpp"
 
 namespace gearpod::mc {
 

@@ -256,7 +256,7 @@ std::vector<const Feature*> measurable(const FeaturePlan& plan, bool with_baseli
 Measurement measure(const MeasurementPlan& plan, const MeasuredSignal& signal,
                     const HealthyReference& healthy, const MeasuredBaseline* baseline) {
     Measurement measurement;
-    const bool has_reference = !healthy.amplitude.empty();
+    const bool has_reference = !healthy.residual_variance.empty();
     std::string no_change;
     if (baseline != nullptr) {
         try {

@@ -58,20 +58,9 @@ std::string of_teeth(const features::FeatureInput& input, double rounding) {
                : "";
 }
 
-// Reason for features of the single planets' averages.
-std::string of_planets(const features::SeparatedPlanets& planets, double rounding) {
-    double rms = 0.0;
-    for (const std::vector<double>& difference : planets.difference) {
-        rms = std::max(rms, rms_of(difference));
-    }
-    return rms < kClearFactor * rounding
-               ? comparison("the rms of the planets' difference signals", rms, rounding, "m/s^2")
-               : "";
-}
-
 // True if the feature has no meaning without mesh lines.
 bool divides_by_mesh_lines(const features::Feature& feature) {
-    constexpr std::array kNames{"energy_ratio", "fm0", "amplitude_modulation", "phase_modulation"};
+    constexpr std::array kNames{"energy_ratio", "fm0"};
     return std::ranges::any_of(kNames,
                                [&](const char* name) { return feature.name.ends_with(name); });
 }
@@ -145,9 +134,6 @@ std::string rounding_reason(const features::Feature& feature, const features::Fe
     }
     if (feature.needs.has<features::ToothRms<Member::planet>, features::WhitenedToothRms>()) {
         return of_teeth<Member::planet>(input, rounding);
-    }
-    if (feature.needs.has<features::SeparatedPlanets>()) {
-        return of_planets(input.get<features::SeparatedPlanets>(), rounding);
     }
     if (feature.needs.has<features::ToothRms<Member::sun>>()) {
         return of_teeth<Member::sun>(input, rounding);

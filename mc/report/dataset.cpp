@@ -99,12 +99,6 @@ std::string input_meaning(const std::string& name) {
     return "column of the recordings' list";
 }
 
-// True for features that compare with the mean of the first healthy gearboxes.
-bool compares_with_healthy(const std::string& feature) {
-    return std::ranges::any_of(std::initializer_list<const char*>{"na4", "nb4", "nsds"},
-                               [&](const char* name) { return feature.ends_with(name); });
-}
-
 class Dataset {
   public:
     Dataset(const Results& frame, const std::string& file)
@@ -352,11 +346,10 @@ std::string Dataset::card(const std::vector<NamedFile>& signals) const {
         add("- {} records failed and are left out.\n", failed_);
     }
     if (!recorded_ && std::ranges::any_of(frame_.features, [](const FeatureResult& feature) {
-            return compares_with_healthy(feature.name);
+            return feature.name.ends_with("na4");
         })) {
-        add("- na4, nb4 and nsds compare with the mean of the first eight gearboxes of the "
-            "threshold "
-            "sample, which are in any split.\n");
+        add("- na4 compares with the mean of the first eight gearboxes of the threshold sample, "
+            "which are in any split.\n");
     }
     add("- {}\n", recorded_ ? "Labels and sizes are those of the list of recordings."
                             : "No gearbox was measured. Values hold for the study's gearboxes and "

@@ -5,13 +5,11 @@
 #include <string>
 #include <vector>
 
-#include "features/cyclostationarity.hpp"
 #include "features/feature.hpp"
 #include "features/healthy_comparison.hpp"
+#include "features/kurtogram_peak.hpp"
 #include "features/modulation_indicators.hpp"
-#include "features/prediction_features.hpp"
 #include "features/residual_indicators.hpp"
-#include "features/spectral_kurtosis.hpp"
 #include "features/speed_features.hpp"
 #include "features/te_features.hpp"
 #include "features/tooth_windows.hpp"
@@ -80,8 +78,6 @@ constexpr std::array kFeatures{
     feature<na4>(
         "na4", "residual vibration against healthy gearboxes", "1", AlarmSide::high,
         "fourth moment of the residual signal over the square of healthy gearboxes' variance"),
-    feature<nb4>("nb4", "mesh envelope against healthy gearboxes", "1", AlarmSide::high,
-                 "the same of the envelope around the first mesh harmonic"),
     feature<energy_ratio>(
         "energy_ratio", "irregular over regular vibration", "1", AlarmSide::high,
         "rms of the difference signal over that of mesh harmonics and first sidebands"),
@@ -94,14 +90,6 @@ constexpr std::array kFeatures{
     feature<frms>(
         "frms", "vibration without its regular lines", "m/s^2", AlarmSide::high,
         "rms of the sensor signal without its average over carrier turns; after Lei (2012)"),
-    feature<nsds>(
-        "nsds", "vibration spectrum above that of healthy gearboxes", "1", AlarmSide::high,
-        "how far the average's spectrum stands above healthy gearboxes'; after Lei (2012)"),
-    feature<spectral_kurtosis>("spectral_kurtosis",
-                               "largest spectral kurtosis of the residual vibration", "1",
-                               AlarmSide::high,
-                               "largest spectral kurtosis of the residual signal in frames of a "
-                               "mesh period; Antoni (2006)"),
     feature<window_kurtosis<Member::planet>>(
         "window_kurtosis", "kurtosis at the worst tooth over that at the median tooth", "1",
         AlarmSide::high, "largest planet tooth kurtosis over the median one"),
@@ -145,42 +133,11 @@ constexpr std::array kFeatures{
                  AlarmSide::high,
                  "peak-to-peak of the average over the sum of its mesh harmonics' amplitudes; "
                  "Stewart (1977)"),
-    feature<amplitude_modulation>(
-        "amplitude_modulation", "amplitude modulation of the strongest mesh harmonic", "1",
-        AlarmSide::high,
-        "largest deviation of its normalised envelope from the mean; McFadden (1986)"),
-    feature<phase_modulation>("phase_modulation", "phase modulation of the strongest mesh harmonic",
-                              "rad", AlarmSide::high,
-                              "peak-to-peak of its demodulated phase; McFadden (1986)"),
-    feature<energy_operator>("energy_operator", "kurtosis of the residual vibration's energy", "1",
-                             AlarmSide::high,
-                             "kurtosis of the residual signal's Teager-Kaiser energy; "
-                             "Bechhoefer and Kingsley (2009)"),
-    feature<ar_residual_kurtosis>(
-        "ar_residual_kurtosis", "kurtosis of the vibration that linear prediction leaves", "1",
-        AlarmSide::high,
-        "kurtosis of an autoregressive model's prediction error; Wang and Wong (2002)"),
-    feature<envelope_order>("envelope_order", "lines of the planet turn in the envelope spectrum",
-                            "1", AlarmSide::high,
-                            "sum of the lines over their background, in the kurtogram's band "
-                            "with the largest kurtosis; Antoni (2007)"),
-    feature<cyclic_coherence>("cyclic_coherence", "cyclic coherence at the planet turn", "1",
-                              AlarmSide::high,
-                              "mean squared cyclic spectral coherence at one cycle per planet "
-                              "turn; Antoni (2007, 2009)"),
     feature<whitened_window_ratio>(
         "whitened_window_ratio",
         "pre-whitened vibration at the worst tooth over that at the median tooth", "1",
         AlarmSide::high,
         "largest over median tooth rms after cepstral pre-whitening; Borghesani et al. (2013)"),
-    feature<med_kurtosis>("med_kurtosis", "kurtosis of the deconvolved vibration", "1",
-                          AlarmSide::high,
-                          "kurtosis of the average after minimum-entropy deconvolution; Endo and "
-                          "Randall (2007)"),
-    feature<separated_fm4>(
-        "separated_fm4", "kurtosis of the irregular vibration of the worst planet", "1",
-        AlarmSide::high,
-        "largest FM4 of the planets' averages from windows at the sensor; McFadden (1991)"),
     feature<te_speed_kurtosis>("te_speed_kurtosis", "kurtosis of the speed error", "1",
                                AlarmSide::high,
                                "kurtosis of the derivative of the averaged transmission error"),

@@ -1,8 +1,7 @@
-// Features that compare a record with healthy ones: NA4, NB4, NSDS, and the correlation with the
-// baseline record.
+// Features that compare a record with healthy ones: NA4, and the correlation with the baseline
+// record.
 #pragma once
 
-#include <algorithm>
 #include <cmath>
 #include <numeric>
 #include <span>
@@ -30,28 +29,6 @@ inline double trended_kurtosis(std::span<const double> values, double healthy_va
 // the NA4 of a gearbox that resembled them when its record began; a healthy one has about 3.
 inline double na4(const SensorTurn& sensor, const HealthyRecords& healthy) {
     return trended_kurtosis(sensor.residual, healthy.residual_variance);
-}
-
-// NB4: the same as NA4 for the envelope of the signal around the first mesh harmonic. Zakrajsek,
-// Handschuh and Decker, NASA TM-106467 (1994); the band: signals/spectra/order_spectrum.hpp.
-inline double nb4(const SensorTurn& sensor, const HealthyRecords& healthy) {
-    return trended_kurtosis(sensor.envelope, healthy.envelope_variance);
-}
-
-// NSDS, normalized summation of the positive amplitudes of the difference spectrum, after Lei et
-// al., Meas. Sci. Technol. 23 (2012) 055605: excess of the spectrum over that of healthy gearboxes,
-// relative to the latter,
-//
-//     NSDS = sum over f > 0 of max(0, s(f) - s_h(f)) / sum over f > 0 of s_h(f),
-//
-// where s are the amplitudes of the averaged turn, and s_h their mean over the healthy records.
-inline double nsds(const SensorTurn& sensor, const HealthyRecords& healthy) {
-    double above = 0.0, sum = 0.0;
-    for (std::size_t k = 1; k < healthy.amplitude.size(); ++k) {
-        above += std::max(0.0, sensor.amplitude[k] - healthy.amplitude[k]);
-        sum += healthy.amplitude[k];
-    }
-    return above / sum;
 }
 
 // Correlation coefficient of the averaged turns of a record and of its baseline. It falls as the

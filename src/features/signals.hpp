@@ -5,7 +5,6 @@
 #include <span>
 #include <tuple>
 #include <type_traits>
-#include <vector>
 
 #include "gears/gear.hpp"
 
@@ -29,28 +28,22 @@ template <gears::Member kGear>
 struct ToothRms {
     std::span<const double> rms;
 };
-// Other statistics of the same signals: signals/windowing/vibration_separation.hpp.
+// Other statistics of the same signals: signals/windowing/tooth_statistics.hpp.
 template <gears::Member kGear>
 struct ToothMoments {
     std::span<const double> kurtosis, crest, m8a;
 };
 
 // RMS of the windowed sensor signal of every planet tooth after cepstral pre-whitening of the
-// record, in arbitrary units: signals/prediction/inverse_filters.hpp.
+// record, in arbitrary units: signals/prediction/prewhitening.hpp.
 struct WhitenedToothRms {
     std::span<const double> rms;
-};
-
-// Averaged turns of the single planets and their difference signals, m/s^2; none without passages
-// of all teeth: signals/windowing/vibration_separation.hpp.
-struct SeparatedPlanets {
-    std::span<const std::vector<double>> turn, difference;
 };
 
 // Signal averaged over planet turns, and its parts: signals/spectra/order_spectrum.hpp.
 struct SeparatedTurn {
     std::span<const double> turn;  // mean not removed
-    std::span<const double> regular, residual, difference, envelope;
+    std::span<const double> regular, residual, difference;
     std::span<const double> amplitude;  // [order]
     int mesh_order = 0;                 // number of planet teeth Z_p
 };
@@ -67,19 +60,16 @@ struct SensorSamples {
     std::span<const double> samples;
 };
 
-// Reference values of healthy gearboxes for trending indicators: means over several records.
+// Reference value of healthy gearboxes for a trending indicator: mean over several records.
 struct HealthyRecords {
-    double residual_variance = 0.0;     // (m/s^2)^2
-    double envelope_variance = 0.0;     // (m/s^2)^2, about the envelope's mean
-    std::span<const double> amplitude;  // m/s^2, [order] of the averaged turn
+    double residual_variance = 0.0;  // (m/s^2)^2
 };
 
-using AllSignals =
-    std::tuple<TeTurn, SensorPower, ToothRms<gears::Member::planet>, TeParts, SensorTurn,
-               FilteredSensor, SensorSamples, ToothMoments<gears::Member::planet>,
-               ToothRms<gears::Member::sun>, ToothMoments<gears::Member::sun>,
-               ToothRms<gears::Member::ring>, ToothMoments<gears::Member::ring>, HealthyRecords,
-               WhitenedToothRms, SeparatedPlanets>;
+using AllSignals = std::tuple<TeTurn, SensorPower, ToothRms<gears::Member::planet>, TeParts,
+                              SensorTurn, FilteredSensor, SensorSamples,
+                              ToothMoments<gears::Member::planet>, ToothRms<gears::Member::sun>,
+                              ToothMoments<gears::Member::sun>, ToothRms<gears::Member::ring>,
+                              ToothMoments<gears::Member::ring>, HealthyRecords, WhitenedToothRms>;
 
 // Signals of one record. Signals that no requested feature needs are empty.
 struct FeatureInput {
@@ -141,10 +131,9 @@ class SignalSet {
 inline constexpr SignalSet kBasicSignals =
     SignalSet::of<TeTurn, SensorPower, ToothRms<gears::Member::planet>>();
 
-// Signals of sun, ring and single planets, which only planetary gearboxes have.
+// Signals of sun and ring, which only planetary gearboxes have.
 inline constexpr SignalSet kCentralGears =
     SignalSet::of<ToothRms<gears::Member::sun>, ToothMoments<gears::Member::sun>,
-                  ToothRms<gears::Member::ring>, ToothMoments<gears::Member::ring>,
-                  SeparatedPlanets>();
+                  ToothRms<gears::Member::ring>, ToothMoments<gears::Member::ring>>();
 
 }  // namespace gearpod::features

@@ -43,7 +43,7 @@ inline double window_m8a(const ToothMoments<kGear>& teeth) {
 }
 
 // window_ratio of the sensor samples after cepstral pre-whitening
-// (signals/prediction/inverse_filters.hpp): Borghesani et al. (2013), with the tooth windows of
+// (signals/prediction/prewhitening.hpp): Borghesani et al. (2013), with the tooth windows of
 // Liang (2016). The mesh lines, which hide weak impulses of a tooth, then count no more than any
 // other order. NaN for a zero signal.
 inline double whitened_window_ratio(const WhitenedToothRms& teeth) {

@@ -172,7 +172,7 @@ class Study:
                      that a file has: sensor, te (rad), time (s), mesh_phase, speed_rpm; a unit
                      may follow in brackets, "sensor [g]"
         baseline     earlier recording of the same gearbox
-        healthy      recordings of healthy gearboxes, the reference of na4, nb4 and nsds
+        healthy      recordings of healthy gearboxes, the reference of na4
         against      results file with healthy gearboxes to compare with
         feature      feature that decides the alarm; by default the best ranked one
         noise_level  of simulated healthy gearboxes

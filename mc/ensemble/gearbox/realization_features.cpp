@@ -153,30 +153,18 @@ double variance(std::span<const double> values) {
 
 HealthyRecordsMean::HealthyRecordsMean(std::size_t levels) : records_(levels, 0) {
     sum_.residual_variance.resize(levels, 0.0);
-    sum_.envelope_variance.resize(levels, 0.0);
-    sum_.amplitude.resize(levels);
 }
 
 void HealthyRecordsMean::add(std::size_t level, const features::FeatureInput& input) {
     const auto& sensor = input.get<features::SensorTurn>();
     ++records_[level];
     sum_.residual_variance[level] += variance(sensor.residual);
-    sum_.envelope_variance[level] += variance(sensor.envelope);
-    std::vector<double>& amplitude = sum_.amplitude[level];
-    amplitude.resize(sensor.amplitude.size(), 0.0);
-    for (std::size_t k = 0; k < amplitude.size(); ++k) {
-        amplitude[k] += sensor.amplitude[k];
-    }
 }
 
 HealthyReference HealthyRecordsMean::mean() const {
     HealthyReference mean = sum_;
     for (std::size_t level = 0; level < records_.size(); ++level) {
         mean.residual_variance[level] /= records_[level];
-        mean.envelope_variance[level] /= records_[level];
-        for (double& amplitude : mean.amplitude[level]) {
-            amplitude /= records_[level];
-        }
     }
     return mean;
 }
@@ -333,7 +321,7 @@ std::vector<double> RealizationFeatures::compute(const LaneSignals& gearbox,
             change = change_->at(level);
             input.change = &change;
         }
-        if (!healthy_->amplitude.empty()) {
+        if (!healthy_->residual_variance.empty()) {
             input.get<features::HealthyRecords>() = healthy_->at(level);
             for (features::FeatureInput& of : before) {
                 of.get<features::HealthyRecords>() = healthy_->at(level);

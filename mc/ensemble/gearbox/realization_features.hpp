@@ -63,12 +63,9 @@ void print_python_problems(const std::vector<PythonProblem>& problems, const std
 struct HealthyReference {
     static constexpr int kRecords = 8;
 
-    std::vector<double> residual_variance, envelope_variance;  // [level], (m/s^2)^2
-    std::vector<std::vector<double>> amplitude;                // [level][order], m/s^2
+    std::vector<double> residual_variance;  // [level], (m/s^2)^2
 
-    features::HealthyRecords at(std::size_t level) const {
-        return {residual_variance[level], envelope_variance[level], amplitude[level]};
-    }
+    features::HealthyRecords at(std::size_t level) const { return {residual_variance[level]}; }
 };
 
 // Accumulates healthy records and returns their mean.

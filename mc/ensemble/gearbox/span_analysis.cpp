@@ -4,19 +4,14 @@
 #include <cmath>
 
 #include "signals/spectra/synchronous_average.hpp"
-#include "signals/windowing/vibration_separation.hpp"
+#include "signals/windowing/tooth_statistics.hpp"
 
 namespace gearpod::mc {
 namespace {
 
 features::SeparatedTurn views(std::span<const double> turn, const signals::MeshSeparation& parts,
                               int mesh_order) {
-    return {turn,
-            parts.regular(),
-            parts.residual(),
-            parts.difference(),
-            parts.envelope(),
-            parts.amplitude(),
+    return {turn,      parts.regular(), parts.residual(), parts.difference(), parts.amplitude(),
             mesh_order};
 }
 
@@ -83,9 +78,6 @@ void SpanAnalysis::sensor(std::span<const double> samples, int planet_turns, int
     if (needs_.has<features::WhitenedToothRms>()) {
         whitened_teeth(span, planet, input);
     }
-    if (needs_.has<features::SeparatedPlanets>()) {
-        separated_planets(span, input);
-    }
     central_teeth<Member::sun>(samples, features_.sun, sun_, input);
     central_teeth<Member::ring>(samples, features_.ring, ring_, input);
 }
@@ -106,18 +98,6 @@ void SpanAnalysis::whitened_teeth(std::span<const double> span, const signals::G
     }
     search_window(prewhitening_->whitened(span), planet, whitened_rms_);
     input.get<features::WhitenedToothRms>() = {whitened_rms_};
-}
-
-void SpanAnalysis::separated_planets(std::span<const double> span, features::FeatureInput& input) {
-    const int phases = record_.samples;
-    planets_ = signals::planet_averages(span, record_.span, features_.planets, phases);
-    signals::MeshSeparation parts(record_.span.planet_teeth * phases, record_.span.planet_teeth);
-    planet_differences_.clear();
-    for (const std::vector<double>& planet : planets_) {
-        parts.load(planet);
-        planet_differences_.emplace_back(parts.difference().begin(), parts.difference().end());
-    }
-    input.get<features::SeparatedPlanets>() = {planets_, planet_differences_};
 }
 
 // The teeth of a fixed gear have constant positions along the path; their statistics are freed of

@@ -9,9 +9,9 @@
 #include "features/feature.hpp"
 #include "mc/plan/feature_plan.hpp"
 #include "mc/plan/record_plan.hpp"
-#include "signals/prediction/inverse_filters.hpp"
+#include "signals/prediction/prewhitening.hpp"
 #include "signals/spectra/order_spectrum.hpp"
-#include "signals/windowing/vibration_separation.hpp"
+#include "signals/windowing/tooth_statistics.hpp"
 #include "signals/windowing/windowing.hpp"
 
 namespace gearpod::mc {
@@ -45,7 +45,6 @@ class SpanAnalysis {
                       std::vector<double>& rms) const;
     void whitened_teeth(std::span<const double> span, const signals::GearTurns& planet,
                         features::FeatureInput& input);
-    void separated_planets(std::span<const double> span, features::FeatureInput& input);
 
     const RecordPlan& record_;
     const FeaturePlan& features_;
@@ -54,7 +53,6 @@ class SpanAnalysis {
     std::unique_ptr<signals::MeshSeparation> sensor_turn_, te_turn_;
     std::unique_ptr<signals::Prewhitening> prewhitening_;  // of the length used last
     std::vector<double> average_, whitened_rms_;
-    std::vector<std::vector<double>> planets_, planet_differences_;
     signals::ToothStatistics planet_, sun_, ring_;
 };
 

@@ -230,8 +230,7 @@ std::vector<const Feature*> select_features(const std::vector<HealthyRecord>& re
     }
     // Features that transform the whole record would take most of the time.
     constexpr auto kSlow =
-        features::SignalSet::of<features::SensorSamples, features::WhitenedToothRms,
-                                features::SeparatedPlanets>();
+        features::SignalSet::of<features::SensorSamples, features::WhitenedToothRms>();
     for (const Feature& feature : features::record_features()) {
         const bool left_out =
             feature.needs.overlaps(features::kCentralGears) || feature.needs.overlaps(kSlow);

@@ -83,9 +83,30 @@ void check_fixed_shaft_motion(StudyDraft& draft) {
     }
 }
 
+// Features of earlier versions, and what to use instead.
+constexpr std::pair<std::string_view, std::string_view> kRemovedFeatures[] = {
+    {"amplitude_modulation", "sideband_index"},
+    {"phase_modulation", "sideband_index"},
+    {"energy_operator", "fm4"},
+    {"ar_residual_kurtosis", "fm4"},
+    {"envelope_order", "kurtogram_peak"},
+    {"cyclic_coherence", "kurtogram_peak"},
+    {"med_kurtosis", "kurtogram_peak"},
+    {"separated_fm4", "window_ratio"},
+    {"spectral_kurtosis", "kurtogram_peak"},
+    {"nb4", "na4"},
+    {"nsds", "na4"}};
+
 void check_feature(StudyDraft& draft, const std::string& name) {
     const features::Feature* feature = find_feature(draft.study, name);
-    if (feature == nullptr) {
+    const std::string_view plain = std::string_view(name).substr(name.starts_with("own_") ? 4 : 0);
+    const auto* removed = std::ranges::find(kRemovedFeatures, plain,
+                                            &std::pair<std::string_view, std::string_view>::first);
+    if (feature == nullptr && removed != std::end(kRemovedFeatures)) {
+        draft.reject(
+            "features.use", fmt::format("feature \"{}\" is no longer part of the program", name),
+            fmt::format("use \"{}\", or compute it in Python (features.python)", removed->second));
+    } else if (feature == nullptr) {
         std::vector<std::string_view> known;
         for (const features::Feature& other : features::all_features()) {
             known.push_back(other.name);

@@ -85,8 +85,7 @@ int checked(int points, int teeth) {
 MeshSeparation::MeshSeparation(int points, int teeth)
     : forward_(checked(points, teeth)),
       backward_(points, FourierTransform::Direction::back),
-      kind_(static_cast<std::size_t>(points) / 2 + 1, Kind::other),
-      teeth_(teeth) {
+      kind_(static_cast<std::size_t>(points) / 2 + 1, Kind::other) {
     const auto n = static_cast<std::size_t>(points);
     for (std::size_t k = 1; 2 * k <= n; ++k) {
         const auto mesh = static_cast<std::size_t>(teeth);
@@ -99,7 +98,7 @@ MeshSeparation::MeshSeparation(int points, int teeth)
     for (auto* buffer : {&spectrum_, &part_, &back_}) {
         buffer->resize(n);
     }
-    for (auto* signal : {&regular_, &residual_, &difference_, &envelope_}) {
+    for (auto* signal : {&regular_, &residual_, &difference_}) {
         signal->resize(n);
     }
     amplitude_.resize(kind_.size());
@@ -136,16 +135,6 @@ void MeshSeparation::load(std::span<const double> turn) {
         regular_[i] = harmonics + sidebands;
         residual_[i] = turn[i] - mean - harmonics;
         difference_[i] = residual_[i] - sidebands;
-    }
-    // Analytic signal of the band: positive orders only, doubled.
-    const int half = (teeth_ - 1) / 2;
-    std::fill(part_.begin(), part_.end(), 0.0);
-    for (int k = teeth_ - half; k <= teeth_ + half && 2 * k < points(); ++k) {
-        part_[static_cast<std::size_t>(k)] = 2.0 * scale * spectrum_[static_cast<std::size_t>(k)];
-    }
-    backward_.transform(part_, back_);
-    for (std::size_t i = 0; i < n; ++i) {
-        envelope_[i] = std::abs(back_[i]);
     }
 }
 

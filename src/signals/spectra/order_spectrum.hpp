@@ -50,9 +50,6 @@ class OrderSpectrum {
 //     regular     x at the mesh harmonics j T and their first sidebands j T - 1, j T + 1 (j >= 1)
 //     residual    x without its mean and the mesh harmonics
 //     difference  x without its mean and the regular signal
-//     envelope    |b + i H(b)|, b being x between the orders T - h and T + h, h = (T - 1) / 2
-//                 rounded down: the first mesh harmonic with all its sidebands; H: the Hilbert
-//                 transform
 //
 // all up to the Nyquist order.
 
@@ -71,7 +68,6 @@ class MeshSeparation {
     std::span<const double> regular() const { return regular_; }
     std::span<const double> residual() const { return residual_; }
     std::span<const double> difference() const { return difference_; }
-    std::span<const double> envelope() const { return envelope_; }
     // One-sided amplitudes of that turn, order 0 to the Nyquist order.
     std::span<const double> amplitude() const { return amplitude_; }
 
@@ -80,9 +76,8 @@ class MeshSeparation {
 
     FourierTransform forward_, backward_;
     std::vector<Kind> kind_;  // of every order from 0 to the Nyquist order; the mean is `other`
-    int teeth_;
     std::vector<std::complex<double>> spectrum_, part_, back_;
-    std::vector<double> regular_, residual_, difference_, envelope_, amplitude_;
+    std::vector<double> regular_, residual_, difference_, amplitude_;
 };
 
 // Speed error: derivative of the averaged transmission error with respect to the angle of the turn.

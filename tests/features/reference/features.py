@@ -108,89 +108,18 @@ def te_features(te):
     } | speed_features(derivative(turn))
 
 
-def demodulated(turn, teeth):
-    """Band around the mesh harmonic with the largest amplitude, times the conjugate carrier."""
-    n = len(turn)
-    half = (teeth - 1) // 2
-    spectrum = np.fft.fft(turn)
-    harmonics = [k for k in range(teeth, n, teeth) if 2 * (k + half) < n]
-    carrier = max(harmonics, key=lambda k: abs(spectrum[k]))
-    order = np.arange(n)
-    analytic = np.fft.ifft(np.where(abs(order - carrier) <= half, 2 * spectrum, 0))
-    return analytic * np.exp(-2j * np.pi * carrier * order / n)
-
-
-def mesh_line_features(turn, amplitude):
-    b = demodulated(turn, ZP)
-    envelope = np.abs(b)
-    return {
-        "fm0": np.ptp(turn) / np.sum(amplitude[ZP : (len(turn) + 1) // 2 : ZP]),
-        "amplitude_modulation": np.max(np.abs(envelope / np.mean(envelope) - 1)),
-        "phase_modulation": np.ptp(np.unwrap(np.angle(b))),
-    }
-
-
-def toeplitz(x, size):
-    """Autocorrelation matrix of a periodic signal, with white noise at -90 dB."""
-    r = np.array([np.mean(x * np.roll(x, -k)) for k in range(size)])
-    r[0] *= 1 + 1e-9
-    return r[np.abs(np.subtract.outer(np.arange(size), np.arange(size)))]
-
-
-def prediction_error(x):
-    order = min(2 * P, len(x) // 4)
-    matrix = toeplitz(x, order + 1)
-    a = np.linalg.solve(matrix[:order, :order], matrix[0, 1:])
-    return x - sum(a[j] * np.roll(x, j + 1) for j in range(order))
-
-
-def deconvolved(x):
-    length = min(P, len(x) // 8)
-    delayed = np.array([np.roll(x, l) for l in range(length)])
-    y = delayed[length // 2]
-    matrix = toeplitz(x, length)
-    for _ in range(10):
-        y = y / rms(y)
-        y = np.linalg.solve(matrix, delayed @ y**3 / len(x)) @ delayed
-    return y
-
-
 def kurtogram(y):
-    """Largest kurtosis over the bands of 1, 2, 3, 4, 6, ... per level, and its squared envelope."""
+    """Largest kurtosis over the bands of 1, 2, 3, 4, 6, ... per level."""
     n = len(y)
     spectrum = np.fft.fft(y)
     order = np.arange(n)
-    peak, envelope = -np.inf, None
+    peak = -np.inf
     for bands in (1, 2, 3, 4, 6, 8, 12, 16):
         for i in range(bands if bands <= P // 2 else 0):
             band = (2 * bands * order > i * n) & (2 * bands * order <= (i + 1) * n) & (2 * order < n)
             square = np.abs(np.fft.ifft(np.where(band, 2 * spectrum, 0))) ** 2
-            kurtosis = np.mean(square**2) / np.mean(square) ** 2 - 2
-            if kurtosis > peak:
-                peak, envelope = kurtosis, square
-    return peak, envelope
-
-
-def envelope_order(y):
-    """Planet turns in the squared envelope of the most impulsive band."""
-    e = np.abs(np.fft.fft(kurtogram(y)[1]))
-    lines = np.array([h for h in range(1, 6) if 2 * h < ZP]) * ZR
-    near = [np.delete(e[k - ZR // 2 : k + ZR // 2 + 1], ZR // 2) for k in lines]
-    return np.sum(e[lines]) / np.sum(np.median(near, axis=1))
-
-
-def cyclic_coherence(y):
-    n = len(y)
-    shifted = y * np.exp(2j * np.pi * np.arange(n) / (ZP * P))
-    starts = np.arange(4 * n // P) * P // 4
-    window = 0.5 - 0.5 * np.cos(2 * np.pi * np.arange(P) / P)
-    at = (starts[:, None] + np.arange(P)) % n
-    bands = slice(1, (P + 1) // 2)
-    a, b = (np.fft.fft(window * x[at], axis=1)[:, bands] for x in (y, shifted))
-    power, other = (np.mean(np.abs(x) ** 2, axis=0) for x in (a, b))
-    cross = np.abs(np.mean(a * np.conj(b), axis=0)) ** 2
-    used = power > 1e-12 * np.max(power)
-    return np.mean((cross / (power * other))[used])
+            peak = max(peak, np.mean(square**2) / np.mean(square) ** 2 - 2)
+    return peak
 
 
 def prewhitened(y):
@@ -201,56 +130,18 @@ def prewhitened(y):
     return np.fft.ifft(np.where(keep, spectrum / magnitude, 0)).real
 
 
-def planet_averages(y):
-    """Windows around the passages of the sensor, one planet at a time."""
-    carrier, turn = ZR * P, ZP * P
-    passages = len(y) // carrier
-    offsets = [p * carrier // PLANETS for p in range(PLANETS)]
-    window = 0.5 - 0.5 * np.cos(np.pi * np.arange(2 * P) / P)
-    squares = np.sum(y[: passages * carrier].reshape(passages, carrier) ** 2, axis=0)
-
-    def energy(first):
-        at = np.array(offsets)[:, None] + first + np.arange(2 * P)
-        return np.sum(window**2 * squares[at % carrier])
-
-    energies = np.array([energy(c) for c in range(-(-carrier // PLANETS))])
-    first = np.argmax(energies >= (1 - 1e-12) * np.max(energies))
-    for offset in offsets:
-        total, weight = np.zeros(turn), np.zeros(turn)
-        for k in range(passages):
-            at = k * carrier + first + offset + np.arange(2 * P)
-            np.add.at(total, at % turn, window * y[at % len(y)])
-            np.add.at(weight, at % turn, window)
-        yield total / weight
-
-
-def filtered_features(span, turn, residual):
-    x = turn - np.mean(turn)
-    energy = residual**2 - np.roll(residual, 1) * np.roll(residual, -1)
-    white = np.array([rms(s) for s in best_teeth(prewhitened(span), ZP, ZR)])
-    return {
-        "energy_operator": moment(energy, 4),
-        "ar_residual_kurtosis": moment(prediction_error(x), 4),
-        "envelope_order": envelope_order(span),
-        "kurtogram_peak": kurtogram(span)[0],
-        "cyclic_coherence": cyclic_coherence(span),
-        "whitened_window_ratio": white.max() / np.median(white),
-        "med_kurtosis": moment(deconvolved(x), 4),
-        "separated_fm4": max(moment(separate(t, ZP)["difference"], 4) for t in planet_averages(span)),
-    }
-
-
 def sensor_features(y, healthy):
     turn = averaged(y)
     parts = separate(turn, ZP)
     d = parts["difference"]
-    records = [separate(averaged(h), ZP) for h in healthy]
+    variance = np.mean([np.var(separate(averaged(h), ZP)["residual"]) for h in healthy])
+    residual = parts["residual"]
     about_mean = turn - np.mean(turn)
     s = parts["amplitude"]
-    s_healthy = np.mean([r["amplitude"] for r in records], axis=0)
     sidebands = s[ZP - 1] + s[ZP + 1]
     span = y[: ZP * ZR * P]
     carrier = span.reshape(-1, ZR * P)
+    white = np.array([rms(t) for t in best_teeth(prewhitened(span), ZP, ZR)])
     out = {
         "sensor_rms": rms(span),
         "crest_factor": np.max(np.abs(about_mean)) / rms(about_mean),
@@ -261,30 +152,15 @@ def sensor_features(y, healthy):
         "sideband_index": sidebands / 2,
         "sideband_level": sidebands / rms(about_mean),
         "frms": rms((carrier - np.mean(carrier, axis=0)).ravel()),
-        "nsds": np.sum(np.maximum(0, s - s_healthy)[1:]) / np.sum(s_healthy[1:]),
-        "spectral_kurtosis": spectral_kurtosis(parts["residual"], ZP),
+        "na4": np.mean((residual - np.mean(residual)) ** 4) / variance**2,
+        "fm0": np.ptp(turn) / np.sum(s[ZP : (len(turn) + 1) // 2 : ZP]),
+        "kurtogram_peak": kurtogram(span),
+        "whitened_window_ratio": white.max() / np.median(white),
     }
-    for name, part in (("na4", "residual"), ("nb4", "envelope")):
-        x = parts[part]
-        variance = np.mean([np.var(r[part]) for r in records])
-        out[name] = np.mean((x - np.mean(x)) ** 4) / variance**2
-    out |= mesh_line_features(turn, s)
-    out |= filtered_features(span, turn, parts["residual"])
     out |= windows("", best_teeth(y, ZP, ZR), False)
     out |= windows("sun_", best_teeth(y, ZS, ZR), False)
     out |= windows("ring_", best_teeth(y, ZR, ZP), True)
     return out
-
-
-def spectral_kurtosis(residual, teeth):
-    """Largest value over the bands of Hann frames of one mesh period that overlap by half."""
-    starts = np.arange(2 * teeth) * P // 2
-    window = 0.5 - 0.5 * np.cos(2 * np.pi * np.arange(P) / P)
-    frames = window * residual[(starts[:, None] + np.arange(P)) % len(residual)]
-    power = np.abs(np.fft.fft(frames, axis=1)[:, 1 : (P + 1) // 2]) ** 2
-    mean = np.mean(power, axis=0)
-    kurtosis = np.mean(power**2, axis=0) / mean**2 - 2
-    return np.max(kurtosis[mean > 1e-12 * np.max(mean)])
 
 
 def shifted(x, shift):

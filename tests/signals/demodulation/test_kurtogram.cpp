@@ -6,7 +6,7 @@
 #include <random>
 #include <vector>
 
-#include "signals/demodulation/demodulation.hpp"
+#include "signals/demodulation/kurtogram.hpp"
 
 namespace test_kurtogram {
 
@@ -133,8 +133,7 @@ TEST_CASE("An impulse train in white noise is found in the band that it excites"
     }
 }
 
-TEST_CASE("The envelope spectrum of an amplitude-modulated tone has the lines of the modulation") {
-    // |b|^2 = (1 + m cos)^2 has the lines m and m^2/4, relative to 1 + m^2/2.
+TEST_CASE("An amplitude-modulated tone has the kurtosis of its modulation") {
     constexpr double kDepth = 0.6;
     std::vector<double> x;
     for (int i = 0; i < 900; ++i) {
@@ -142,10 +141,7 @@ TEST_CASE("The envelope spectrum of an amplitude-modulated tone has the lines of
         x.push_back((1.0 + kDepth * std::cos(3.0 * t)) * std::cos(100.0 * t));
     }
     const Kurtogram kurtogram(x, 1);
-    const auto spectrum = signals::envelope_spectrum(kurtogram.squared_envelope(*kurtogram.peak()));
     const double power = kDepth * kDepth;
-    CHECK(spectrum[3] / spectrum[0] == Approx(kDepth / (1.0 + 0.5 * power)));
-    CHECK(spectrum[6] / spectrum[0] == Approx(0.25 * power / (1.0 + 0.5 * power)));
     CHECK(
         kurtogram.peak()->kurtosis ==
         Approx((1.0 + 3.0 * power + 0.375 * power * power) / std::pow(1.0 + 0.5 * power, 2) - 2.0));

@@ -158,19 +158,6 @@ TEST_CASE("Mesh harmonics, their first sidebands and the rest go to their parts"
     CHECK(separation.amplitude()[372] == Approx(0.1));  // the Nyquist order
 }
 
-TEST_CASE("The envelope of a modulated mesh harmonic is its modulation") {
-    constexpr int kTeeth = 20, kPoints = 400;
-    const auto modulation = [](double x) {
-        return 1.0 + 0.5 * std::cos(x) + 0.2 * std::sin(3 * x);
-    };
-    MeshSeparation separation(kPoints, kTeeth);
-    // The second harmonic, the mean and components below the band have no influence.
-    separation.load(sampled(kPoints, [&](double x) {
-        return modulation(x) * std::cos(20 * x + 0.7) + std::cos(40 * x) + 3.0 + std::sin(4 * x);
-    }));
-    CHECK(largest_difference(separation.envelope(), sampled(kPoints, modulation)) < 1e-12);
-}
-
 TEST_CASE("The parts of any turn add up to it") {
     std::mt19937_64 engine(3);
     std::normal_distribution<double> normal;

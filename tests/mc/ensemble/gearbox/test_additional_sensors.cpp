@@ -77,7 +77,7 @@ TEST_CASE("Baselines and records of given length belong to each sensor") {
     const Folder folder;
     const std::string options =
         " --set sensor.record_s=9 --set 'features.use=[\"sensor_rms\", \"own_window_ratio\", "
-        "\"change_window_ratio\", \"change_fm4\", \"nb4\"]' --set features.baseline_records=2"
+        "\"change_window_ratio\", \"change_fm4\", \"na4\"]' --set features.baseline_records=2"
         " --set features.baseline_torque_scatter=0.02";
     const mc::Results results =
         run(folder, "baseline.h5",

@@ -83,7 +83,7 @@ TEST_CASE("A bearing in the background is added to the sensor's signal") {
     const auto with = simulate("with.csv", inner_ring("background"));
     const auto measured = program("features " + folder.file("with.csv") +
                                   " --sensor sensor_noise_1 --study " + kSmall);
-    for (const char* name : {"sensor_rms", "window_ratio", "fm4", "spectral_kurtosis"}) {
+    for (const char* name : {"sensor_rms", "window_ratio", "fm4", "kurtogram_peak"}) {
         INFO(name << "\n" << with.output << measured.output);
         CHECK(printed_value(with, name) != 0.0);
         CHECK(printed_value(with, name) == Approx(printed_value(measured, name)).epsilon(1e-5));
@@ -108,12 +108,9 @@ TEST_CASE("Another fault changes the healthy gearboxes as a background would") {
     for (std::size_t f = 0; f < plain.features.size(); ++f) {
         const std::string& name = plain.features[f].name;
         INFO(name);
-        const auto compared_with_healthy = [&] {
-            return name == "na4" || name == "nb4" || name == "nsds";
-        };
         CHECK(test::bits_of_values(healthy(other, other.features[f])) ==
               test::bits_of_values(healthy(plain, plain.features[f])));
-        if (!compared_with_healthy()) {
+        if (name != "na4") {
             CHECK(test::bits_of_values(healthy(other, other.variants[0].features[f])) ==
                   test::bits_of_values(healthy(background, background.features[f])));
         }

@@ -122,7 +122,7 @@ TEST_CASE("A range of one sensor leaves the features of the others unchanged") {
 
 TEST_CASE("Clipped rows keep their bits over threads, parts, merging and lanes") {
     const std::string baselines =
-        "--set 'features.use=[\"sensor_rms\", \"own_window_ratio\", \"crest_factor\", \"nb4\"]'"
+        "--set 'features.use=[\"sensor_rms\", \"own_window_ratio\", \"crest_factor\", \"na4\"]'"
         " --set features.baseline_torque_scatter=0.02 --set sensor.record_s=9 "
         "--set 'sensor.noise_levels=[0, 1, 2]' ";
     test::check_equal_bits_over_parts(kClipped + baselines);
