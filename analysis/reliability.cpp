@@ -131,25 +131,6 @@ CombinedDetector combined_at(const ReliabilityData& data, std::size_t level,
     return combine_features(features, data.healthy_size, data.test_size, here);
 }
 
-LevelSensitivity sensitivity_at(const ReliabilityData& data,
-                                const std::vector<FeatureDetection>& detections,
-                                const FeatureRanking& ranking, std::size_t level,
-                                const DetectionRequest& request) {
-    const auto best = std::find_if(
-        data.features.begin(), data.features.end(), [&](const FeatureColumns& feature) {
-            return !ranking.ranks.empty() && feature.name == ranking.ranks.front().name;
-        });
-    if (best == data.features.end()) {
-        return {};
-    }
-    const auto f = static_cast<std::size_t>(best - data.features.begin());
-    const LevelDetection& detection = detections[f].levels[level];
-    const auto values = every_nth(best->test, level, request.noise_levels.size());
-    return level_sensitivity(best->name, values, outcomes(values, detection.threshold, best->alarm),
-                             {request.size.name, request.size.unit, data.test_size}, data.inputs,
-                             detection, request.confidence);
-}
-
 }  // namespace
 
 std::vector<LevelReliability> assess_pairs(const ReliabilityData& data,
@@ -198,10 +179,8 @@ Reliability assess_reliability(const ReliabilityData& data,
         result.rankings.push_back(ranking_at(data, n, levels, request.confidence));
     }
     result.combined.resize(levels);
-    result.sensitivities.resize(levels);
     machine::for_each_index(levels, threads, [&](std::size_t n) {
         result.combined[n] = combined_at(data, n, request);
-        result.sensitivities[n] = sensitivity_at(data, detections, result.rankings[n], n, request);
     });
     return result;
 }

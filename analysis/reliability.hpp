@@ -11,7 +11,6 @@
 #include "analysis/false_alarm_curve.hpp"
 #include "analysis/inputs/input_effects.hpp"
 #include "analysis/inputs/miss_sensitivity.hpp"
-#include "analysis/inputs/sobol_indices.hpp"
 #include "analysis/inputs/uncertain_inputs.hpp"
 #include "analysis/pod/hit_miss_pod.hpp"
 #include "analysis/pod/signal_response_pod.hpp"
@@ -57,9 +56,6 @@ struct Reliability {
     std::vector<FeatureReliability> features;
     std::vector<FeatureRanking> rankings;    // one per noise level
     std::vector<CombinedDetector> combined;  // one per noise level
-    std::vector<LevelSensitivity>
-        // One per noise level, for its best ranked feature; without a name if there is none.
-        sensitivities;
     std::vector<ConditionDetection>
         conditions;  // one per feature; empty if no condition was requested
 };

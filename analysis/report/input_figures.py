@@ -1,5 +1,4 @@
-"""Figures on the dependence of detection on every random input: shares of the variance, rates in
-bins, and a90 as a map over noise and input."""
+"""Figures on the dependence of detection on every random input: rates in bins, and a90 as a map over noise and input."""
 
 from blocks import note
 from charts import GAP, MUTED, between, cell, colour, legend_below, map_axes, panel, to_svg
@@ -8,55 +7,6 @@ from words import input_name, noise, number, percent, quantity, rate_with_bounds
 
 MOST_CHARTS = 6
 SMALL, LARGE = (0.93, 0.95, 0.98), (0.45, 0.13, 0.20)  # colours of small and large a90
-
-
-def sensitivity(report, page):
-    """Sobol indices of the misses and of the value, for the best ranked feature."""
-    given = report.reliability["levels"][report.reference].get("sensitivity")
-    if not given:
-        return ""
-    charts, refusals = [], []
-    for key, what in (("misses", "whether it is missed"), ("values", "the feature's value")):
-        indices = given[key]
-        if indices["refusal"]:
-            refusals.append(f"{what}: {indices['refusal']}")
-            continue
-        charts.append(_index_chart(report, page, given["feature"], what, indices))
-    left = note("No shares for " + "; ".join(refusals) + ".") if refusals else ""
-    if not charts:
-        return left
-    sizes = report.sizes.group(given["size_low"], given["size_high"])
-    how = (f"Share of the variance that each input explains among faulty gearboxes of {sizes}, "
-           f"for {given['feature']}: alone and including interactions (first-order and total "
-           f"Sobol indices, with intervals at {percent(report.confidence)}). The unexplained part "
-           "is noise and effects outside the fitted model.")
-    return page.figure("Influence of the inputs, at "
-                       f"{noise(report.levels[report.reference])}", charts,
-                       how, report.tables("shares.")) + left
-
-
-def _index_chart(report, page, feature, what, indices):
-    inputs = indices["inputs"]
-    figure, axes = panel(1.7 + 0.27 * max(1, len(inputs)))
-    for offset, key, paint, mark, label in ((-0.14, "first", colour(0), "o", "alone"),
-                                            (0.14, "total", colour(1), "s", "with interactions")):
-        for row, i in enumerate(inputs):
-            if i[f"{key}_lower"] is not None and i[f"{key}_upper"] is not None:
-                axes.plot([i[f"{key}_lower"], i[f"{key}_upper"]], [row + offset] * 2, color=paint,
-                          linewidth=1.4)
-        points = [(row, i[key]) for row, i in enumerate(inputs) if i[key] is not None]
-        axes.plot([value for _, value in points], [row + offset for row, _ in points],
-                  linestyle="none", marker=mark, markersize=4.5, color=paint, label=label)
-    axes.set_yticks(range(len(inputs)), [input_name(i["name"], i["unit"]) for i in inputs],
-                    fontsize=9)
-    axes.set(ylim=(len(inputs) - 0.4, -0.6), xlim=(min(-0.02, axes.get_xlim()[0]), None),
-             xlabel="Share of the variance")
-    axes.legend(loc="lower right")
-    figure.suptitle(f"{feature}: {what}", fontsize=10, x=0.01, ha="left")
-    top = "; ".join(f"{input_name(i['name'], i['unit'])} {number(i['total'], 2)}"
-                    for i in inputs[:4])
-    return to_svg(figure, f"Shares of the variance of {what}, {feature}",
-                  f"Largest, with interactions: {top}", page.names)
 
 
 def _effects(report, f, n):

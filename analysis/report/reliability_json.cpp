@@ -155,12 +155,6 @@ Json to_json(const ConditionLevel& level) {
     return json;
 }
 
-Json to_json(const SobolIndex& index) {
-    Json json = fields_json(index);
-    json.update(fields_json(index.first));
-    return json;
-}
-
 Json to_json(const CombinedDetector& combined) {
     const bool has_result = combined.refusal.empty();
     const auto if_any = [&](const auto& value) {
@@ -179,18 +173,13 @@ Json to_json(const CombinedDetector& combined) {
             {"refusal", text_or_null(combined.refusal)}};
 }
 
-Json to_json(const LevelSensitivity& sensitivity) {
-    return sensitivity.feature.empty() ? Json(nullptr) : fields_json(sensitivity);
-}
-
 nlohmann::json reliability_json(const Reliability& reliability, const DetectionRequest& request) {
     Json levels = Json::array(), features = Json::array();
     for (std::size_t n = 0; n < reliability.rankings.size(); ++n) {
         levels.push_back({{"noise_level", request.noise_levels[n]},
                           {"smallest_fault", json_of(smallest_fault(reliability, n))},
                           {"ranking", json_of(reliability.rankings[n])},
-                          {"combined", json_of(reliability.combined[n])},
-                          {"sensitivity", json_of(reliability.sensitivities[n])}});
+                          {"combined", json_of(reliability.combined[n])}});
     }
     for (std::size_t f = 0; f < reliability.features.size(); ++f) {
         const FeatureReliability& feature = reliability.features[f];

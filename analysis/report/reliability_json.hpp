@@ -34,7 +34,7 @@ nlohmann::json a90_maps_json(const Reliability& reliability, const DetectionRequ
 //    "smallest_fault": {"feature", "size", "from_curve",
 //      "source": {"feature", "noise_level"} of the bound, or null: the feature itself} or null,
 //    "ranking": {"healthy", "faulty", "refusal", "left_out",
-//      "ranks": [{"name", "auc", "lower", "upper", "p_values"}]}, "combined", "sensitivity"}],
+//      "ranks": [{"name", "auc", "lower", "upper", "p_values"}]}, "combined"}],
 //  "features": [{"name", "alarm", "levels": [{"noise_level",
 //    "hit_miss": {"tests", "hits", "smallest", "largest", "refusal", "doubtful", "supported",
 //    "model", "link",
@@ -56,10 +56,6 @@ nlohmann::json a90_maps_json(const Reliability& reliability, const DetectionRequ
 // combined: {"weights": [{"feature", "weight"}], "intercept", "trained_healthy",
 //   "trained_faulty", "detector", "single" (each {"name", "auc", "detection", "hit_miss"} on the
 //   held-out gearboxes), "gain" (of the area), "p_value", "left_out", "warnings", "refusal"}
-// sensitivity: {"feature", "size_low", "size_high", "misses", "values": each {"gearboxes",
-//   "explained", "resolution", "terms", "inputs": [{"name", "unit", "first", "first_lower",
-//   "first_upper", "total", "total_lower", "total_upper"}], "left_out", "refusal"}}; null without a
-//   best feature
 // robustness, a90_maps: see there.
 nlohmann::json reliability_json(const Reliability& reliability, const DetectionRequest& request);
 

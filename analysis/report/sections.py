@@ -38,8 +38,8 @@ def features(report, page):
 def inputs(report, page):
     if not report.curves:
         return ""
-    body = (influence_figures.misses(report, page) + input_figures.sensitivity(report, page)
-            + input_figures.rates_by_input(report, page) + input_figures.a90_maps(report, page))
+    body = (influence_figures.misses(report, page) + input_figures.rates_by_input(report, page)
+            + input_figures.a90_maps(report, page))
     if "conditions.how" in report.findings:
         body += ("<h3>Thresholds by operating condition</h3>" + report.notes("conditions.")
                  + report.tables("conditions."))

@@ -75,11 +75,6 @@ const std::vector<TableSource>& table_sources() {
          {"/reliability/levels", "/ranking/ranks"},
          "noise_level=1/noise_level rank=2 feature=2/name auc=2/auc lower=2/lower upper=2/upper "
          "p_value_from_first=2/p_values/0"},
-        {"sensitivity",
-         {"/reliability/levels", "/sensitivity#misses,values", "/inputs"},
-         "noise_level=1/noise_level feature=1/sensitivity/feature of=2 input=3/name unit=3/unit "
-         "first=3/first first_lower=3/first_lower first_upper=3/first_upper total=3/total "
-         "total_lower=3/total_lower total_upper=3/total_upper"},
         {"combined",
          {"/reliability/levels"},
          "noise_level=1/noise_level single=1/combined/single/name "

@@ -156,7 +156,7 @@ class Statements(unittest.TestCase):
                 for block in section["blocks"]:
                     # Rates and curves have drawings; statements by level are those of the answer.
                     texts = [block["text"]] if "text" in block else sum(block["rows"], [])
-                    if re.match(r"(headline|ranking|misses|effects|effects_text|shares|false_alarms|unknown|responses"
+                    if re.match(r"(headline|ranking|misses|effects|effects_text|false_alarms|unknown|responses"
                                 r"|responses_refused|no_false_alarms|bins|a90_map)[.]", block["key"]):
                         continue
                     for text in texts:

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <tuple>
 #include <utility>
 
 #include "analysis/report/findings/findings.hpp"
@@ -10,8 +9,6 @@
 
 namespace gearpod::analysis {
 namespace {
-
-constexpr double kNamedShare = 0.01;  // smallest share of the variance for which an input is named
 
 std::string miss_count(const MissSensitivity& misses) {
     return fmt::format("{} of {}", misses.misses, misses.misses + misses.hits);
@@ -160,57 +157,6 @@ void add_input_details(Section& section, const Findings& findings, std::size_t f
     }
 }
 
-std::string index_text(const SobolIndex& index) {
-    return fmt::format("{} {} alone and {} with interactions", input_name(index.name, index.unit),
-                       rate_text(index.first.share, index.first.bounds),
-                       rate_text(index.total, index.total_bounds));
-}
-
-// Shares of the variance of the misses of the best ranked feature.
-void add_shares(Section& section, const Findings& findings, std::size_t n) {
-    const LevelSensitivity& given = findings.reliability->sensitivities[n];
-    if (given.feature.empty()) {
-        return;
-    }
-    if (const SobolIndices& misses = given.misses; misses.refusal.empty()) {
-        std::vector<std::string> named;
-        for (const SobolIndex& index : misses.inputs) {
-            if (index.first.bounds.lower > kNamedShare || index.total_bounds.lower > kNamedShare) {
-                named.push_back(index_text(index));
-            }
-        }
-        section.state(
-            fmt::format("shares.{}", n),
-            fmt::format(
-                "Share of the variance of the misses of {} at {} ({} {}; Sobol indices): "
-                "{}; all inputs together {}. The rest is due to noise and to inputs that are "
-                "not listed, such as tooth and pin errors.",
-                given.feature, range_text(given.sizes, findings.request.size), misses.count,
-                plural(findings.subject), named.empty() ? "no input above 0.01" : joined(named),
-                rate_text(misses.explained)));
-    }
-    if (n != findings.reference) {
-        return;
-    }
-    for (const auto& [key, what, indices] :
-         {std::tuple{"misses", "whether it is missed", &given.misses},
-          std::tuple{"values", "the feature's value", &given.values}}) {
-        Table table{
-            fmt::format("shares.{}", key),
-            fmt::format("{}: {} {}, {} terms explain {}", what, indices->count,
-                        plural(findings.subject), indices->terms, percent_text(indices->explained)),
-            {"input", "alone", "with interactions"},
-            {},
-            true};
-        for (const SobolIndex& index : indices->inputs) {
-            table.rows.push_back({input_name(index.name, index.unit),
-                                  rate_text(index.first.share, index.first.bounds),
-                                  rate_text(index.total, index.total_bounds)});
-        }
-        section.add(std::move(table));
-    }
-}
-
 std::string bound_text_of(const Findings& findings, const HeldOutDetector& detector) {
     return detector.pod.refusal.empty() ? findings.size(detector.pod.a90.upper, detector.pod)
                                         : "no curve";
@@ -270,7 +216,6 @@ void add_influences(Section& section, const Findings& findings, std::size_t leve
     if (level == findings.reference) {
         add_input_details(section, findings, best, level);
     }
-    add_shares(section, findings, level);
 }
 
 Section combined_section(const Findings& findings) {

@@ -221,7 +221,6 @@ TEST_CASE("A transferred bound names its origin") {
         .features = {{"te_rms", Alarm::high, std::vector<LevelReliability>(2)}},
         .rankings = {},
         .combined = {},
-        .sensitivities = {},
         .conditions = {}};
     Findings findings({features, nullptr, requested});
     findings.smallest[0] = SmallestFault{"te_rms", 1e-3, true, {"te_fc", 5.0}, false};
