@@ -114,23 +114,6 @@ FeatureRanking ranking_at(const ReliabilityData& data, std::size_t level, std::s
     return rank_features(ranked, confidence);
 }
 
-CombinedDetector combined_at(const ReliabilityData& data, std::size_t level,
-                             const DetectionRequest& request) {
-    const std::size_t levels = request.noise_levels.size();
-    std::vector<std::vector<double>> healthy, test;
-    std::vector<CombinedFeature> features;
-    for (const FeatureColumns& feature : data.features) {
-        healthy.push_back(every_nth(feature.healthy, level, levels));
-        test.push_back(every_nth(feature.test, level, levels));
-    }
-    for (std::size_t f = 0; f < data.features.size(); ++f) {
-        features.push_back({data.features[f].name, data.features[f].alarm, healthy[f], test[f]});
-    }
-    DetectionRequest here = request;
-    here.noise_levels = {request.noise_levels[level]};
-    return combine_features(features, data.healthy_size, data.test_size, here);
-}
-
 }  // namespace
 
 std::vector<LevelReliability> assess_pairs(const ReliabilityData& data,
@@ -157,10 +140,8 @@ std::vector<LevelReliability> assess_pairs(const ReliabilityData& data,
     return result;
 }
 
-Reliability assess_reliability(const ReliabilityData& data,
-                               const std::vector<FeatureDetection>& detections,
-                               const DetectionRequest& request, std::vector<LevelReliability> pairs,
-                               int threads) {
+Reliability assess_reliability(const ReliabilityData& data, const DetectionRequest& request,
+                               std::vector<LevelReliability> pairs) {
     const std::size_t levels = request.noise_levels.size();
     Reliability result;
     auto next = pairs.begin();
@@ -178,18 +159,13 @@ Reliability assess_reliability(const ReliabilityData& data,
     for (std::size_t n = 0; n < levels; ++n) {
         result.rankings.push_back(ranking_at(data, n, levels, request.confidence));
     }
-    result.combined.resize(levels);
-    machine::for_each_index(levels, threads, [&](std::size_t n) {
-        result.combined[n] = combined_at(data, n, request);
-    });
     return result;
 }
 
 Reliability assess_reliability(const ReliabilityData& data,
                                const std::vector<FeatureDetection>& detections,
                                const DetectionRequest& request, int threads) {
-    return assess_reliability(data, detections, request,
-                              assess_pairs(data, detections, request, {}, threads), threads);
+    return assess_reliability(data, request, assess_pairs(data, detections, request, {}, threads));
 }
 
 std::vector<std::size_t> in_rank_order(const Reliability& reliability, std::size_t level) {

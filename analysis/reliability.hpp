@@ -14,7 +14,6 @@
 #include "analysis/inputs/uncertain_inputs.hpp"
 #include "analysis/pod/hit_miss_pod.hpp"
 #include "analysis/pod/signal_response_pod.hpp"
-#include "analysis/ranking/combined_detector.hpp"
 #include "analysis/ranking/feature_ranking.hpp"
 #include "analysis/statistics/interval.hpp"
 #include "machine/fields.hpp"
@@ -54,8 +53,7 @@ struct FeatureReliability {
 
 struct Reliability {
     std::vector<FeatureReliability> features;
-    std::vector<FeatureRanking> rankings;    // one per noise level
-    std::vector<CombinedDetector> combined;  // one per noise level
+    std::vector<FeatureRanking> rankings;  // one per noise level
     std::vector<ConditionDetection>
         conditions;  // one per feature; empty if no condition was requested
 };
@@ -102,11 +100,9 @@ std::vector<LevelReliability> assess_pairs(const ReliabilityData& data,
                                            const DetectionRequest& request, PairShare share,
                                            int threads);
 
-// Evaluates all features. `pairs` are the results of assess_pairs() for all pairs.
-Reliability assess_reliability(const ReliabilityData& data,
-                               const std::vector<FeatureDetection>& detections,
-                               const DetectionRequest& request, std::vector<LevelReliability> pairs,
-                               int threads);
+// Ranks the features. `pairs` are the results of assess_pairs() for all pairs.
+Reliability assess_reliability(const ReliabilityData& data, const DetectionRequest& request,
+                               std::vector<LevelReliability> pairs);
 
 // The same, including the pairs.
 Reliability assess_reliability(const ReliabilityData& data,

@@ -31,7 +31,7 @@ std::vector<RocPoint> roc_curve(std::span<const double> healthy, std::span<const
 // Ranking of features by the area under their ROC curve, with paired tests of their differences on
 // the same gearboxes (DeLong et al. (1988)), adjusted over all pairs (difference_tests.hpp).
 
-// Largest share of missing values with which a feature is still ranked and combined with others.
+// Largest share of missing values with which a feature is still ranked.
 inline constexpr double kMostMissing = 0.1;
 
 // Values of one feature at one noise level, of the same gearboxes in the same order as those of

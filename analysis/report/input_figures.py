@@ -1,8 +1,8 @@
 """Figures on the dependence of detection on every random input: rates in bins, and a90 as a map over noise and input."""
 
 from blocks import note
-from charts import GAP, MUTED, between, cell, colour, legend_below, map_axes, panel, to_svg
-from detection_figures import area_text, best
+from charts import GAP, MUTED, between, cell, colour, map_axes, panel, to_svg
+from detection_figures import best
 from words import input_name, noise, number, percent, quantity, rate_with_bounds
 
 MOST_CHARTS = 6
@@ -132,38 +132,3 @@ def _map_chart(report, page, f, name, entry):
              input_name(name, entry["unit"]).capitalize() + (f", {shown}" if shown else ""))
     return to_svg(figure, f"a90 of {report.names[f]} over noise and "
                   f"{input_name(name, entry['unit'])}", "; ".join(texts), page.names)
-
-
-def combined(report, page):
-    """All features combined compared with the best single feature."""
-    given = [level.get("combined") for level in report.reliability["levels"]]
-    if not any(given):
-        return ""
-    graded = [(n, c) for n, c in enumerate(given) if c and not c["refusal"]]
-    refused = report.notes("combined.refused.")
-    if not graded:
-        return refused
-    figure, axes = panel(3.0)
-    for offset, key, paint, mark, label in ((-0.12, "single", colour(0), "o", "best single feature"),
-                                            (0.12, "detector", colour(1), "s", "all features")):
-        for position, (_, c) in enumerate(graded):
-            auc = c[key]["auc"]
-            if auc["lower"] is not None:
-                axes.plot([position + offset] * 2, [auc["lower"], auc["upper"]], color=paint,
-                          linewidth=1.5)
-        axes.plot([position + offset for position in range(len(graded))],
-                  [c[key]["auc"]["auc"] for _, c in graded], linestyle="none", marker=mark,
-                  markersize=4.5, color=paint, label=label)
-    axes.axhline(0.5, color=MUTED, linewidth=0.9, linestyle=(0, (4, 3)))
-    axes.set_xticks(range(len(graded)), [f"× {number(report.levels[n])}" for n, _ in graded])
-    axes.set(xlim=(-0.5, len(graded) - 0.5), xlabel="noise", ylabel="Area under the ROC")
-    legend_below(axes, 2)
-    texts = []
-    for n, c in graded:
-        texts.append(f"{noise(report.levels[n])}: {area_text(c['single']['auc'])} single, "
-                     f"{area_text(c['detector']['auc'])} combined")
-    svg = to_svg(figure, "Area under the ROC of all features together and of the best single one",
-                 "; ".join(texts), page.names)
-    return page.figure("All features as one detector", [svg], report.text("combined.text"),
-                       report.table("combined") + report.tables("weights.")
-                       + report.notes("combined.note.")) + refused

@@ -59,7 +59,6 @@ struct LeastCost;
 struct FeatureRank;
 struct RocPoint;
 struct ConditionLevel;
-struct CombinedDetector;
 struct EpistemicBand;
 struct SmallestFault;
 Json to_json(const std::vector<PodPoint>& band);
@@ -73,7 +72,6 @@ Json to_json(const RatePoint& point);
 Json to_json(const LeastCost& least);
 Json to_json(const FeatureRank& rank);
 Json to_json(const ConditionLevel& level);
-Json to_json(const CombinedDetector& combined);
 Json to_json(const EpistemicBand& uncertain);
 Json to_json(const SmallestFault& smallest);
 

@@ -155,31 +155,12 @@ Json to_json(const ConditionLevel& level) {
     return json;
 }
 
-Json to_json(const CombinedDetector& combined) {
-    const bool has_result = combined.refusal.empty();
-    const auto if_any = [&](const auto& value) {
-        return has_result ? json_of(value) : Json(nullptr);
-    };
-    return {{"weights", json_of(combined.weights)},
-            {"intercept", if_any(combined.intercept)},
-            {"trained_healthy", combined.trained_healthy},
-            {"trained_faulty", combined.trained_faulty},
-            {"detector", if_any(combined.combined)},
-            {"single", if_any(combined.single)},
-            {"gain", if_any(combined.combined.auc.auc - combined.single.auc.auc)},
-            {"p_value", if_any(combined.p_value)},
-            {"left_out", combined.left_out},
-            {"warnings", combined.warnings},
-            {"refusal", text_or_null(combined.refusal)}};
-}
-
 nlohmann::json reliability_json(const Reliability& reliability, const DetectionRequest& request) {
     Json levels = Json::array(), features = Json::array();
     for (std::size_t n = 0; n < reliability.rankings.size(); ++n) {
         levels.push_back({{"noise_level", request.noise_levels[n]},
                           {"smallest_fault", json_of(smallest_fault(reliability, n))},
-                          {"ranking", json_of(reliability.rankings[n])},
-                          {"combined", json_of(reliability.combined[n])}});
+                          {"ranking", json_of(reliability.rankings[n])}});
     }
     for (std::size_t f = 0; f < reliability.features.size(); ++f) {
         const FeatureReliability& feature = reliability.features[f];

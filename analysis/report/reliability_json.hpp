@@ -34,7 +34,7 @@ nlohmann::json a90_maps_json(const Reliability& reliability, const DetectionRequ
 //    "smallest_fault": {"feature", "size", "from_curve",
 //      "source": {"feature", "noise_level"} of the bound, or null: the feature itself} or null,
 //    "ranking": {"healthy", "faulty", "refusal", "left_out",
-//      "ranks": [{"name", "auc", "lower", "upper", "p_values"}]}, "combined"}],
+//      "ranks": [{"name", "auc", "lower", "upper", "p_values"}]}}],
 //  "features": [{"name", "alarm", "levels": [{"noise_level",
 //    "hit_miss": {"tests", "hits", "smallest", "largest", "refusal", "doubtful", "supported",
 //    "model", "link",
@@ -53,9 +53,6 @@ nlohmann::json a90_maps_json(const Reliability& reliability, const DetectionRequ
 // Sizes are in their unit; a50 and a90 are {"estimate", "lower", "upper"}, each {"where", "size"},
 // with one-sided bounds. Curves: POD = floor + (ceiling - floor) F(intercept + slope x), x the size
 // or its natural logarithm.
-// combined: {"weights": [{"feature", "weight"}], "intercept", "trained_healthy",
-//   "trained_faulty", "detector", "single" (each {"name", "auc", "detection", "hit_miss"} on the
-//   held-out gearboxes), "gain" (of the area), "p_value", "left_out", "warnings", "refusal"}
 // robustness, a90_maps: see there.
 nlohmann::json reliability_json(const Reliability& reliability, const DetectionRequest& request);
 

@@ -31,8 +31,7 @@ def features(report, page):
     if not report.curves:
         return ""
     return page.section("features", "Features compared", detection_figures.ranking(report, page)
-                        + detection_figures.roc(report, page)
-                        + input_figures.combined(report, page) + sensors(report))
+                        + detection_figures.roc(report, page) + sensors(report))
 
 
 def inputs(report, page):

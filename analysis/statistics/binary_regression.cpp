@@ -12,7 +12,6 @@ namespace {
 
 struct Slopes {
     double log_likelihood = 0.0;
-    double objective = 0.0;  // with the penalty
     Eigen::VectorXd score;
     Eigen::MatrixXd information;
 };
@@ -25,12 +24,8 @@ Slopes evaluate(const Eigen::MatrixXd& design, std::span<const char> yes, const 
                   logarithm.data(), left.data(), weight.data());
     Slopes slopes;
     slopes.log_likelihood = logarithm.sum();
-    Eigen::VectorXd penalty = Eigen::VectorXd::Constant(b.size(), model.ridge);
-    penalty[0] = 0.0;
-    slopes.objective = slopes.log_likelihood - 0.5 * penalty.dot(b.cwiseAbs2());
-    slopes.score = design.transpose() * left - penalty.cwiseProduct(b);
+    slopes.score = design.transpose() * left;
     slopes.information = design.transpose() * weight.asDiagonal() * design;
-    slopes.information.diagonal() += penalty;
     return slopes;
 }
 
@@ -54,7 +49,8 @@ bool ascend(const Eigen::MatrixXd& design, std::span<const char> yes, const Bina
         for (double length = 1.0; length > 1e-8 && !better; length *= 0.5) {
             const Eigen::VectorXd next = b + length * move;
             Slopes there = evaluate(design, yes, model, next);
-            if (there.objective > here.objective - 1e-14 * std::abs(here.objective)) {
+            if (there.log_likelihood >
+                here.log_likelihood - 1e-14 * std::abs(here.log_likelihood)) {
                 better = true;
                 b = next;
                 here = std::move(there);

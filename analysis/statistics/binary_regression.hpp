@@ -1,8 +1,6 @@
 // Regression of binary outcomes on several covariates: P(yes) = floor + (ceiling - floor) F(design
 // * b), with given floor and ceiling. Fisher scoring with step halving: P. McCullagh, J. A. Nelder,
-// Generalized Linear Models (1989), section 2.5. `ridge` penalises ridge / 2 times the sum of the
-// squared coefficients except the first (the intercept): S. le Cessie, J. C. van Houwelingen, Appl.
-// Stat. 41 (1992), 191-201.
+// Generalized Linear Models (1989), section 2.5.
 #pragma once
 
 #include <Eigen/Core>
@@ -17,14 +15,13 @@ struct BinaryModel {
     Link link = Link::logit;
     double floor = 0.0;
     double ceiling = 1.0;
-    double ridge = 0.0;
 };
 
 struct BinaryFit {
     Eigen::VectorXd coefficients;
-    Eigen::MatrixXd covariance;   // inverse of the Fisher information, penalty included
-    double log_likelihood = 0.0;  // without the penalty
-    std::string refusal;          // reason why there is no fit, or ""
+    Eigen::MatrixXd covariance;  // inverse of the Fisher information
+    double log_likelihood = 0.0;
+    std::string refusal;  // reason why there is no fit, or ""
 };
 
 // Fits the model. `design`: outcomes x coefficients, its first column 1; the others should be of

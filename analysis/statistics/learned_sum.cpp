@@ -3,6 +3,7 @@
 #include <Eigen/Cholesky>
 #include <Eigen/Core>
 #include <cmath>
+#include <cstdint>
 
 #include "machine/no_value.hpp"
 
@@ -60,6 +61,14 @@ std::optional<Weights> learned_in(const LearningSample& sample, int half) {
 }
 
 }  // namespace
+
+bool in_second_half(std::size_t gearbox) {
+    // Mixing function of splitmix64: G. L. Steele, D. Lea, C. H. Flood, OOPSLA 2014, 453-472.
+    std::uint64_t z = static_cast<std::uint64_t>(gearbox) + 0x9e3779b97f4a7c15u;
+    z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
+    z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
+    return ((z ^ (z >> 31)) & 1u) != 0;
+}
 
 std::optional<std::vector<double>> learned_sum(const LearningSample& sample) {
     const std::optional<Weights> of[2] = {learned_in(sample, 1), learned_in(sample, 0)};

@@ -7,6 +7,7 @@
 // weights come from.
 #pragma once
 
+#include <cstddef>
 #include <optional>
 #include <vector>
 
@@ -19,6 +20,10 @@ struct LearningSample {
     // one, so that no specimen is evaluated by weights that it has influenced.
     std::vector<int> half;
 };
+
+// True if a gearbox belongs to the second half. Decided by a hash bit of its index within its
+// group, so that alternating levels do not fall into one half.
+bool in_second_half(std::size_t gearbox);
 
 // Smallest number of complete healthy and of complete faulty specimens in each half.
 inline constexpr int kLeastLearned = 10;

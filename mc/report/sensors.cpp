@@ -6,7 +6,6 @@
 #include <cmath>
 #include <limits>
 
-#include "analysis/ranking/combined_detector.hpp"
 #include "analysis/report/wording.hpp"
 #include "analysis/statistics/difference_tests.hpp"
 #include "analysis/statistics/learned_sum.hpp"
@@ -125,7 +124,7 @@ std::optional<OneSensor> learned_sensors(const std::vector<OneSensor>& sensors) 
         const auto records =
             static_cast<std::size_t>(is_test ? 1 : all.results.request.threshold_records);
         const std::size_t gearbox = number[is_test ? 1 : 0]++ / records;
-        sample.half.push_back(analysis::in_training_half(gearbox) ? 1 : 0);
+        sample.half.push_back(analysis::in_second_half(gearbox) ? 1 : 0);
         sample.faulty.push_back(is_test && all.results.parameters[0].values[row] > 0.0);
     }
     bool any = false;

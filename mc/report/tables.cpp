@@ -75,11 +75,6 @@ const std::vector<TableSource>& table_sources() {
          {"/reliability/levels", "/ranking/ranks"},
          "noise_level=1/noise_level rank=2 feature=2/name auc=2/auc lower=2/lower upper=2/upper "
          "p_value_from_first=2/p_values/0"},
-        {"combined",
-         {"/reliability/levels"},
-         "noise_level=1/noise_level single=1/combined/single/name "
-         "single_auc=1/combined/single/auc/auc combined_auc=1/combined/detector/auc/auc "
-         "gain=1/combined/gain p_value=1/combined/p_value refusal=1/combined/refusal"},
         {"inputs",
          {"/reliability/robustness", "/features", "/levels", "/bins"},
          "input=1 unit=1/unit feature=2/name noise_level=3/noise_level low=4/low high=4/high "

@@ -16,7 +16,7 @@ struct CsvTable {
 };
 
 // Returns the tables that have rows: of report_json()'s JSON features, detection, smallest_fault,
-// pod, pod_band, roc, ranking, misses, inputs, a90_by_input, combined, conditions,
+// pod, pod_band, roc, ranking, misses, inputs, a90_by_input, conditions,
 // numerical, over_time, monitoring, failures, provenance; of lives_json()'s lives, trade_offs; of
 // inspection_json()'s inspections, thresholds.
 std::vector<CsvTable> report_tables(const nlohmann::json& report);

@@ -155,7 +155,6 @@ void add_detection_sections(Report& report, const Findings& findings) {
         report.add(level_section(findings, n));
     }
     report.add(rates_section(findings));
-    report.add(combined_section(findings));
     report.add(conditions_section(findings));
 }
 

@@ -81,8 +81,6 @@ Section limits_section(const Findings& findings, const std::string& numerical,
 Section level_section(const Findings& findings, std::size_t level);
 // Smallest reliable sizes from the rates alone, warnings.
 Section rates_section(const Findings& findings);
-// All features combined into one detector, by noise level.
-Section combined_section(const Findings& findings);
 // Thresholds and rates by the values of one input.
 Section conditions_section(const Findings& findings);
 

@@ -157,27 +157,6 @@ void add_input_details(Section& section, const Findings& findings, std::size_t f
     }
 }
 
-std::string bound_text_of(const Findings& findings, const HeldOutDetector& detector) {
-    return detector.pod.refusal.empty() ? findings.size(detector.pod.a90.upper, detector.pod)
-                                        : "no curve";
-}
-
-Table weight_table(const Findings& findings, const CombinedDetector& combined, std::size_t n) {
-    std::vector<FeatureWeight> weights = combined.weights;
-    std::stable_sort(weights.begin(), weights.end(), [](const auto& a, const auto& b) {
-        return std::abs(a.weight) > std::abs(b.weight);
-    });
-    Table table{fmt::format("weights.{}", n),
-                fmt::format("Weights{}, in log odds per standard deviation", findings.at_noise(n)),
-                {"feature", "weight"},
-                {},
-                true};
-    for (const FeatureWeight& weight : weights) {
-        table.rows.push_back({weight.name, number_text(weight.weight)});
-    }
-    return table;
-}
-
 }  // namespace
 
 std::string misses_text(const Findings& findings, std::size_t feature, std::size_t level) {
@@ -216,69 +195,6 @@ void add_influences(Section& section, const Findings& findings, std::size_t leve
     if (level == findings.reference) {
         add_input_details(section, findings, best, level);
     }
-}
-
-Section combined_section(const Findings& findings) {
-    Section section{"combined", "All features as one detector", {}};
-    if (!findings.has_curves() || !has_sizes(findings.request)) {
-        return section;
-    }
-    Table table{"combined",
-                "Performance on held-out " + plural(findings.subject),
-                {"noise", "best single", "its area", "combined area", "p of equal areas",
-                 findings.bound() + " single", findings.bound() + " combined"},
-                {}};
-    std::vector<std::string> better, left, refused;
-    const auto note = [&](const std::string& line) {
-        if (std::ranges::count(left, line) == 0) {
-            left.push_back(line);
-        }
-    };
-    std::vector<Table> weights;
-    for (std::size_t n = 0; n < findings.levels(); ++n) {
-        const CombinedDetector& both = findings.reliability->combined[n];
-        if (!both.refusal.empty()) {
-            refused.push_back(
-                fmt::format("No combined detector{}: {}.", findings.at_noise(n), both.refusal));
-            continue;
-        }
-        if (both.p_value < kTestLevel && both.combined.auc.auc > both.single.auc.auc) {
-            better.push_back(findings.noise(n));
-        }
-        table.rows.push_back(
-            {"x " + number_text(findings.request.noise_levels[n]), both.single.name,
-             area_text(both.single.auc.auc, both.single.auc.bounds),
-             area_text(both.combined.auc.auc, both.combined.auc.bounds), p_text(both.p_value),
-             bound_text_of(findings, both.single), bound_text_of(findings, both.combined)});
-        weights.push_back(weight_table(findings, both, n));
-        std::ranges::for_each(both.left_out, note);
-        std::ranges::for_each(both.warnings, note);
-    }
-    if (!table.rows.empty()) {
-        section.state("combined.text",
-                      "All features combined into one detector (logistic regression), trained on "
-                      "half of the " +
-                          plural(findings.subject) +
-                          " and tested on the other half, compared with the best single feature. " +
-                          (better.empty()
-                               ? "The combination is not significantly better than the best single "
-                                 "feature."
-                           : findings.subject == Subject::recordings
-                               ? "The combination is significantly better."
-                               : fmt::format("The combination is significantly better at {}.",
-                                             joined(better))));
-    }
-    section.add(std::move(table));
-    for (Table& of_level : weights) {
-        section.add(std::move(of_level));
-    }
-    for (std::size_t i = 0; i < left.size(); ++i) {
-        section.state(fmt::format("combined.note.{}", i), "Combined detector: " + left[i] + ".");
-    }
-    for (std::size_t i = 0; i < refused.size(); ++i) {
-        section.state(fmt::format("combined.refused.{}", i), refused[i]);
-    }
-    return section;
 }
 
 }  // namespace gearpod::analysis

@@ -126,8 +126,7 @@ std::optional<analysis::Reliability> reliability_on_machines(const Results& fram
     ranks.from_leader(kAssess);
     ranks.from_leader_to_machines(std::move(bytes));
     Levels pairs = AllMachines(frame, *data, ranks, threads).run();
-    return analysis::assess_reliability(*data, frame.detection, frame.request, std::move(pairs),
-                                        threads);
+    return analysis::assess_reliability(*data, frame.request, std::move(pairs));
 }
 
 std::string assess_for_leader(const EnsemblePlan& plan, const Ranks& ranks) {

@@ -220,7 +220,6 @@ TEST_CASE("A transferred bound names its origin") {
     const Reliability curves{
         .features = {{"te_rms", Alarm::high, std::vector<LevelReliability>(2)}},
         .rankings = {},
-        .combined = {},
         .conditions = {}};
     Findings findings({features, nullptr, requested});
     findings.smallest[0] = SmallestFault{"te_rms", 1e-3, true, {"te_fc", 5.0}, false};

@@ -8,6 +8,7 @@
 
 namespace test_learned_sum {
 
+using gearpod::analysis::in_second_half;
 using gearpod::analysis::learned_sum;
 using gearpod::analysis::LearningSample;
 
@@ -79,6 +80,18 @@ TEST_CASE("A learned sum needs specimens, and keeps missing values") {
     sample.values[0].assign(400, 1.0);
     sample.values[1].assign(400, 1.0);
     CHECK(!learned_sum(sample).has_value());
+}
+
+TEST_CASE("Halves have equal sizes, and interleaved levels fall into both") {
+    long all = 0, of_level[4] = {};
+    for (std::size_t i = 0; i < 4000; ++i) {
+        all += in_second_half(i);
+        of_level[i % 4] += in_second_half(i);
+    }
+    CHECK(all == Approx(2000).margin(100));
+    for (const long count : of_level) {
+        CHECK(count == Approx(500).margin(75));
+    }
 }
 
 }  // namespace test_learned_sum
