@@ -36,17 +36,6 @@ find_path(CEREAL_INCLUDE_DIR cereal/cereal.hpp)
 gearpod_need(cereal "${CEREAL_INCLUDE_DIR}")
 find_path(KISSFFT_INCLUDE_DIR kissfft/kissfft.hh)
 gearpod_need(kissfft "${KISSFFT_INCLUDE_DIR}")
-foreach(name matio sndfile)
-  string(TOUPPER ${name} NAME)
-  find_path(${NAME}_INCLUDE_DIR ${name}.h)
-  find_library(${NAME}_LIBRARY ${name})
-  if(${NAME}_INCLUDE_DIR AND ${NAME}_LIBRARY)
-    add_library(${name}::${name} UNKNOWN IMPORTED)
-    set_target_properties(${name}::${name} PROPERTIES IMPORTED_LOCATION ${${NAME}_LIBRARY}
-      INTERFACE_INCLUDE_DIRECTORIES ${${NAME}_INCLUDE_DIR})
-  endif()
-  gearpod_need(${name} "${${NAME}_LIBRARY}")
-endforeach()
 
 # Without MPI a run is one process.
 set(GEARPOD_MPI AUTO CACHE STRING "runs of several processes over MPI: AUTO (if it is there), ON or OFF")

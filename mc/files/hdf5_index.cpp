@@ -10,7 +10,6 @@
 #include <set>
 #include <string_view>
 
-#include "mc/files/formats/byte_numbers.hpp"
 #include "mc/files/input/number_text.hpp"
 #include "mc/files/input/terminal_text.hpp"
 
@@ -77,13 +76,13 @@ herr_t read_attribute(hid_t object, const char* name, const H5A_info_t*, void* t
     }
 }
 
-// Beginnings of other kinds of files that check_file_content() lets pass.
-struct FileKind {
+// Beginnings of other kinds of files.
+struct FileBeginning {
     std::string_view begin;
     const char* name;
 };
 using namespace std::string_view_literals;
-constexpr FileKind kFileKinds[] = {
+constexpr FileBeginning kFileBeginnings[] = {
     {"RIFF"sv, "a WAV or other RIFF file"},
     {"<"sv, "an HTML or XML text"},
     {"\x00\x00\x00\x00\x00\x00\x00\x00"sv,
@@ -129,8 +128,9 @@ std::string hdf5_open_problem(const std::string& path) {
         if (!head.starts_with(kSignature)) {
             if (at == 0) {
                 const auto kind = std::ranges::find_if(
-                    kFileKinds, [&](const FileKind& one) { return head.starts_with(one.begin); });
-                if (kind != std::end(kFileKinds)) {
+                    kFileBeginnings,
+                    [&](const FileBeginning& one) { return head.starts_with(one.begin); });
+                if (kind != std::end(kFileBeginnings)) {
                     return fmt::format("is {}", kind->name);
                 }
             }
@@ -149,7 +149,10 @@ std::string hdf5_open_problem(const std::string& path) {
             return "";
         }
         const std::size_t at_end = first_form ? (version == 1 ? 44 : 40) : 28;
-        const std::uint64_t end = unsigned_at(head, at_end, 8);
+        std::uint64_t end = 0;
+        for (std::size_t i = 8; i-- > 0;) {
+            end = end << 8 | raw[at_end + i];
+        }
         if (end > size) {
             return fmt::format(
                 "is truncated ({} of {} bytes), or the program that wrote it did not close it; "

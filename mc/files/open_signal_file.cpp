@@ -1,10 +1,7 @@
 #include <algorithm>
-#include <filesystem>
 
-#include "mc/files/formats/file_content.hpp"
-#include "mc/files/formats/uff_file.hpp"
+#include "mc/files/foreign_file.hpp"
 #include "mc/files/input/input_file.hpp"
-#include "mc/files/isolated_reading.hpp"
 #include "mc/files/signal_file.hpp"
 
 namespace gearpod::mc {
@@ -46,58 +43,32 @@ std::unique_ptr<SignalFile> SignalSource::open(std::optional<std::size_t> row) c
     return open_signal_file(name, row);
 }
 
-// Selects the reader of a signal file by the extension of its name.
-
-namespace {
-
-bool is_kind_among(const std::string& extension, std::initializer_list<const char*> all) {
-    return std::find(all.begin(), all.end(), extension) != all.end();
-}
-
-}  // namespace
-
 std::unique_ptr<SignalFile> open_signal_file(const std::string& path,
                                              std::optional<std::size_t> row) {
     if (const std::string why = why_not_readable(path); !why.empty()) {
         throw SignalError(path + ": " + why);
     }
-    std::string kind = lower_extension(path);
-    const bool compressed = kind == ".gz";
-    if (compressed) {
-        kind = lower_extension(std::filesystem::path(path).stem());
-    }
-    const bool hdf5 = kind == ".h5" || kind == ".hdf5";
-    if (row && !hdf5) {
+    const FileKind kind = file_kind(path);
+    if (row && kind != FileKind::hdf5) {
         throw SignalError(path + ": has no rows to select from; only HDF5 files can have rows");
     }
-    if (is_kind_among(kind, {".csv", ".txt", ".tsv", ".dat", ".asc"})) {
-        return open_signal_csv(path);
+    switch (kind) {
+        case FileKind::text:
+            return open_signal_csv(path);
+        case FileKind::hdf5:
+            return open_signal_hdf5(path, row);
+        case FileKind::mat:
+            return open_signal_foreign(path, "mat");
+        case FileKind::sound:
+            return open_signal_foreign(path, "sound");
+        case FileKind::tdms:
+            return open_signal_foreign(path, "tdms");
+        case FileKind::uff:
+            return open_signal_foreign(path, "uff");
+        case FileKind::unknown:
+            break;
     }
-    check_file_content(path);
-    if (compressed) {
-        throw SignalError(path +
-                          ": only text files are read compressed (.csv.gz, .txt.gz); decompress it "
-                          "with gunzip");
-    }
-    if (hdf5) {
-        return isolated_signal(path, [&] { return open_signal_hdf5(path, row); });
-    }
-    if (kind == ".mat") {
-        return isolated_signal(path, [&] { return open_signal_mat(path); });
-    }
-    if (is_kind_among(kind, {".wav", ".wave", ".bwf", ".rf64", ".w64", ".flac", ".aif", ".aiff",
-                             ".aifc", ".au", ".snd", ".caf"})) {
-        return isolated_signal(path, [&] { return open_signal_sound(path); });
-    }
-    if (kind == ".tdms") {
-        return isolated_signal(path, [&] { return open_signal_tdms(path); });
-    }
-    if (std::ranges::count(kUffEndings, kind) > 0) {
-        return open_signal_uff(path);
-    }
-    throw SignalError(path +
-                      ": unknown file type; its name must end in .csv, .txt, .h5, .hdf5, .mat, "
-                      ".tdms, .uff, .unv, .wav, .rf64, .w64, .flac or .aiff");
+    throw SignalError(unknown_format_text(path));
 }
 
 }  // namespace gearpod::mc

@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "mc/files/formats/signal_error.hpp"
+#include "mc/files/signal_error.hpp"
 
 namespace gearpod::mc {
 
@@ -36,11 +36,10 @@ class SignalFile {
     virtual std::vector<double> read(const std::string& name) = 0;
     // Unit of a column if the file states it, else "".
     virtual std::string unit(const std::string&) { return ""; }
-    // Sampling rate if the file states it.
-    virtual std::optional<double> sampling_Hz() { return std::nullopt; }
-    // Sampling rate of one column, which has been read. Throws SignalError if statements contradict
-    // each other.
-    virtual std::optional<double> sampling_Hz_of(const std::string&) { return sampling_Hz(); }
+    // Sampling rate of one column, which has been read, or "" of the whole file, if the file states
+    // it. Throws SignalError if statements contradict each other.
+    virtual std::optional<double> sampling_Hz_of(const std::string&) { return std::nullopt; }
+    std::optional<double> sampling_Hz() { return sampling_Hz_of(""); }
     // Full name of the chosen column, "" if there is none. In a file with groups the name may be a
     // path, or the last part of one, which is looked for in the group of `near`, then in the groups
     // around it. Throws SignalError if a requested choice is ambiguous or not a column of numbers.
@@ -56,8 +55,7 @@ class SignalFile {
 // The first twenty of the texts, "a, b, c and 5 more"; "none" if there are none.
 std::string listed_text(const std::vector<std::string>& texts);
 
-// Opens a file according to the extension of its name. HDF5, MAT, TDMS and sound files are read in
-// a child process (isolated_reading.hpp). Throws SignalError.
+// Opens a file according to its first bytes, or to the extension of its name. Throws SignalError.
 //   .csv, .txt   A header line with names and units in brackets ("sensor [m/s^2]"), then a line
 //                of numbers per sample, in any usual form (text_dialect.hpp); also compressed
 //                with gzip (.csv.gz, .txt.gz). Columns that are not read may contain anything.
@@ -78,8 +76,8 @@ std::string listed_text(const std::vector<std::string>& texts);
 //                are applied.
 //   .uff, .unv   Real time histories of dataset 58: the column sensor, or function1,
 //                function2, ..., also under unique titles; uneven ones have the column time.
-// A file whose content has another format is rejected with the format's name
-// (formats/file_content.hpp).
+// Python reads the last four (foreign_file.hpp). Other formats are rejected with ways to convert
+// them.
 // `row`, from 0: index of the record in an HDF5 file that has one record per row.
 std::unique_ptr<SignalFile> open_signal_file(const std::string& path,
                                              std::optional<std::size_t> row = std::nullopt);
@@ -103,9 +101,7 @@ struct SignalSource {
 std::unique_ptr<SignalFile> open_signal_csv(const std::string& path);
 std::unique_ptr<SignalFile> open_signal_hdf5(const std::string& path,
                                              std::optional<std::size_t> row);
-std::unique_ptr<SignalFile> open_signal_mat(const std::string& path);
-std::unique_ptr<SignalFile> open_signal_sound(const std::string& path);
-std::unique_ptr<SignalFile> open_signal_tdms(const std::string& path);
-std::unique_ptr<SignalFile> open_signal_uff(const std::string& path);
+// `reader`: that of ForeignFile (foreign_file.hpp).
+std::unique_ptr<SignalFile> open_signal_foreign(const std::string& path, const std::string& reader);
 
 }  // namespace gearpod::mc

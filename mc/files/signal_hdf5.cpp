@@ -77,8 +77,6 @@ class SignalHdf5 : public NamedColumns {
         }
     }
 
-    std::optional<double> sampling_Hz() override { return sampling_Hz_of(""); }
-
     std::optional<double> sampling_Hz_of(const std::string& name) override {
         const SilentHdf5 silent;
         try {

@@ -10,7 +10,10 @@
 #include <span>
 
 #include "features/feature.hpp"
+#include "mc/files/foreign_file.hpp"
+#include "mc/files/input/input_file.hpp"
 #include "mc/files/input/terminal_text.hpp"
+#include "mc/files/isolated_reading.hpp"
 #include "mc/files/signal_file.hpp"
 #include "mc/files/signal_units.hpp"
 #include "mc/recordings/quantisation.hpp"
@@ -63,36 +66,37 @@ class SignalReader : RecordingColumns {
                  const MeasurementPlan& plan)
         : RecordingColumns(source, columns), plan_(plan), record_(plan.record) {}
 
-    MeasuredSignal read() {
-        // The libraries that read files are not thread-safe.
-        static std::mutex reading;
-        std::unique_lock lock(reading);
+    // Reads the columns and the mesh phase of every sample.
+    void read_file() {
         struct Closed {
             std::unique_ptr<SignalFile>& file;
             ~Closed() { file.reset(); }
         } closed{file_};
         file_ = source_.open(columns_.row);
-        std::vector<double> sensor = chosen(columns_.sensor, kSensor, Quantity::acceleration);
-        std::vector<double> te = chosen(columns_.te, "te", Quantity::angle);
-        if (sensor.empty() && te.empty() && problems_.empty()) {
+        sensor_ = chosen(columns_.sensor, kSensor, Quantity::acceleration);
+        te_ = chosen(columns_.te, "te", Quantity::angle);
+        if (sensor_.empty() && te_.empty() && problems_.empty()) {
             reject(
                 fmt::format("it has neither a column sensor nor a column te; its columns are {}; "
                             "choose with --sensor or --te",
                             file_->contents()));
         }
         stop_at_problems();
-        const std::size_t samples = std::max(sensor.size(), te.size());
-        MeasuredSignal measured;
-        measured.has_sensor = !sensor.empty();
-        measured.has_te = !te.empty();
-        std::vector<double> phase = phases(samples, measured.tracking);
+        phase_ = phases(std::max(sensor_.size(), te_.size()), tracking_);
         for (const std::string& text : file_->notes()) {
             notes_.push_back(printable(text));
         }
-        measured.notes = std::move(notes_);
         stop_at_problems();
-        file_.reset();
-        lock.unlock();
+    }
+
+    // Signals on the study's grid.
+    MeasuredSignal resampled() {
+        std::vector<double>&sensor = sensor_, &te = te_, &phase = phase_;
+        MeasuredSignal measured;
+        measured.has_sensor = !sensor.empty();
+        measured.has_te = !te.empty();
+        measured.tracking = std::move(tracking_);
+        measured.notes = std::move(notes_);
         for (const std::string& problem :
              rate_problems(phase, plan_, {!sensor.empty(), !te.empty()})) {
             reject(problem);
@@ -293,6 +297,8 @@ class SignalReader : RecordingColumns {
 
     const MeasurementPlan& plan_;
     const RecordPlan& record_;
+    std::vector<double> sensor_, te_, phase_;
+    std::string tracking_;  // source of the phase
     std::size_t first_sample_ = 0;
     bool counted_ = false;  // true if the phase comes only from sample numbers, times and speed
 };
@@ -301,7 +307,24 @@ class SignalReader : RecordingColumns {
 
 MeasuredSignal read_measured_signal(const SignalSource& source, const SignalColumns& columns,
                                     const MeasurementPlan& plan) {
-    return SignalReader(source, columns, plan).read();
+    SignalReader reader(source, columns, plan);
+    {
+        // The libraries that read files are not thread-safe, and may crash on a damaged HDF5 file.
+        static std::mutex reading;
+        const std::lock_guard lock(reading);
+        constexpr std::uintmax_t kMemoryPerByte = 1000;  // compressed values
+        if (!source.columns && file_kind(source.name) == FileKind::hdf5 &&
+            why_not_readable(source.name).empty() &&
+            !survives_reading(
+                source.name, [&] { SignalReader(source, columns, plan).read_file(); },
+                kMemoryPerByte)) {
+            throw SignalError(source.name +
+                              ": is damaged: reading it crashes, does not finish, or needs more "
+                              "memory than reading a file may use");
+        }
+        reader.read_file();
+    }
+    return reader.resampled();
 }
 
 AlignedSensor aligned_with(std::span<const double> other, std::span<const double> signal, int turns,

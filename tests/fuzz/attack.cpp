@@ -235,7 +235,6 @@ bool arm(Arsenal& arsenal) {
     arsenal.checkpoint = bytes_of(at + "/p.h5.part");
     arsenal.csv = bytes_of(at + "/x.csv");
     arsenal.hdf5 = bytes_of(at + "/x.h5");
-    arsenal.mat = genuine_mat(at + "/x.mat");
     std::vector<double> sensor(4000);
     for (std::size_t i = 0; i < sensor.size(); ++i) {
         sensor[i] = 0.5 * std::sin(0.7 * static_cast<double>(i));

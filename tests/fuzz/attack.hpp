@@ -19,14 +19,11 @@ struct Attack {
 // attacks are made. The program creates them once.
 struct Arsenal {
     std::string program, folder;
-    std::vector<std::string> studies;                           // study texts
-    std::string small_study;                                    // path
-    std::string results, checkpoint, csv, hdf5, mat, wav, uff, tdms;  // bytes of valid files
-    std::vector<std::string> inspections;                       // tables of sizes and outcomes
+    std::vector<std::string> studies;                            // study texts
+    std::string small_study;                                     // path
+    std::string results, checkpoint, csv, hdf5, wav, uff, tdms;  // bytes of valid files
+    std::vector<std::string> inspections;                        // tables of sizes and outcomes
 };
-
-// Writes a MAT file of a sensor's signal and a transmission error, and returns its bytes.
-std::string genuine_mat(const std::string& path);
 
 // Writes the files of attack `number` of a kind into `folder`. Deterministic for a given number.
 Attack attack_by_study(const Arsenal& arsenal, const std::string& folder, std::uint64_t number);

@@ -104,7 +104,7 @@ Attack other_kinds(const Arsenal& arsenal, const std::string& folder, Dice& dice
     write_file_of(table, arsenal.inspections.front());
     constexpr std::array kEndings{".h5", ".csv", ".json", ".html", ".dat"};
     const std::array contents{arsenal.results, arsenal.csv, arsenal.hdf5.substr(0, 500),
-                              std::string("years of work\n"), arsenal.mat};
+                              std::string("years of work\n"), arsenal.wav};
     const std::string aim = folder + "/aim" + dice.one_of(kEndings);
     write_file_of(aim, dice.one_of(contents));
     const std::vector<Words> commands{

@@ -1,5 +1,3 @@
-#include <matio.h>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -202,28 +200,6 @@ std::string hostile_csv(Dice& dice) {
 
 }  // namespace
 
-std::string genuine_mat(const std::string& path) {
-    std::vector<double> values;
-    for (int i = 0; i < 5000; ++i) {
-        values.push_back(1e-3 * std::sin(0.7 * i));
-    }
-    double rate = 280.0;
-    mat_t* const file = Mat_CreateVer(path.c_str(), nullptr, MAT_FT_MAT5);
-    const auto add = [&](const char* name, double* data, std::size_t count) {
-        std::size_t extents[2] = {count, 1};
-        matvar_t* const variable =
-            Mat_VarCreate(name, MAT_C_DOUBLE, MAT_T_DOUBLE, 2, extents, data, MAT_F_DONT_COPY_DATA);
-        Mat_VarWrite(file, variable, MAT_COMPRESSION_ZLIB);
-        Mat_VarFree(variable);
-    };
-    add("sensor", values.data(), values.size());
-    add("te", values.data(), values.size());
-    add("sampling_Hz", &rate, 1);
-    Mat_Close(file);
-    std::ifstream stream(path, std::ios::binary);
-    return {std::istreambuf_iterator<char>(stream), {}};
-}
-
 Attack attack_by_study(const Arsenal& arsenal, const std::string& folder, std::uint64_t number) {
     Dice dice(number);
     const std::string path = folder + "/s.toml";
@@ -271,17 +247,16 @@ Attack attack_by_checkpoint(const Arsenal& arsenal, const std::string& folder,
 
 Attack attack_by_signal(const Arsenal& arsenal, const std::string& folder, std::uint64_t number) {
     Dice dice(number);
-    const std::array<std::pair<const char*, const std::string*>, 6> genuine{
+    const std::array<std::pair<const char*, const std::string*>, 5> genuine{
         {{"/x.h5", &arsenal.hdf5},
-         {"/x.mat", &arsenal.mat},
          {"/x.wav", &arsenal.wav},
          {"/x.uff", &arsenal.uff},
          {"/x.tdms", &arsenal.tdms},
          {"/x.csv", &arsenal.csv}}};
-    const std::size_t kind = dice.below(13);
-    const std::string path = folder + (kind < 6 ? genuine[kind].first : "/x.csv");
-    write(path, kind < 6   ? damaged(*genuine[kind].second, dice)
-                : kind < 9 ? hostile_csv(dice)
+    const std::size_t kind = dice.below(12);
+    const std::string path = folder + (kind < 5 ? genuine[kind].first : "/x.csv");
+    write(path, kind < 5   ? damaged(*genuine[kind].second, dice)
+                : kind < 8 ? hostile_csv(dice)
                            : in_dialect(arsenal.csv, dice));
     Attack attack{{"features", path, "--study", arsenal.small_study}};
     if (dice.below(2) == 0) {

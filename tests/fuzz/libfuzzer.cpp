@@ -111,18 +111,6 @@ template <class Open>
 [[maybe_unused]] void csv(const std::string& bytes) {
     signal(bytes, open_signal_csv);
 }
-[[maybe_unused]] void mat(const std::string& bytes) {
-    signal(bytes, open_signal_mat);
-}
-[[maybe_unused]] void sound(const std::string& bytes) {
-    signal(bytes, open_signal_sound);
-}
-[[maybe_unused]] void tdms(const std::string& bytes) {
-    signal(bytes, open_signal_tdms);
-}
-[[maybe_unused]] void uff(const std::string& bytes) {
-    signal(bytes, open_signal_uff);
-}
 [[maybe_unused]] void hdf5(const std::string& bytes) {
     signal(bytes, [](const std::string& path) { return open_signal_hdf5(path, std::nullopt); });
 }

@@ -15,10 +15,10 @@ namespace gearpod::mc {
 namespace {
 
 // Unnamed temporary file, deleted when it is closed.
-using TemporaryFile = std::unique_ptr<FILE, int (*)(FILE*)>;
+using UnnamedFile = std::unique_ptr<FILE, int (*)(FILE*)>;
 
-TemporaryFile temporary_file(const std::string& text) {
-    TemporaryFile file(std::tmpfile(), std::fclose);
+UnnamedFile unnamed_file(const std::string& text) {
+    UnnamedFile file(std::tmpfile(), std::fclose);
     if (!file || std::fwrite(text.data(), 1, text.size(), file.get()) != text.size() ||
         std::fflush(file.get()) != 0 || lseek(fileno(file.get()), 0, SEEK_SET) != 0) {
         throw PythonError(std::string("no temporary file: ") + std::strerror(errno));
@@ -74,7 +74,7 @@ std::string python_interpreter() {
 PythonOutput run_python(const std::vector<std::string>& arguments, const std::string& input) {
     std::vector<std::string> words{python_interpreter()};
     words.insert(words.end(), arguments.begin(), arguments.end());
-    const TemporaryFile in = temporary_file(input), out = temporary_file("");
+    const UnnamedFile in = unnamed_file(input), out = unnamed_file("");
     const int code = run(words, in.get(), out.get());
     return {code, content(out.get())};
 }

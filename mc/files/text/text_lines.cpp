@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <filesystem>
 
-#include "mc/files/formats/file_content.hpp"
+#include "mc/files/foreign_file.hpp"
 #include "mc/files/input/file_text.hpp"
 #include "mc/files/signal_file.hpp"
 
@@ -23,7 +23,6 @@ TextLines::TextLines(const std::string& path) : path_(path) {
     if (!std::filesystem::is_regular_file(path, error)) {
         throw SignalError(path + ": no such file, or it cannot be read");
     }
-    check_file_content(path);
     file_.reset(gzopen(path.c_str(), "rb"));
     if (!file_) {
         throw SignalError(path + ": no such file, or it cannot be read");
@@ -75,9 +74,8 @@ bool TextLines::fill() {
         const auto lines =
             std::count(buffer_.begin(), buffer_.begin() + static_cast<std::ptrdiff_t>(null), '\n');
         throw SignalError(
-            fmt::format("{}:{}: is not a line of text (UTF-16 needs a byte order "
-                        "mark)",
-                        path_, next_number_ + lines));
+            fmt::format("{}:{}: is not a line of text (UTF-16 needs a byte order mark)\n{}", path_,
+                        next_number_ + lines, unknown_format_text(path_)));
     }
     return got > 0;
 }
@@ -92,6 +90,9 @@ void TextLines::check_beginning() {
         utf16_ = buffer_.substr(2);
         buffer_.clear();
         append_utf16(false);
+    }
+    if (buffer_.starts_with('<') || buffer_.starts_with("PK\x03\x04")) {
+        throw SignalError(unknown_format_text(path_));
     }
     if (buffer_.find('\n') == std::string::npos && buffer_.find('\r') != std::string::npos) {
         end_of_line_ = '\r';

@@ -5,12 +5,13 @@
 #include <algorithm>
 #include <cmath>
 #include <complex>
+#include <filesystem>
 #include <numbers>
 #include <optional>
 #include <vector>
 
-#include "mc/files/formats/file_content.hpp"
-#include "mc/files/formats/uff_file.hpp"
+#include "mc/files/foreign_file.hpp"
+#include "mc/files/input/file_text.hpp"
 #include "mc/files/input/input_file.hpp"
 #include "mc/files/signal_file.hpp"
 #include "mc/files/signal_units.hpp"
@@ -20,20 +21,14 @@
 namespace gearpod::mc {
 namespace {
 
-constexpr int kResponseFunction = 4, kTransmissibility = 5;  // function types
-constexpr int kAnyData = 1, kAcceleration = 12, kForce = 13,
-              kFrequency = 18;  // data types; 0: unknown
 constexpr const char* kFrequencyColumn = "frequency";
 constexpr const char* kGainColumn = "gain";
 constexpr const char* kPhaseColumn = "phase";
 
-bool is_of_type(const UffAxis& axis, int type) {
-    return axis.type == type || axis.type <= kAnyData;
-}
-
-std::string axis_text(const UffAxis& axis) {
-    return axis.unit.empty() ? uff_quantity(axis.type)
-                             : fmt::format("{} in {}", uff_quantity(axis.type), axis.unit);
+// True if an axis, "acceleration in g", has this quantity or states none.
+bool is_of(const std::string& axis, const std::string& quantity) {
+    const std::string has = axis.substr(0, axis.find(" in "));
+    return has == quantity || has == "unknown" || has == "general";
 }
 
 // Factor that converts a force to N; empty for an unknown unit.
@@ -42,46 +37,39 @@ std::optional<double> force_factor(const std::string& unit) {
     return plain == "N" ? std::optional(1.0) : plain == "kN" ? std::optional(1e3) : std::nullopt;
 }
 
-// Factor of the gain by the units above and below the fraction line.
-double unit_ratio(const std::string& path, const UffFunction& function, ResponseTo to) {
-    const UffAxis &above = function.ordinate, &below = function.denominator;
+// Factor of the gain by the units above and below the fraction line. The channel's title and text
+// are the axes (`read_uff_responses` in signal_files.py).
+double unit_ratio(const std::string& path, const ForeignChannel& response, ResponseTo to) {
+    const std::string &above = response.unit, &below = response.unit_text;
     const auto refuse = [&] {
         throw SignalError(fmt::format(
-            "{}: its response is {} over {}; {} needs acceleration over {}", path, axis_text(above),
-            axis_text(below), to == ResponseTo::force ? "a bearing" : "the housing",
+            "{}: its response is {} over {}; {} needs acceleration over {}", path, response.title,
+            response.text, to == ResponseTo::force ? "a bearing" : "the housing",
             to == ResponseTo::force ? "force in N or kN" : "acceleration"));
     };
-    if (!is_of_type(above, kAcceleration) ||
-        !is_of_type(below, to == ResponseTo::force ? kForce : kAcceleration)) {
+    if (!is_of(response.title, "acceleration") ||
+        !is_of(response.text, to == ResponseTo::force ? "excitation force" : "acceleration")) {
         refuse();
     }
-    if (above.unit.empty() && below.unit.empty()) {
+    if (above.empty() && below.empty()) {
         return 1.0;
     }
-    const auto a = unit_factor(Quantity::acceleration, above.unit),
-               b = to == ResponseTo::force ? force_factor(below.unit)
-                                           : unit_factor(Quantity::acceleration, below.unit);
-    if (!a || !b || above.unit.empty() || below.unit.empty()) {
+    const auto a = unit_factor(Quantity::acceleration, above),
+               b = to == ResponseTo::force ? force_factor(below)
+                                           : unit_factor(Quantity::acceleration, below);
+    if (!a || !b || above.empty() || below.empty()) {
         refuse();
     }
     return *a / *b;
 }
 
-std::vector<double> frequencies_of(const std::string& path, const UffFunction& function) {
-    std::string unit = function.abscissa.unit;
-    std::ranges::transform(unit, unit.begin(), [](unsigned char c) { return std::tolower(c); });
-    if (!is_of_type(function.abscissa, kFrequency) || (!unit.empty() && unit != "hz")) {
-        throw SignalError(fmt::format("{}: its abscissa is {}, but must be a frequency in Hz", path,
-                                      axis_text(function.abscissa)));
+void check_frequency(const std::string& path, const std::string& axis) {
+    const std::size_t end = std::min(axis.find(" in "), axis.size());
+    const std::string unit = lower_case(axis.substr(end));
+    if (!is_of(axis, "frequency") || (!unit.empty() && unit != " in hz")) {
+        throw SignalError(
+            fmt::format("{}: its abscissa is {}, but must be a frequency in Hz", path, axis));
     }
-    if (!function.even) {
-        return function.abscissae;
-    }
-    std::vector<double> all;
-    for (std::size_t i = 0; i < function.values.size(); ++i) {
-        all.push_back(function.first + function.step * static_cast<double>(i));
-    }
-    return all;
 }
 
 }  // namespace
@@ -91,16 +79,20 @@ std::vector<double> uff_response_column(const std::string& path, const std::stri
     if (const std::string why = why_not_readable(path); !why.empty()) {
         throw SignalError(path + ": " + why);
     }
-    std::vector<UffFunction> responses = read_uff(path);
-    std::erase_if(responses, [](const UffFunction& function) {
-        return function.function_type != kResponseFunction &&
-               function.function_type != kTransmissibility;
-    });
-    if (responses.empty()) {
-        throw SignalError(path + ": contains no frequency response");
+    // The columns of a response are read one after the other, from the same file.
+    thread_local std::optional<ForeignFile> file;
+    thread_local std::string read_path;
+    thread_local std::filesystem::file_time_type read_time;
+    const auto time = std::filesystem::last_write_time(path);
+    if (!file || read_path != path || read_time != time) {
+        file.reset();
+        file.emplace(path, "responses");
+        read_path = path;
+        read_time = time;
     }
+    const std::vector<ForeignChannel>& responses = file->channels();
     for (std::size_t i = 0; i < responses.size(); ++i) {
-        const UffFunction& response = responses[i];
+        const ForeignChannel& response = responses[i];
         const std::string number = responses.size() == 1 ? "" : fmt::format(" {}", i + 1);
         const bool gain = column == kGainColumn + number, phase = column == kPhaseColumn + number;
         if (!gain && !phase && column != kFrequencyColumn + number) {
@@ -110,13 +102,14 @@ std::vector<double> uff_response_column(const std::string& path, const std::stri
             throw SignalError(fmt::format("{}: {}", path, response.unreadable));
         }
         if (!gain && !phase) {
-            return frequencies_of(path, response);
+            check_frequency(path, response.name);
+            return file->values(i, 0);
         }
         const double factor = unit_ratio(path, response, to);
+        const std::vector<double> real = file->values(i, 1), imaginary = file->values(i, 2);
         std::vector<double> all;
-        for (std::size_t k = 0; k < response.values.size(); ++k) {
-            const std::complex<double> value(response.values[k],
-                                             response.complex ? response.imaginary[k] : 0.0);
+        for (std::size_t k = 0; k < real.size(); ++k) {
+            const std::complex<double> value(real[k], imaginary[k]);
             all.push_back(gain ? factor * std::abs(value)
                                : std::arg(value) * 180.0 / std::numbers::pi);
         }
@@ -178,7 +171,7 @@ std::vector<double> table_column(const FileColumn& source) {
 
 Value list_of(const FileColumn& source, std::string_view key, const Position& position,
               std::size_t most) {
-    const bool uff = std::ranges::count(kUffEndings, lower_extension(source.file)) > 0;
+    const bool uff = file_kind(source.file) == FileKind::uff;
     if (uff && key.find("response_") == std::string_view::npos) {
         throw SignalError(fmt::format(
             "{}: of universal files only frequency responses are read, but {} takes other values",

@@ -1,0 +1,276 @@
+#include "mc/files/foreign_file.hpp"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <signal.h>
+#include <spawn.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <cstdlib>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <string_view>
+
+#include "mc/files/file_descriptor.hpp"
+#include "mc/files/hdf5_index.hpp"
+#include "mc/files/input/file_text.hpp"
+#include "mc/files/input/terminal_text.hpp"
+#include "python_sources.hpp"
+
+namespace gearpod::mc {
+namespace {
+
+using std::string_view_literals::operator""sv;
+
+constexpr int kRefused = 3;  // exit code of the process that has printed a reason
+
+struct KindBytes {
+    std::size_t at;
+    std::string_view bytes;
+    FileKind kind;
+};
+constexpr KindBytes kKindBytes[] = {{0, "\x89HDF\r\n\x1a\n"sv, FileKind::hdf5},
+                                    {0, "MATLAB 5.0 MAT-file"sv, FileKind::mat},
+                                    {0, "MATLAB 7.3 MAT-file"sv, FileKind::mat},
+                                    {0, "TDSm"sv, FileKind::tdms},
+                                    {8, "WAVE"sv, FileKind::sound},
+                                    {0, "RF64"sv, FileKind::sound},
+                                    {0, "riff\x2e\x91\xcf\x11"sv, FileKind::sound},
+                                    {0, "fLaC"sv, FileKind::sound},
+                                    {8, "AIFF"sv, FileKind::sound},
+                                    {8, "AIFC"sv, FileKind::sound},
+                                    {0, ".snd"sv, FileKind::sound},
+                                    {0, "caff"sv, FileKind::sound},
+                                    {0, "CDF\x01"sv, FileKind::unknown},
+                                    {0, "PK\x03\x04"sv, FileKind::unknown}};
+
+struct KindExtensions {
+    std::string_view extensions;
+    FileKind kind;
+};
+constexpr KindExtensions kKindExtensions[] = {
+    {" .csv .txt .tsv .dat .asc ", FileKind::text},
+    {" .h5 .hdf5 .nc .nc4 ", FileKind::hdf5},
+    {" .mat ", FileKind::mat},
+    {" .wav .wave .bwf .rf64 .w64 .flac .aif .aiff .aifc .au .snd .caf ", FileKind::sound},
+    {" .tdms ", FileKind::tdms},
+    {" .uff .unv .uf58 .uf .ufb ", FileKind::uff}};
+
+// Universal files begin with a line "-1" and the number of a dataset.
+bool is_universal_file(std::string_view head) {
+    const std::size_t end = head.find('\n');
+    return head.starts_with("    -1") && end != head.npos &&
+           head.substr(end + 1, 6).find_first_not_of(" 0123456789") == head.npos;
+}
+
+// File in the folder for temporary files, deleted by the destructor.
+class TemporaryFile {
+  public:
+    explicit TemporaryFile(const std::string& path)
+        : name_((std::filesystem::temp_directory_path() / "gearpod-recording-XXXXXX").string()) {
+        const Descriptor created(::mkstemp(name_.data()));
+        if (created.get() < 0) {
+            throw SignalError(fmt::format("{}: cannot be read: no temporary file {} ({})", path,
+                                          name_, std::strerror(errno)));
+        }
+    }
+    TemporaryFile(const TemporaryFile&) = delete;
+    TemporaryFile& operator=(const TemporaryFile&) = delete;
+    ~TemporaryFile() { ::unlink(name_.c_str()); }
+
+    const std::string& name() const { return name_; }
+
+  private:
+    std::string name_;
+};
+
+// Output of Python, which writes the recording to the file `to`; and its status.
+std::string python_output(const std::string& path, const std::string& reader, const std::string& to,
+                          int& status) {
+    const char* given = std::getenv("GEARPOD_PYTHON");
+    const std::string python = given != nullptr && *given != '\0' ? given : "/usr/bin/python3";
+    std::array<int, 2> ends{-1, -1};
+    if (::pipe2(ends.data(), O_CLOEXEC) != 0) {
+        throw SignalError(fmt::format("{}: cannot be read: {}", path, std::strerror(errno)));
+    }
+    const Descriptor here(ends[0]);
+    Descriptor there(ends[1]);
+    // -B: write no compiled files; -s: ignore the user's own packages.
+    std::vector<std::string> words{python, "-Bs", "-c", kSignalFilesSource, reader, path, to};
+    std::vector<char*> arguments;
+    for (std::string& word : words) {
+        arguments.push_back(word.data());
+    }
+    arguments.push_back(nullptr);
+    posix_spawn_file_actions_t streams;
+    posix_spawn_file_actions_init(&streams);
+    posix_spawn_file_actions_adddup2(&streams, there.get(), STDOUT_FILENO);
+    posix_spawn_file_actions_addopen(&streams, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
+    posix_spawn_file_actions_addopen(&streams, STDERR_FILENO, "/dev/null", O_WRONLY, 0);
+    // Signals that the program handles or blocks must act in the process as usual.
+    posix_spawnattr_t attributes;
+    posix_spawnattr_init(&attributes);
+    sigset_t none;
+    ::sigemptyset(&none);
+    posix_spawnattr_setsigmask(&attributes, &none);
+    posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETSIGMASK);
+    pid_t child = -1;
+    const int error =
+        posix_spawn(&child, python.c_str(), &streams, &attributes, arguments.data(), environ);
+    posix_spawn_file_actions_destroy(&streams);
+    posix_spawnattr_destroy(&attributes);
+    there.close();
+    if (error != 0) {
+        throw SignalError(fmt::format(
+            "{}: this kind of file is read by Python, but {} cannot be started ({}); install "
+            "python3 with numpy, h5py, scipy and soundfile, or name another one in GEARPOD_PYTHON",
+            path, python, std::strerror(error)));
+    }
+    std::string output;
+    std::array<char, 4096> block{};
+    for (ssize_t got = 1; got != 0;) {
+        got = ::read(here.get(), block.data(), block.size());
+        if (got < 0 && errno != EINTR) {
+            break;
+        }
+        output.append(block.data(), static_cast<std::size_t>(std::max<ssize_t>(0, got)));
+    }
+    while (::waitpid(child, &status, 0) < 0 && errno == EINTR) {
+    }
+    return output;
+}
+
+ForeignChannel channel_of(hid_t dataset) {
+    ForeignChannel channel;
+    const std::pair<std::string_view, std::string*> texts[] = {
+        {"name", &channel.name},
+        {"title", &channel.title},
+        {"text", &channel.text},
+        {"unit", &channel.unit},
+        {"quantity", &channel.quantity},
+        {"unit_text", &channel.unit_text},
+        {"unit_by_lengths", &channel.unit_by_lengths},
+        {"times", &channel.times},
+        {"note", &channel.note},
+        {"problem", &channel.problem},
+        {"unreadable", &channel.unreadable}};
+    const std::pair<std::string_view, std::optional<double>*> numbers[] = {
+        {"lengths_per_metre", &channel.lengths_per_metre},
+        {"sampling_Hz", &channel.sampling_Hz},
+        {"start_s", &channel.start_s}};
+    for (const Hdf5Attribute& attribute : attributes_of(dataset)) {
+        for (const auto& [name, text] : texts) {
+            *text = name == attribute.name && !attribute.texts.empty() ? attribute.texts[0] : *text;
+        }
+        for (const auto& [name, number] : numbers) {
+            *number = name == attribute.name ? attribute.number() : *number;
+        }
+    }
+    channel.text = channel.text.empty() ? channel.name : channel.text;
+    const Hdf5Handle space(H5Dget_space(dataset), H5Sclose, "shape");
+    channel.shape.resize(2);
+    check(H5Sget_simple_extent_dims(space.get(), channel.shape.data(), nullptr), "shape");
+    return channel;
+}
+
+std::string dataset_name(std::size_t channel) {
+    return fmt::format("{:06}", channel);
+}
+
+}  // namespace
+
+FileKind file_kind(const std::string& path) {
+    std::string head(4096, '\0');
+    std::ifstream stream(path, std::ios::binary);
+    stream.read(head.data(), static_cast<std::streamsize>(head.size()));
+    head.resize(static_cast<std::size_t>(stream.gcount()));
+    std::string extension = lower_case(std::filesystem::path(path).extension().string());
+    if (extension == ".gz") {
+        extension = lower_case(std::filesystem::path(path).stem().extension().string());
+        return extension.empty() || kKindExtensions[0].extensions.find(extension) == head.npos
+                   ? FileKind::unknown
+                   : FileKind::text;
+    }
+    const auto named = std::ranges::find_if(kKindExtensions, [&](const KindExtensions& one) {
+        return !extension.empty() &&
+               one.extensions.find(" " + extension + " ") != std::string_view::npos;
+    });
+    const FileKind kind = named == std::end(kKindExtensions) ? FileKind::unknown : named->kind;
+    for (const KindBytes& one : kKindBytes) {
+        const bool container = one.at == 0 || head.starts_with("RIFF") || head.starts_with("FORM");
+        if (container && head.size() > one.at &&
+            std::string_view(head).substr(one.at).starts_with(one.bytes)) {
+            // MATLAB 7.3 files are HDF5 files after a header of their own.
+            return one.kind == FileKind::mat && kind == FileKind::hdf5 ? kind : one.kind;
+        }
+    }
+    return is_universal_file(head) ? FileKind::uff : kind;
+}
+
+std::string unknown_format_text(const std::string& path) {
+    return path +
+           ": is not a file that gearpod reads: CSV and other text (.csv, .txt, .tsv, .dat, .asc, "
+           "also .gz), HDF5 (.h5, .hdf5, .nc), MAT (.mat), TDMS (.tdms), universal files (.uff, "
+           ".unv) or sound without loss (.wav, .flac, .aiff, .rf64, .w64, .au, .caf). Convert it: "
+           "spreadsheets: save the sheet as CSV; ZIP and other archives: unpack them; Parquet, "
+           "Arrow, SQLite, pickle: pandas, to_csv(OUT, index=False); NumPy: numpy.savetxt(OUT, "
+           "numpy.load(FILE)); MDF (.mf4): asammdf, MDF(FILE).export('csv'); netCDF classic: "
+           "nccopy "
+           "-k nc4 FILE OUT.nc; Octave: save -v7 FILE; LabVIEW, DIAdem, FAMOS, catman: export "
+           "TDMS, "
+           "MAT, UFF 58 or CSV; web pages: download the recording itself";
+}
+
+ForeignFile::ForeignFile(const std::string& path, const std::string& reader) : path_(path) {
+    const TemporaryFile temporary(path);
+    int status = 0;
+    const std::string output = python_output(path, reader, temporary.name(), status);
+    if (WIFEXITED(status) && WEXITSTATUS(status) == kRefused) {
+        throw SignalError(path + printable(output));
+    }
+    if (!WIFEXITED(status) || WEXITSTATUS(status) != 0) {
+        throw SignalError(fmt::format(
+            "{}: is damaged: reading it {}", path,
+            WIFSIGNALED(status)
+                ? fmt::format("was ended by a signal ({})", ::strsignal(WTERMSIG(status)))
+                : fmt::format("ended with exit code {}", WEXITSTATUS(status))));
+    }
+    const SilentHdf5 silent;
+    try {
+        file_.emplace(H5Fopen(temporary.name().c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), H5Fclose,
+                      path);
+        separator_ = read_text(file_->get(), ".", "separator").front();
+        note_ = read_text(file_->get(), ".", "note");
+        H5G_info_t info{};
+        check(H5Gget_info(file_->get(), &info), path);
+        for (std::size_t i = 0; i < info.nlinks; ++i) {
+            const std::string name = dataset_name(i);
+            const Hdf5Handle dataset(H5Dopen2(file_->get(), name.c_str(), H5P_DEFAULT), H5Dclose,
+                                     name);
+            channels_.push_back(channel_of(dataset.get()));
+        }
+    } catch (const Hdf5Error& error) {
+        throw SignalError(
+            fmt::format("{}: what Python has read cannot be taken over ({})", path, error.what()));
+    }
+}
+
+std::vector<double> ForeignFile::values(std::size_t channel, std::size_t column) const {
+    const SilentHdf5 silent;
+    try {
+        std::vector<double> values;
+        read_rows(file_->get(), dataset_name(channel), channels_[channel].shape, {column, 1},
+                  values);
+        return values;
+    } catch (const Hdf5Error&) {
+        throw SignalError(
+            fmt::format("{}: {} cannot be read", path_, printable(channels_[channel].name)));
+    }
+}
+
+}  // namespace gearpod::mc
