@@ -1,8 +1,10 @@
 #include "signals/spectra/fourier_transform.hpp"
 
 #include <cmath>
+#include <map>
 #include <numbers>
 #include <stdexcept>
+#include <utility>
 
 #include "signals/spectra/prime_stage.hpp"
 
@@ -13,6 +15,10 @@ using Complex = std::complex<double>;
 
 // Largest factor for which kissfft has a specialised butterfly.
 constexpr int kSmallFactor = 5;
+
+// Transforms that a thread keeps: their number and their largest length limit the memory.
+constexpr std::size_t kMostKnown = 16;
+constexpr int kMostKnownPoints = 1 << 15;
 
 int largest_prime_factor(int n) {
     int largest = 1;
@@ -41,6 +47,26 @@ double angle(long i, long n) {
 }  // namespace
 
 FourierTransform::FourierTransform(int points, Direction way)
+    : FourierTransform(known(points, way)) {}
+
+// The sines and cosines of a length cost more than a transform, and few lengths occur in a run.
+FourierTransform FourierTransform::known(int points, Direction way) {
+    thread_local std::map<std::pair<int, Direction>, FourierTransform> known;
+    const auto found = known.find({points, way});
+    if (found != known.end()) {
+        return found->second;
+    }
+    FourierTransform transform(Computed{}, points, way);
+    if (points <= kMostKnownPoints) {
+        if (known.size() >= kMostKnown) {
+            known.clear();
+        }
+        known.emplace(std::pair(points, way), transform);
+    }
+    return transform;
+}
+
+FourierTransform::FourierTransform(Computed, int points, Direction way)
     : prime_(prime_to_split_off(points)),
       part_(points / prime_),
       fft_(static_cast<std::size_t>(part_), way == Direction::back),

@@ -39,6 +39,7 @@ class FourierTransform {
   public:
     enum class Direction { forward, back };
 
+    // Copies the factors of an earlier transform of the thread, if there is one of this length.
     // Throws std::invalid_argument unless points >= 1.
     explicit FourierTransform(int points, Direction way = Direction::forward);
 
@@ -48,6 +49,10 @@ class FourierTransform {
     void transform(std::span<const std::complex<double>> in, std::span<std::complex<double>> out);
 
   private:
+    struct Computed {};  // selects the constructor that computes the factors
+    FourierTransform(Computed, int points, Direction way);
+    static FourierTransform known(int points, Direction way);
+
     void transform_parts(std::span<const std::complex<double>> in);
 
     int prime_;  // q, or 1 if no factor is split off

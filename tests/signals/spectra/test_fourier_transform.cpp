@@ -2,6 +2,7 @@
 #include <cmath>
 #include <numbers>
 #include <random>
+#include <thread>
 
 #include "machine/instruction_sets.hpp"
 #include "signals/spectra/fourier_transform.hpp"
@@ -87,6 +88,19 @@ TEST_CASE("Fourier transforms have the same bits on every instruction set") {
         CHECK(transformed(signal, FourierTransform::Direction::forward) == reference);
     }
     machine::use_instruction_set(best);
+}
+
+TEST_CASE("Transforms that share the factors of a length have the bits of another thread's first") {
+    const auto signal = random_signal(31 * 36);
+    for (const auto way :
+         {FourierTransform::Direction::forward, FourierTransform::Direction::back}) {
+        std::vector<Complex> first;
+        std::thread([&] { first = transformed(signal, way); }).join();
+        for (int points = 1; points < 40; ++points) {
+            CHECK(transformed(signal, way) == first);
+            transformed(random_signal(points), way);
+        }
+    }
 }
 
 TEST_CASE("A Fourier transform refuses other lengths than its own") {
