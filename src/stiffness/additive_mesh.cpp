@@ -129,6 +129,7 @@ double AdditiveMesh::tooth_pair(double tau) const {
 }
 
 void AdditiveMesh::tooth_pair(std::span<const double> tau, std::span<double> stiffness) const {
+    EXPECTS(ascend(tau));
     std::fill(stiffness.begin(), stiffness.end(), 0.0);
     const auto [first, count] = positions_within(tau, 0, contact_ratio_);
     pair_(tau.subspan(first, count), stiffness.subspan(first, count));

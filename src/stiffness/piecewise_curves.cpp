@@ -26,6 +26,7 @@ constexpr double kShortestPiece = 1e-8;
 
 void ToothPairCurve::operator()(std::span<const double> tau, const Stretch& stretch,
                                 std::span<double> stiffness) const {
+    EXPECTS(ascend(tau));
     std::fill(stiffness.begin(), stiffness.end(), 0.0);
     for (const Piece& piece : pieces_) {
         if (piece.end <= stretch.begin + kPositionTolerance ||
@@ -124,6 +125,7 @@ void RunningIntegral::add_piece(const Curve& curve, double begin, double end, do
 }
 
 void RunningIntegral::operator()(std::span<const double> t, std::span<double> values) const {
+    EXPECTS(ascend(t));
     std::fill(values.begin(), values.end(), whole_);
     if (pieces_.empty())
         return;

@@ -27,10 +27,14 @@ struct PositionRange {
     std::size_t first = 0, count = 0;
 };
 
+// True if positions ascend. Nodes of neighbouring steps that coincide may differ by rounding.
+inline bool ascend(std::span<const double> positions) {
+    return std::ranges::is_sorted(positions,
+                                  [](double a, double b) { return a < b - kPositionTolerance; });
+}
+
+// The positions ascend. Callers check it once for all their intervals.
 inline PositionRange positions_within(std::span<const double> ascending, double begin, double end) {
-    // Nodes of neighbouring steps that coincide may differ by rounding.
-    EXPECTS(std::ranges::is_sorted(ascending,
-                                   [](double a, double b) { return a < b - kPositionTolerance; }));
     const auto low =
         std::lower_bound(ascending.begin(), ascending.end(), begin - kPositionTolerance);
     const auto high = std::upper_bound(low, ascending.end(), end + kPositionTolerance);
