@@ -319,9 +319,8 @@ TEST_CASE("loss of mesh stiffness by a crack, over the finite elements'", "[.fem
         const double elements = loss_of(row),
                      loss = pair.loss(1e-3 * row.number("depth_mm"), position(row));
         std::printf("| %s | %s | %g | %.3f of %d | %.2f | %.2f | %.3f |%s\n",
-                    row.text("tooth").c_str(), row.text("profile").c_str(),
-                    row.number("share"), position(row), row.count("pairs"), 100 * elements,
-                    100 * loss, loss / elements,
+                    row.text("tooth").c_str(), row.text("profile").c_str(), row.number("share"),
+                    position(row), row.count("pairs"), 100 * elements, 100 * loss, loss / elements,
                     std::abs(loss - elements) > margin_of(elements) ? " off" : "");
     }
 }

@@ -161,7 +161,8 @@ std::vector<Cracked> cracked_rows(const std::string& name) {
         const double left = total_at(*cracked_ring, ring->transitions(), tau);
         rows.push_back(
             {phase, row.count("cracked"), row.count("pairs"),
-             row.number("flank_N_m") / healthy.at(row.number("phase")), left / total_at(*ring, phase),
+             row.number("flank_N_m") / healthy.at(row.number("phase")),
+             left / total_at(*ring, phase),
              total_at(*cracked_rigid, rigid->transitions(), tau) / total_at(*rigid, phase),
              left / row.number("flank_N_m")});
     }
