@@ -69,9 +69,9 @@ bool is_universal_file(std::string_view head) {
 }
 
 // File in the folder for temporary files, deleted by the destructor.
-class TemporaryFile {
+class OutputFile {
   public:
-    explicit TemporaryFile(const std::string& path)
+    explicit OutputFile(const std::string& path)
         : name_((std::filesystem::temp_directory_path() / "gearpod-recording-XXXXXX").string()) {
         const Descriptor created(::mkstemp(name_.data()));
         if (created.get() < 0) {
@@ -79,9 +79,9 @@ class TemporaryFile {
                                           name_, std::strerror(errno)));
         }
     }
-    TemporaryFile(const TemporaryFile&) = delete;
-    TemporaryFile& operator=(const TemporaryFile&) = delete;
-    ~TemporaryFile() { ::unlink(name_.c_str()); }
+    OutputFile(const OutputFile&) = delete;
+    OutputFile& operator=(const OutputFile&) = delete;
+    ~OutputFile() { ::unlink(name_.c_str()); }
 
     const std::string& name() const { return name_; }
 
@@ -227,7 +227,7 @@ std::string unknown_format_text(const std::string& path) {
 }
 
 ForeignFile::ForeignFile(const std::string& path, const std::string& reader) : path_(path) {
-    const TemporaryFile temporary(path);
+    const OutputFile temporary(path);
     int status = 0;
     const std::string output = python_output(path, reader, temporary.name(), status);
     if (WIFEXITED(status) && WEXITSTATUS(status) == kRefused) {
