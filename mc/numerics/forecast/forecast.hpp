@@ -1,39 +1,44 @@
-// Estimates the time and memory of a run before it, from the measured cost of some gearboxes.
+// Estimates the time for the analysis of a run's results before the run, on synthetic results made
+// from a few computed gearboxes.
 #pragma once
-
-#include <cstdint>
-#include <functional>
 
 #include "mc/numerics/forecast/run_cost.hpp"
 #include "mc/plan/planner.hpp"
-#include "mc/results/result_rows.hpp"
+#include "mc/results/results_file.hpp"
 
 namespace gearpod::mc {
 
-// Rows of the measured gearboxes, the first record of each, up to `most`.
-class MeasuredRows final : public RowSource {
-  public:
-    explicit MeasuredRows(const RunCost& cost, std::size_t most = SIZE_MAX);
-    std::size_t rows() const override { return block_.count(); }
-    void visit(const std::function<void(const RowBlock&)>& use) const override;
-
-  private:
-    RowBlock block_;
+struct AnalysisTrial {
+    double total_s = 0.0;    // for all gearboxes and noise levels
+    double bytes = 0.0;      // memory
+    double trial_s = 0.0;    // time of the trial itself
+    std::size_t rows = 0;    // synthetic gearboxes
+    std::size_t levels = 0;  // noise levels of the trial
 };
 
-struct AnalysisCost {
-    double total_s = 0.0;     // for all gearboxes of the run
-    double bytes = 0.0;       // memory
-    double measured_s = 0.0;  // for the measured gearboxes
-};
+// Synthetic results of `rows` gearboxes, evenly spaced in the ensemble, at the noise levels with
+// indices `levels`. The inputs are those of the run. The features come from a random computed
+// gearbox of the same group and fault size; for continuous sizes, from any of the group, shifted
+// along the feature's trend over the size. A smoothed bootstrap (B. W. Silverman, G. A. Young,
+// Biometrika 74 (1987), 469-479) avoids ties that a run would not have. Detection results are not
+// filled in.
+Results synthetic_results(const Sampler& sampler, const EnsemblePlan& ensemble,
+                          const RunCost& calibration, const BatchPlan& plan, std::size_t rows,
+                          const std::vector<std::size_t>& levels);
 
-// Times detection and reliability analysis of the measured gearboxes, as `run` does them, and
-// multiplies by the number of gearboxes. 0 s if none was computed.
-AnalysisCost measure_analysis(const EnsemblePlan& ensemble, const RunCost& measured,
-                              const BatchPlan& plan, int threads);
+// Runs detection and reliability analysis on synthetic results, as `run` does: all features, up to
+// kTrialRows gearboxes, and as many noise levels at once as there are threads, until `budget_s`
+// seconds are over. The rest is extrapolated in proportion.
+AnalysisTrial measure_analysis(const Sampler& sampler, const EnsemblePlan& ensemble,
+                               const RunCost& calibration, const BatchPlan& plan, int threads,
+                               double budget_s);
+
+inline constexpr std::size_t kTrialRows = 6000;
 
 // Peak memory for assessing all gearboxes of a run.
 double assessment_bytes(const RowShape& shape, const BatchPlan& plan);
+
+// Computes the time and memory of a run from the cost of some gearboxes.
 
 // Wall-clock times of a run in one process, s, by the items that `run` reports.
 struct RunForecast {
@@ -65,7 +70,7 @@ double least_memory_bytes(double motion_bytes, const RowShape& shape, const Batc
 
 // Forecast of a run. `setup_s`: time for starting the program and setting up the scene. It is an
 // upper limit if ensemble.until may end the run earlier.
-RunForecast forecast_run(const RunCost& cost, const BatchPlan& plan, const AnalysisCost& analysis,
+RunForecast forecast_run(const RunCost& cost, const BatchPlan& plan, const AnalysisTrial& analysis,
                          double verification_s, double setup_s);
 
 }  // namespace gearpod::mc

@@ -59,7 +59,7 @@ double leader_time_s(double batch_bytes) {
 }
 
 RankForecast forecast_ranks(const RunCost& calibration, const BatchPlan& plan,
-                            const RowShape& shape, const AnalysisCost& analysis,
+                            const RowShape& shape, const AnalysisTrial& analysis,
                             const RunForecast& alone, int ranks) {
     const IntegrationCounts integrations = integrations_of_ranks(calibration, plan, ranks);
     const double motion = calibration.motion_bytes;
@@ -91,7 +91,7 @@ RankForecast forecast_ranks(const RunCost& calibration, const BatchPlan& plan,
 
 namespace {
 
-// Time limit for the measured gearboxes.
+// Time limit for the trial gearboxes, and again for the trial analysis.
 constexpr double kBudget_s = 1.0;
 
 // Formats seconds with two significant figures, or as whole seconds.
@@ -101,7 +101,8 @@ std::string seconds_text(double seconds) {
                             : fmt::format("{:.0f} s", seconds);
 }
 
-std::string measured_text(const RunCost& calibration, const AnalysisCost& analysis) {
+std::string measured_text(const RunCost& calibration, const AnalysisTrial& trial,
+                          std::size_t levels) {
     if (calibration.integration_only) {
         return "the time of one mesh period and the number of mesh periods that the damping "
                "requires, because a batch of gearboxes takes too long";
@@ -114,8 +115,27 @@ std::string measured_text(const RunCost& calibration, const AnalysisCost& analys
         text +=
             fmt::format(" over {} of {} mesh periods", calibration.recorded, calibration.to_record);
     }
-    return text + fmt::format(", their analysis in {:.1f} s", analysis.measured_s);
+    return text +
+           fmt::format("; analysis of {} artificial gearboxes, {} of {} noise levels, in {:.1f} s",
+                       trial.rows, trial.levels, levels, trial.trial_s);
 }
+
+// Rows of the gearboxes computed to calibrate the forecast.
+class CalibrationRows final : public RowSource {
+  public:
+    explicit CalibrationRows(const RunCost& calibration) : calibration_(calibration) {}
+    std::size_t rows() const override { return calibration_.rows.count(); }
+    void visit(const std::function<void(const RowBlock&)>& use) const override {
+        RowBlock block{0, {}, calibration_.rows.status, calibration_.rows.values};
+        for (const GearboxId& id : calibration_.gearboxes) {
+            block.group.push_back(static_cast<int>(id.group));
+        }
+        use(block);
+    }
+
+  private:
+    const RunCost& calibration_;
+};
 
 // Shares of the threads' time, with the same names as in the report of `run`.
 std::string shares_text(const Seconds& work, double thread_s) {
@@ -213,20 +233,20 @@ void print_forecast(const Scene& scene, const Planner& planner, double setup_s, 
     const BatchPlan plan = ensemble.batches();
     const int threads = thread_count(ensemble);
     const RunCost calibration = measure_run_cost(scene.tile(), ensemble, plan, threads, kBudget_s);
-    const AnalysisCost analysis = measure_analysis(ensemble, calibration, plan, threads);
+    const AnalysisTrial trial =
+        measure_analysis(scene.sampler(), ensemble, calibration, plan, threads, kBudget_s);
     const RunForecast forecast =
-        forecast_run(calibration, plan, analysis, verification_s(planner, calibration), setup_s);
+        forecast_run(calibration, plan, trial, verification_s(planner, calibration), setup_s);
     if (!ensemble.meshes.empty()) {
         print_heading("contact");
     }
-    const MeasuredRows computed(calibration);
-    if (const std::string loss =
-            contact_loss_text(summarise_contact_loss(results_frame(ensemble), computed));
+    if (const std::string loss = contact_loss_text(
+            summarise_contact_loss(results_frame(ensemble), CalibrationRows(calibration)));
         !loss.empty()) {
         print_entry("out of contact",
                     fmt::format("{} of the time of a tooth pair: mean (5 to 95 % range of {} "
                                 "gearboxes)",
-                                loss, computed.rows()));
+                                loss, calibration.rows.count()));
     }
     if (!ensemble.meshes.empty() && !scene.solve().settings.quasi_static) {
         constexpr double kMost_s = 1.0;
@@ -239,7 +259,7 @@ void print_forecast(const Scene& scene, const Planner& planner, double setup_s, 
                             "the order of the method");
     }
     print_heading("forecast of a run");
-    print_entry("based on", measured_text(calibration, analysis));
+    print_entry("based on", measured_text(calibration, trial, ensemble.shape.levels));
     print_entry("threads", fmt::format("{}, {}", calibration.threads,
                                        machine::name(machine::active_instruction_set())));
     print_entry("set-up", seconds_text(forecast.setup_s));
@@ -253,7 +273,7 @@ void print_forecast(const Scene& scene, const Planner& planner, double setup_s, 
     print_entry("estimated memory", fmt::format("{:.0f} MB", forecast.memory_bytes / 1e6));
     if (ranks > 0) {
         print_ranks(ensemble,
-                    forecast_ranks(calibration, plan, ensemble.shape, analysis, forecast, ranks),
+                    forecast_ranks(calibration, plan, ensemble.shape, trial, forecast, ranks),
                     calibration.threads, ranks);
     }
 }

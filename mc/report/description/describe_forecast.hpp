@@ -29,7 +29,7 @@ struct RankForecast {
 };
 
 RankForecast forecast_ranks(const RunCost& calibration, const BatchPlan& plan,
-                            const RowShape& shape, const AnalysisCost& analysis,
+                            const RowShape& shape, const AnalysisTrial& analysis,
                             const RunForecast& alone, int ranks);
 
 // Prints the forecast of a run's time and memory for `describe`.

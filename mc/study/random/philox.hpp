@@ -51,7 +51,9 @@ enum class StreamPurpose : std::uint64_t {
     calibration_prior = fnv1a("calibrate.prior."),  // and the key of a calibrated input
     calibration_record = fnv1a("calibrate."),       // and the numbers of background and record
     dataset_split = fnv1a("dataset.split"),  // of a gearbox; recorded ones add "." and the name
-    forecast_signals = fnv1a("life.made_up.signals"),  // synthetic data of forecasts
+    // Synthetic data of forecasts.
+    forecast_signals = fnv1a("life.made_up.signals"),
+    forecast_rows = fnv1a("analysis.trial"),
 };
 
 // One of several streams of a purpose: the hash of its text and the suffix.

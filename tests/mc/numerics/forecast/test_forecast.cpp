@@ -1,9 +1,9 @@
 // Checks the cost forecast of `describe`: arithmetic on given measurements, and a bounded measuring
 // time.
-#include <algorithm>
 #include <bit>
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <set>
 
 #include "mc/ensemble/gearbox/solution_choice.hpp"
 #include "mc/numerics/forecast/forecast.hpp"
@@ -153,7 +153,7 @@ TEST_CASE("Peak memory is that of the gearboxes, or of the analysis after them")
 }
 
 TEST_CASE("Every shipped study is measured with at most one tile per thread if time is short") {
-    int studies = 0;
+    int studies = 0, trials = 0;
     for (const std::string& name : test::shipped_studies()) {
         Study study = test::shipped_study(name);
         if (!has_gears(study)) {
@@ -169,14 +169,23 @@ TEST_CASE("Every shipped study is measured with at most one tile per thread if t
         const BatchPlan plan(study.ensemble.threshold_instances, study.ensemble.instances);
         const RunCost calibration =
             measure_run_cost(scene.tile(), scene.ensemble(), plan, 1, kNoBudget_s);
-        const RunForecast forecast = forecast_run(
-            calibration, plan, measure_analysis(scene.ensemble(), calibration, plan, 1),
-            verification_s(Planner(study), calibration), 0.0);
+        // The analysis of thousands of gearboxes takes seconds for any study: one study suffices.
+        const bool tried = plan.rows() < kTrialRows / 3 || name == "reference-10k.toml";
+        const AnalysisTrial trial = tried ? measure_analysis(scene.sampler(), scene.ensemble(),
+                                                             calibration, plan, 1, kNoBudget_s)
+                                          : AnalysisTrial{};
+        const RunForecast forecast = forecast_run(calibration, plan, trial,
+                                                  verification_s(Planner(study), calibration), 0.0);
         ++studies;
+        trials += tried ? 1 : 0;
         CHECK(calibration.to_record == scene.record().signal_meshes);
         if (!calibration.integration_only) {
             CHECK(!calibration.gearboxes.empty());
             CHECK(calibration.gearboxes.size() <= static_cast<std::size_t>(study.numerics.lanes));
+            if (tried) {
+                CHECK(trial.levels == 1);
+                CHECK(trial.rows == std::min(plan.rows(), kTrialRows));
+            }
         }
         const bool shortened =
             study.numerics.horizon != Horizon::periodic && !study.effects.quasi_static();
@@ -187,6 +196,7 @@ TEST_CASE("Every shipped study is measured with at most one tile per thread if t
         CHECK(forecast.memory_bytes > 1e6);
     }
     CHECK(studies > 30);
+    CHECK(trials > 20);
 }
 
 TEST_CASE(
@@ -210,35 +220,48 @@ TEST_CASE(
     CHECK(bits_of(first_tile(scene)) == before);
 }
 
-TEST_CASE("The analysis of the measured gearboxes counts for all gearboxes of the run") {
-    std::vector<std::string> overrides = kFast;
-    overrides.push_back("ensemble.threshold_records=3");
-    const Study study = test::shipped_study("planet-crack-ideal.toml", overrides);
+TEST_CASE("Synthetic results have the run's gearboxes and values similar to computed ones") {
+    const Study study = test::shipped_study("planet-crack-ideal.toml", kFast);
     const Scene scene(study);
-    const BatchPlan plan = scene.ensemble().batches();
-    const RunCost cost = measure_run_cost(scene.tile(), scene.ensemble(), plan, 2, 0.5);
-    const MeasuredRows rows(cost);
-    // Each gearbox of the threshold sample has three records, each test gearbox one.
-    const auto of_group = [&](Group group) {
-        return static_cast<std::size_t>(std::ranges::count_if(
-            cost.gearboxes, [&](const GearboxId& id) { return id.group == group; }));
-    };
-    REQUIRE(of_group(Group::threshold) > 0);
-    CHECK(rows.rows() == of_group(Group::threshold) / 3 + of_group(Group::test));
-    CHECK(MeasuredRows(cost, 5).rows() == 5);
-    for_each_row(rows, [&](const ResultRow& row) {
-        CHECK(row.values[scene.ensemble().shape.fault_size()] >= 0.0);
-        CHECK((row.group == 1 || row.values[scene.ensemble().shape.fault_size()] == 0.0));
-    });
+    const BatchPlan plan(study.ensemble.threshold_instances, study.ensemble.instances);
+    const RunCost calibration = measure_run_cost(scene.tile(), scene.ensemble(), plan, 2, 0.5);
+    const std::size_t rows = 1100, shown = 1;
+    const Results made =
+        synthetic_results(scene.sampler(), scene.ensemble(), calibration, plan, rows, {1, 2});
+    REQUIRE(made.group.size() == rows);
+    CHECK(std::count(made.group.begin(), made.group.end(), 0) == 400);
+    CHECK(made.noise_levels == std::vector<double>{0.5, 1.0});
 
-    const AnalysisCost analysis = measure_analysis(scene.ensemble(), cost, plan, 2);
-    REQUIRE(analysis.measured_s > 0.0);
-    const double gearboxes = study.ensemble.threshold_instances + study.ensemble.instances;
-    CHECK(analysis.total_s / analysis.measured_s >=
-          Approx(gearboxes / static_cast<double>(rows.rows())));
-    const RunForecast forecast = forecast_run(cost, plan, analysis, 0.0, 0.0);
-    CHECK(forecast.detection_s == analysis.total_s);
-    CHECK(measure_analysis(scene.ensemble(), RunCost{}, plan, 2).total_s == 0.0);
+    const RowShape shape = EnsemblePlan(study).shape;
+    const std::size_t feature = test::feature_index(made, "window_ratio");
+    std::set<double> distinct;
+    std::vector<double> means;
+    for (const double size_m : {0.0, 4.28e-3}) {
+        double sum = 0.0, n = 0.0, computed = 0.0, m = 0.0;
+        for (std::size_t row = 0; row < rows; ++row) {
+            const double value = made.features[feature].values[2 * row + shown];
+            distinct.insert(value);
+            if (made.group[row] == 1 &&
+                std::abs(made.parameters.back().values[row] - size_m) < 1e-9) {
+                sum += value;
+                ++n;
+            }
+        }
+        for (std::size_t i = 0; i < calibration.gearboxes.size(); ++i) {
+            const double* values = calibration.rows.values.data() + i * shape.values();
+            if (calibration.gearboxes[i].group == Group::test &&
+                std::abs(values[shape.fault_size()] - size_m) < 1e-9) {
+                computed += values[shape.value_of(feature, 2)];
+                ++m;
+            }
+        }
+        REQUIRE(m > 0.0);
+        CHECK(n == 100);
+        CHECK(sum / n == Approx(computed / m).epsilon(0.25));
+        means.push_back(sum / n);
+    }
+    CHECK(means[1] > 1.2 * means[0]);  // the largest crack has an effect
+    CHECK(distinct.size() == rows);
 }
 
 TEST_CASE("A study's description ends with a forecast and writes nothing") {
