@@ -62,7 +62,7 @@ TEST_CASE("Stage nodes ascend from 0 to 1, and integrator names are unique") {
         CHECK(f.stage_nodes.back() <= 1.0);
         CHECK(std::count_if(all_integrators().begin(), all_integrators().end(),
                             [&](Integrator i) { return std::string(name(i)) == f.name; }) == 1);
-        CHECK((f.span.velocity == 0.0) == f.is_explicit);
+        CHECK((f.diagonal == 0.0) == f.is_explicit);
     }
 }
 
