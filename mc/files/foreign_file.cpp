@@ -185,10 +185,14 @@ std::string dataset_name(std::size_t channel) {
 }  // namespace
 
 FileKind file_kind(const std::string& path) {
-    std::string head(4096, '\0');
-    std::ifstream stream(path, std::ios::binary);
-    stream.read(head.data(), static_cast<std::streamsize>(head.size()));
-    head.resize(static_cast<std::size_t>(stream.gcount()));
+    std::string head;
+    // Reading a pipe or a device might never end.
+    if (std::error_code error; std::filesystem::is_regular_file(path, error)) {
+        head.resize(4096);
+        std::ifstream stream(path, std::ios::binary);
+        stream.read(head.data(), static_cast<std::streamsize>(head.size()));
+        head.resize(static_cast<std::size_t>(stream.gcount()));
+    }
     std::string extension = lower_case(std::filesystem::path(path).extension().string());
     if (extension == ".gz") {
         extension = lower_case(std::filesystem::path(path).stem().extension().string());
