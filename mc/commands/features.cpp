@@ -162,7 +162,7 @@ void add_features(CLI::App& app, int& code) {
     command
         ->add_option("--healthy", options->healthy,
                      "recording of a healthy gearbox, the reference of na4; may be repeated "
-                     " (default: gearboxes simulated from the study)")
+                     "(default: gearboxes simulated from the study)")
         ->allow_extra_args(false)
         ->option_text("FILE");  // one for each --healthy, because the signals are files, too
     require_file_name(command->add_option(

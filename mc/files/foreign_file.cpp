@@ -200,17 +200,18 @@ FileKind file_kind(const std::string& path) {
                    ? FileKind::unknown
                    : FileKind::text;
     }
-    const auto named = std::ranges::find_if(kKindExtensions, [&](const KindExtensions& one) {
+    const auto named = std::ranges::find_if(kKindExtensions, [&](const KindExtensions& known) {
         return !extension.empty() &&
-               one.extensions.find(" " + extension + " ") != std::string_view::npos;
+               known.extensions.find(" " + extension + " ") != std::string_view::npos;
     });
     const FileKind kind = named == std::end(kKindExtensions) ? FileKind::unknown : named->kind;
-    for (const KindBytes& one : kKindBytes) {
-        const bool container = one.at == 0 || head.starts_with("RIFF") || head.starts_with("FORM");
-        if (container && head.size() > one.at &&
-            std::string_view(head).substr(one.at).starts_with(one.bytes)) {
+    for (const KindBytes& start : kKindBytes) {
+        const bool container =
+            start.at == 0 || head.starts_with("RIFF") || head.starts_with("FORM");
+        if (container && head.size() > start.at &&
+            std::string_view(head).substr(start.at).starts_with(start.bytes)) {
             // MATLAB 7.3 files are HDF5 files after a header of their own.
-            return one.kind == FileKind::mat && kind == FileKind::hdf5 ? kind : one.kind;
+            return start.kind == FileKind::mat && kind == FileKind::hdf5 ? kind : start.kind;
         }
     }
     return is_universal_file(head) ? FileKind::uff : kind;
@@ -221,14 +222,12 @@ std::string unknown_format_text(const std::string& path) {
            ": is not a file that gearpod reads: CSV and other text (.csv, .txt, .tsv, .dat, .asc, "
            "also .gz), HDF5 (.h5, .hdf5, .nc), MAT (.mat), TDMS (.tdms), universal files (.uff, "
            ".unv) or sound without loss (.wav, .flac, .aiff, .rf64, .w64, .au, .caf). Convert it: "
-           "spreadsheets: save the sheet as CSV; ZIP archives and compressed files: unpack "
-           "them (unzip, gunzip); Parquet, "
-           "Arrow, SQLite, pickle: pandas, to_csv(OUT, index=False); NumPy: numpy.savetxt(OUT, "
-           "numpy.load(FILE)); MDF (.mf4): asammdf, MDF(FILE).export('csv'); netCDF classic: "
-           "nccopy "
-           "-k nc4 FILE OUT.nc; Octave: save -v7 FILE; LabVIEW, DIAdem, FAMOS, catman: export "
-           "TDMS, "
-           "MAT, UFF 58 or CSV; web pages: download the recording itself";
+           "spreadsheets: save the sheet as CSV; ZIP archives and compressed files: unpack them "
+           "(unzip, gunzip); Parquet, Arrow, SQLite, pickle: pandas, to_csv(OUT, index=False); "
+           "NumPy: numpy.savetxt(OUT, numpy.load(FILE)); MDF (.mf4): asammdf, "
+           "MDF(FILE).export('csv'); netCDF classic: nccopy -k nc4 FILE OUT.nc; Octave: save -v7 "
+           "FILE; LabVIEW, DIAdem, FAMOS, catman: export TDMS, MAT, UFF 58 or CSV; web pages: "
+           "download the recording itself";
 }
 
 ForeignFile::ForeignFile(const std::string& path, const std::string& reader) : path_(path) {

@@ -80,7 +80,8 @@ class Planner {
     Planner with_short_records(const signals::SpanLayout& span, double mesh_frequency_Hz) const;
     // Plans of the study without each optional effect that it has, and with each that it lacks.
     std::vector<EffectVariant> effect_variants() const;
-    // What the study means for a gearbox with these numerics, in sections for people.
+    // Description of the nominal gearbox and of the effects simulated and omitted, with these
+    // numerics.
     std::vector<DescriptionSection> description(const Numerics& numerics) const;
     // Plan of the study's lives, integrated at these numbers of torques and speeds. Throws
     // SceneError if it has none.

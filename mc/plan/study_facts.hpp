@@ -1,4 +1,4 @@
-// What reports of a results file state of the study that it contains.
+// Facts that reports state of the study in a results file.
 #pragma once
 
 #include <optional>
@@ -12,7 +12,7 @@
 
 namespace gearpod::mc {
 
-// Of the study by which recordings were measured.
+// Facts of the study by which recordings were measured.
 struct MeasuringFacts {
     std::string title;
     std::vector<std::string> features;  // used
@@ -20,7 +20,7 @@ struct MeasuringFacts {
     MemberArray<int> teeth;  // 0: no such gear
 };
 
-// Of the study of simulated gearboxes.
+// Facts of the study of simulated gearboxes.
 struct RunFacts {
     EnsemblePlan ensemble;
     RowOrder rows;

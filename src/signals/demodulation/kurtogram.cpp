@@ -62,12 +62,12 @@ double mean_square(std::span<const double> samples) {
 
 }  // namespace
 
-Kurtogram::Kurtogram(std::span<const double> samples, std::size_t most_bands)
-    : spectrum_(spectrum_of(samples)) {
+Kurtogram::Kurtogram(std::span<const double> samples, std::size_t most_bands) {
+    const Spectrum spectrum = spectrum_of(samples);
     const double power = mean_square(samples);
     // 1, 2, 3, 4, 6, 8, 12, ...: twice the number before the last one, from 4 on.
     for (std::size_t n = 1, next = 2; n <= most_bands;) {
-        SquaredEnvelope envelope(spectrum_, samples.size() / (2 * n) + 1);
+        SquaredEnvelope envelope(spectrum, samples.size() / (2 * n) + 1);
         for (std::size_t i = 0; i < n; ++i) {
             KurtogramBand band = band_of(i, n, samples.size());
             double mean = 0.0, fourth = 0.0;

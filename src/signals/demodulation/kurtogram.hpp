@@ -15,7 +15,6 @@
 // C orders.
 #pragma once
 
-#include <complex>
 #include <cstddef>
 #include <span>
 #include <vector>
@@ -40,7 +39,6 @@ class Kurtogram {
     const KurtogramBand* peak() const;
 
   private:
-    std::vector<std::complex<double>> spectrum_;  // of the samples
     std::vector<KurtogramBand> bands_;
 };
 
