@@ -10,6 +10,7 @@
 
 #include "features/modulation_indicators.hpp"
 #include "features/statistics/signal_statistics.hpp"
+#include "mc/study/member.hpp"
 
 namespace gearpod::mc {
 namespace {
