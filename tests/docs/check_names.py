@@ -1,7 +1,8 @@
 """Names in the documentation: check_names.py PROGRAM SOURCES
 
 Every study key, and every option in a command line of ./gearpod, that a page or a README names is one
-that the program knows (gearpod --reference).
+that the program knows (gearpod --reference). The files that docs/developer/extending.md names for an
+addition are those that the commit stored in additions.json changed.
 """
 
 import json
@@ -17,6 +18,7 @@ UNITS = ("mm", "um", "deg", "arcsec", "Hz", "rpm", "kg", "kg_m2", "N_m", "N_s_m"
 WITH_UNIT = re.compile(r"[a-z]\w*_(?:" + "|".join(UNITS) + ")")
 FILES = (".toml", ".csv", ".json", ".py", ".md", ".h5", ".html")
 OTHER_NAMES = {"speed_rpm", "sensor_m_s2", "mesh_Hz"}  # a column of signal files, members of the report's JSON
+HERE = pathlib.Path(__file__).parent
 OWN_OPTIONS = {"--help", "--version", "--man", "--completion", "--reference"}
 
 
@@ -67,12 +69,35 @@ def problems(known, path):
         yield from known.wrong_names(match.group(1))
 
 
+def files_of_row(row):
+    """Files that a row's third column names: `folder/a.hpp` and `.cpp`, `b.cpp` there."""
+    files = []
+    for code in INLINE.findall(row.split("|")[3]):
+        if code.startswith("."):
+            code = files[-1].rpartition(".")[0] + code
+        elif "/" not in code:
+            code = files[-1].rpartition("/")[0] + "/" + code
+        files.append(code)
+    return sorted(files)
+
+
+def wrong_additions(sources):
+    page = (sources / "docs/developer/extending.md").read_text(encoding="utf-8")
+    for addition, files in json.loads((HERE / "additions.json").read_text(encoding="utf-8")).items():
+        row = re.search(rf"^\| {addition} \|.*$", page, re.M)
+        named = files_of_row(row.group()) if row else []
+        if named != sorted(files):
+            yield f"extending.md: {addition}: the page names {named}, the commit changed {files}"
+        yield from (f"extending.md: there is no {file}" for file in files if not (sources / file).exists())
+
+
 def main(program, sources):
     known = Known(program)
     pages = sorted((sources / "docs").rglob("*.md")) + [sources / "README.md",
                                                         sources / "studies" / "README.md"]
     found = [f"{page.relative_to(sources)}: the program does not know {name}"
              for page in pages for name in dict.fromkeys(problems(known, page))]
+    found += wrong_additions(sources)
     print("\n".join(found) or "the program knows all names")
     return 1 if found else 0
 
