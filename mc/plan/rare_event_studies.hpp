@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "analysis/detection/detection_table.hpp"
 #include "features/feature.hpp"
 #include "mc/plan/fault_plan.hpp"
 #include "mc/study/study.hpp"

@@ -11,6 +11,7 @@
 #include <variant>
 #include <vector>
 
+#include "mc/plan/drivetrain.hpp"
 #include "mc/plan/feature_plan.hpp"
 #include "mc/plan/sampling.hpp"
 #include "mc/study/noise.hpp"

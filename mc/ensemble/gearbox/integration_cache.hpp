@@ -13,6 +13,7 @@
 #include "lockstep/tile/tile.hpp"
 #include "mc/plan/ensemble_plan.hpp"
 #include "mc/plan/sampling.hpp"
+#include "mc/plan/solve_plan.hpp"
 #include "mc/results/result_rows.hpp"
 
 namespace gearpod::mc {

@@ -7,6 +7,7 @@
 
 #include "lockstep/plan/integration_plan.hpp"
 #include "lockstep/tile/tile.hpp"
+#include "mc/plan/record_plan.hpp"
 #include "mc/plan/sampling.hpp"
 #include "mc/plan/sensor_plan.hpp"
 #include "signals/sensor/sensor_signal.hpp"
