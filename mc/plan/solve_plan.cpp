@@ -52,8 +52,8 @@ int max_meshes(const SolveSettings& settings, double decay_meshes) {
         return 1;
     }
     const double decay = -2.0 * decay_meshes * std::log(settings.convergence_tolerance);
-    return settings.max_meshes > 0
-               ? settings.max_meshes
+    return settings.numerics.max_meshes > 0
+               ? settings.numerics.max_meshes
                : static_cast<int>(std::isfinite(decay) ? std::clamp(decay, kFewest, kMost)
                                                        : kFewest);
 }
@@ -88,12 +88,12 @@ double approach_meshes(const SolvePlan& plan) {
 
 // Mesh periods of the fault pattern that a fault changes: its passages and the decay after them.
 double passage_meshes_of_pattern(const GearboxPlan& gearbox, double approach_meshes) {
-    const int pair = gearbox.faulty_pair();
-    if (pair < 0) {
+    const lockstep::FaultPattern& pattern = gearbox.fault().pattern();
+    if (pattern.passages.empty()) {
         return 0.0;
     }
-    const lockstep::FaultPattern& pattern = gearbox.fault().pattern();
-    const double passage = std::ceil(gearbox.pairs().curve(pair).contact_ratio()) + approach_meshes;
+    const auto& curve = gearbox.pairs().curve(pattern.passages[0].pair);
+    const double passage = std::ceil(curve.contact_ratio()) + approach_meshes;
     return std::min(passage * static_cast<double>(pattern.passages.size()),
                     static_cast<double>(pattern.length));
 }
@@ -113,12 +113,9 @@ std::vector<int> part_periods(const GearboxPlan& gearbox) {
 
 SolveSettings::SolveSettings(const Study& study)
     : numerics(study.numerics),
-      horizon(study.numerics.horizon),
       quasi_static(study.effects.quasi_static()),
       repeats(reason_not_periodic(study).empty()),
       convergence_tolerance(resolved_tolerance(study.numerics)),
-      max_meshes(study.numerics.max_meshes),
-      lanes(study.numerics.lanes),
       distinct_integrations(mc::distinct_integrations(study)) {}
 
 SolvePlan::SolvePlan(const SolveSettings& given, const GearboxPlan& gearbox,
@@ -126,7 +123,7 @@ SolvePlan::SolvePlan(const SolveSettings& given, const GearboxPlan& gearbox,
     : settings(given),
       steps(std::move(scene_plan)),
       convergence{settings.convergence_tolerance, max_meshes(settings, stepping().decay_meshes)} {
-    const bool periodic = settings.horizon == Horizon::periodic;
+    const bool periodic = settings.numerics.horizon == Horizon::periodic;
     const bool coupled = std::ranges::any_of(
         gearbox.stages, [](const StagePlan& stage) { return stage.shaft.has_value(); });
     run_in_meshes = run_in(*this, gearbox);
@@ -151,7 +148,8 @@ SolvePlan::SolvePlan(const SolveSettings& given, const GearboxPlan& gearbox,
         }
     }
     const double full_meshes = approach + run_in_meshes + test_record_meshes;
-    const lockstep::MeshRecord mesh = lockstep::make_record(integration(), settings.lanes, false);
+    const lockstep::MeshRecord mesh =
+        lockstep::make_record(integration(), settings.numerics.lanes, false);
     mesh_record_bytes = 8.0 * static_cast<double>(mesh.acceleration.size() + mesh.te.size());
     if (periodic) {
         strategy = PeriodicOrbit{};
@@ -168,7 +166,7 @@ SolvePlan::SolvePlan(const SolveSettings& given, const GearboxPlan& gearbox,
     } else if (coupled) {
         strategy = CoupledStages{
             static_cast<int>(coupled_run_in(gearbox, convergence.tolerance, run_in_meshes))};
-    } else if (settings.horizon == Horizon::superposed) {
+    } else if (settings.numerics.horizon == Horizon::superposed) {
         const std::vector<int> periods = part_periods(gearbox);
         const double parts = approach + lockstep::part_meshes(periods, run_in_meshes);
         if (parts < full_meshes) {

@@ -40,12 +40,9 @@ struct SolveSettings {
     explicit SolveSettings(const Study& study);
 
     Numerics numerics;  // as the study gives them
-    Horizon horizon;
     bool quasi_static;
     bool repeats;                  // all mesh periods of a healthy gearbox are equal
     double convergence_tolerance;  // or the smallest that the precision can resolve
-    int max_meshes;                // 0: chosen
-    int lanes;
     // Number of distinct sets of inputs to the time integration. Empty if all gearboxes differ:
     // such an input has a continuous distribution, or every tooth or planet has errors of its own.
     std::optional<std::size_t> distinct_integrations;

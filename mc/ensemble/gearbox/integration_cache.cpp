@@ -41,7 +41,7 @@ IntegrationCounts count_integrations(const Sampler& sampler, const SolvePlan& so
                                      const BatchPlan& batches, double motion_bytes) {
     // With more distinct gearboxes than this, repetitions are too rare to count.
     constexpr std::size_t kMostDistinct = 2000;
-    const auto lanes = static_cast<std::size_t>(solve.settings.lanes);
+    const auto lanes = static_cast<std::size_t>(solve.settings.numerics.lanes);
     const std::array<std::size_t, 2> rows{batches.threshold_gearboxes(), batches.test_rows()};
     const std::size_t distinct = solve.settings.distinct_integrations.value_or(kMostDistinct + 1);
     IntegrationCounts counts;

@@ -89,8 +89,9 @@ void add_coupled_fault(const TilePlan& plan, std::size_t stage,
                        std::span<const Realization> realizations,
                        std::span<const LaneSignals> records,
                        std::vector<std::vector<double>>& samples) {
-    const GearboxTile tile = run_realizations(plan, {realizations.begin(), realizations.end()},
-                                              plan.solve->settings.lanes, {.faulty_stage = stage});
+    const GearboxTile tile =
+        run_realizations(plan, {realizations.begin(), realizations.end()},
+                         plan.solve->settings.numerics.lanes, {.faulty_stage = stage});
     const std::vector<LaneSignals> faulty = all_lane_signals(plan, tile, plan.record.signal_meshes);
     for (std::size_t r = 0; r < samples.size(); ++r) {
         for (std::size_t i = 0; i < samples[r].size(); ++i) {
@@ -114,7 +115,7 @@ struct StageRecord {
 void add_stage(const RecordPlan& record, const StagePlan& stage,
                std::span<const StageRecord> records) {
     const TilePlan& plan = *stage.tile;
-    const auto lanes = static_cast<std::size_t>(plan.solve->settings.lanes);
+    const auto lanes = static_cast<std::size_t>(plan.solve->settings.numerics.lanes);
     for (std::size_t first = 0; first < records.size(); first += lanes) {
         const auto part = records.subspan(first, std::min(lanes, records.size() - first));
         std::vector<Realization> gearboxes;

@@ -81,7 +81,7 @@ double motion_bytes(const TilePlan& plan) {
     const double samples =
         static_cast<double>(plan.record.sensor_meshes(plan.features.needs.all())) *
         plan.record.samples;
-    return copies * 8.0 * samples * solve.settings.lanes +
+    return copies * 8.0 * samples * solve.settings.numerics.lanes +
            (std::holds_alternative<Superposed>(solve.strategy) ? solve.record_bytes
                                                                : 2.0 * solve.mesh_record_bytes);
 }
@@ -89,7 +89,7 @@ double motion_bytes(const TilePlan& plan) {
 double mesh_period_s(const DrawPlan& draw, const GearboxPlan& gearbox, const SolvePlan& solve,
                      const RecordPlan& record) {
     constexpr int kRepetitions = 5;
-    return with_lane_count(solve.settings.lanes, [&](auto lanes) {
+    return with_lane_count(solve.settings.numerics.lanes, [&](auto lanes) {
         const std::vector<Realization> gearboxes(lanes(), {{}, gearbox.nominal});
         return least_mesh_s<lanes()>(
             gearbox, solve.integration(),

@@ -341,7 +341,7 @@ RunCost measure_run_cost(const TilePlan& whole, const EnsemblePlan& ensemble,
     const TileMeshes all{solve.test_record_meshes, solve.integrated_meshes};
     result.to_record = all.recorded;
     // Half of the budget, so that a thread can compute two tiles.
-    result.recorded = solve.settings.horizon == Horizon::periodic || mesh_s == 0.0
+    result.recorded = solve.settings.numerics.horizon == Horizon::periodic || mesh_s == 0.0
                           ? all.recorded
                           : affordable_meshes(all, mesh_s, 0.5 * budget_s);
     result.motion_bytes = motion_bytes(whole);
