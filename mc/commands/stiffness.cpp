@@ -56,11 +56,11 @@ void print_summary(const GearboxPlan& gearbox) {
             mesh_name(mesh.members), contact_ratio_text(*mesh.stiffness), "",
             mean_total(*mesh.stiffness), "", mesh.stiffness->pitch_position());
     }
-    const std::vector<int> pairs = faulty_pairs(gearbox.fault());
+    const std::vector<PairId> pairs = faulty_pairs(gearbox.fault());
     if (!pairs.empty()) {
         const Key& size = *gearbox.fault().plan().size_key;
         std::string names;
-        for (const int pair : pairs) {
+        for (const PairId pair : pairs) {
             names += fmt::format("{}{} ({})", names.empty() ? "" : " and of ",
                                  gearbox.drivetrain->pair_members(pair),
                                  gearbox.drivetrain->pair_name(pair));

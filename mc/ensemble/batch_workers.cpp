@@ -40,7 +40,7 @@ BatchRows BatchWorker::compute(const Batch& batch, Seconds& seconds) {
 BatchRows BatchWorker::compute(std::span<const GearboxId> ids, std::size_t records,
                                Seconds& seconds) {
     BatchRows rows;
-    const auto lanes = static_cast<std::size_t>(task_.tile.solve->settings.lanes);
+    const auto lanes = static_cast<std::size_t>(task_.tile.solve->settings.numerics.lanes);
     while (!ids.empty()) {
         const std::size_t count = shared_records(task_.tile.record, ids, lanes);
         add_rows(ids.first(count), records, rows, seconds);
@@ -53,7 +53,7 @@ BatchRows BatchWorker::compute(std::span<const GearboxId> ids, std::size_t recor
 void BatchWorker::add_rows(std::span<const GearboxId> ids, std::size_t records, BatchRows& rows,
                            Seconds& seconds) {
     GearboxTile computed =
-        run_gearboxes(task_.tile, ids, task_.tile.solve->settings.lanes,
+        run_gearboxes(task_.tile, ids, task_.tile.solve->settings.numerics.lanes,
                       {.signal_meshes = features_.meshes(), .cache = &task_.cache});
     const auto start = WallClock::now();
     const double noise_before = features_.noise_s();
@@ -65,7 +65,7 @@ void BatchWorker::add_rows(std::span<const GearboxId> ids, std::size_t records, 
                                   signals);
     }
     others.resize(ids.size());
-    for (std::size_t lane = 0; lane < ids.size(); ++lane) {
+    for (LaneId lane{0}; lane < ids.size(); ++lane) {
         machine::throw_if_cancelled();
         // freed when the rows of this gearbox are done
         const LaneSignals computed_signals = std::move(signals[lane]);
@@ -107,7 +107,7 @@ std::vector<double> BatchWorker::variants_of(const Realization& record, const La
     return all;
 }
 
-void BatchWorker::add_row(const Realization& record, const GearboxTile& computed, std::size_t lane,
+void BatchWorker::add_row(const Realization& record, const GearboxTile& computed, LaneId lane,
                           const LaneSignals& signals, const LaneSignals& other, BatchRows& rows) {
     const Status status = computed.status[lane];
     rows.status.push_back(static_cast<int>(status));

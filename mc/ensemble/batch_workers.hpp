@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "machine/fields.hpp"
+#include "machine/ids.hpp"
 #include "mc/ensemble/gearbox/gearbox_tile.hpp"
 #include "mc/ensemble/gearbox/integration_cache.hpp"
 #include "mc/ensemble/gearbox/realization_features.hpp"
@@ -74,7 +75,7 @@ class BatchWorker {
                   Seconds& seconds);
     // Adds the row of one record of the gearbox in a lane. `other`: the record with the other
     // fault.
-    void add_row(const Realization& record, const GearboxTile& computed, std::size_t lane,
+    void add_row(const Realization& record, const GearboxTile& computed, LaneId lane,
                  const LaneSignals& signals, const LaneSignals& other, BatchRows& rows);
 
     // Features of the variants of a record: additional sensors, another fault.

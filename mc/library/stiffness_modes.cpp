@@ -33,9 +33,9 @@ class PhaseTable {
     std::vector<SignalColumn> columns_;
 };
 
-void add_faulty(const GearboxPlan& gearbox, int pair, const stiffness::FaultyMesh& mesh,
+void add_faulty(const GearboxPlan& gearbox, PairId pair, const stiffness::FaultyMesh& mesh,
                 double size, PhaseTable& table) {
-    const double start = gearbox.pairs().start[static_cast<std::size_t>(pair)];
+    const double start = gearbox.pairs().start[pair];
     const int periods = static_cast<int>(std::ceil(start + mesh.duration()));
     for (int period = 0; period < periods; ++period) {
         table.add(fmt::format("{}_{}_period{}", gearbox.drivetrain->pair_name(pair),
@@ -50,11 +50,11 @@ void add_faulty(const GearboxPlan& gearbox, int pair, const stiffness::FaultyMes
 
 std::vector<SignalColumn> stiffness_columns(const GearboxPlan& gearbox, int points) {
     PhaseTable table(points);
-    for (int pair = 0; pair < gearbox.pairs().pairs(); ++pair) {
+    for (PairId pair{0}; pair < gearbox.pairs().pairs(); ++pair) {
         table.add(gearbox.drivetrain->pair_name(pair), "N/m",
                   [&](double phase) { return gearbox.pairs().total(pair, phase); });
     }
-    const std::vector<int> pairs = faulty_pairs(gearbox.fault());
+    const std::vector<PairId> pairs = faulty_pairs(gearbox.fault());
     for (int curve = 0; curve < gearbox.fault().curves(); ++curve) {
         for (const double size : gearbox.fault().plan().sizes) {
             add_faulty(gearbox, pairs[static_cast<std::size_t>(curve)],
@@ -66,7 +66,7 @@ std::vector<SignalColumn> stiffness_columns(const GearboxPlan& gearbox, int poin
 
 std::vector<SignalColumn> transmission_error_columns(const GearboxPlan& gearbox, int points) {
     PhaseTable table(points);
-    for (int pair = 0; pair < gearbox.pairs().pairs(); ++pair) {
+    for (PairId pair{0}; pair < gearbox.pairs().pairs(); ++pair) {
         table.add(gearbox.drivetrain->pair_name(pair) + "_te_um", "um", [&](double phase) {
             return 1e6 * loaded_approach(*gearbox.stiffness, pair, phase);
         });

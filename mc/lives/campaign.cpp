@@ -172,7 +172,7 @@ BatchRows life_rows(const LifeTiles& tiles, const Batch& batch, Seconds& seconds
             std::ranges::count_if(part, measures_interpolation, &Realization::id));
         const auto lives = tiles.run(part, batch.group == Group::test, costs,
                                      std::span(errors).first(measured_count));
-        for (std::size_t lane = 0; lane < part.size(); ++lane) {
+        for (LaneId lane{0}; lane < part.size(); ++lane) {
             add_life(tiles.plan().campaign, part[lane], lives[lane], errors[lane], rows);
         }
     }

@@ -44,7 +44,7 @@ class Pilots {
             const HealthySolution::Signals faulty =
                 nominal ? solution.with_fault(tiles_.plan().campaign.smallest_m)
                         : HealthySolution::Signals{};
-            for (std::size_t lane = 0; lane < part.size(); ++lane) {
+            for (LaneId lane{0}; lane < part.size(); ++lane) {
                 all.push_back(solution.healthy().lane[lane].sensor);
                 if (nominal) {
                     changes_.push_back(change(all.back(), faulty.lane[lane].sensor));

@@ -430,7 +430,7 @@ class LifeTiles::InterpolationCheck {
             return;
         }
         const HealthySolution::Signals middle = solution_.with_fault(campaign.middle_m(step));
-        for (std::size_t lane = 0; lane < errors_.size(); ++lane) {
+        for (LaneId lane{0}; lane < errors_.size(); ++lane) {
             const auto& none = healthy[lane][0].sensor;
             const auto& between = middle.lane[lane].sensor;
             const auto &below = low[lane][0].sensor, &above = high[lane][0].sensor;
@@ -453,7 +453,7 @@ class LifeTiles::InterpolationCheck {
     void at_load(const Load& load, const SignalsByLoad& healthy) {
         const HealthySolution there = tiles_.healthy_solution(gearboxes_, load);
         const std::vector<double> load_weights = tiles_.load_weights(load);
-        for (std::size_t lane = 0; lane < errors_.size(); ++lane) {
+        for (LaneId lane{0}; lane < errors_.size(); ++lane) {
             const auto& integrated = there.healthy().lane[lane].sensor;
             const bool failed = integrated.empty() ||
                                 std::ranges::any_of(healthy[lane], [](const LaneSignals& signals) {
@@ -513,7 +513,7 @@ std::vector<GearboxLife> LifeTiles::run(std::span<const Realization> gearboxes, 
         for (const HealthySolution& solution : solutions) {
             HealthySolution::Signals signals =
                 depth_m > 0.0 ? solution.with_fault(depth_m) : solution.healthy();
-            for (std::size_t lane = 0; lane < gearboxes.size(); ++lane) {
+            for (LaneId lane{0}; lane < gearboxes.size(); ++lane) {
                 all[lane].push_back(std::move(signals.lane[lane]));
                 if (signals.status[lane] != Status::ok && !lanes[lane].failed()) {
                     lanes[lane].fail(signals.status[lane]);
@@ -536,7 +536,7 @@ std::vector<GearboxLife> LifeTiles::run(std::span<const Realization> gearboxes, 
             check.between_depths(step, healthy, low, high);
             lap(check_s);
         }
-        for (std::size_t lane = 0; lane < gearboxes.size(); ++lane) {
+        for (LaneId lane{0}; lane < gearboxes.size(); ++lane) {
             if (lanes[lane].failed()) {
                 continue;
             }

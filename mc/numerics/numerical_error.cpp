@@ -325,8 +325,8 @@ const lockstep::MeshRecord& record_of(const GearboxTile& tile, int mesh) {
 }
 
 void add_lane(const machine::AlignedVector& values, std::size_t lanes,
-              const machine::AlignedVector& reference, std::size_t reference_lanes,
-              std::size_t lane, Squares& squares) {
+              const machine::AlignedVector& reference, std::size_t reference_lanes, LaneId lane,
+              Squares& squares) {
     for (std::size_t row = 0; row < values.size() / lanes; ++row) {
         squares.add(values[row * lanes + lane], reference[row * reference_lanes + lane]);
     }
@@ -357,7 +357,7 @@ std::optional<StepError> find_step_error(const Planner& planner, double most_mes
     Squares sensor, te;
     StepError error;
     error.meshes = std::min(kMeshes, coarse.record.recorded_meshes);
-    for (std::size_t lane = 0; lane < lockstep::kPilotLanes; ++lane) {
+    for (LaneId lane{0}; lane < lockstep::kPilotLanes; ++lane) {
         if (tile.status[lane] != Status::ok || reference.status[lane] != Status::ok) {
             continue;
         }
@@ -382,7 +382,7 @@ std::optional<StepError> find_step_error(const Planner& planner, double most_mes
 std::optional<StepError> find_step_error_of_run(const Planner& planner, std::size_t gearboxes) {
     constexpr double kShare = 0.02;
     const TilePlan plan = planner.tile(planner.facts().numerics);
-    const double tiles = static_cast<double>(gearboxes) / plan.solve->settings.lanes;
+    const double tiles = static_cast<double>(gearboxes) / plan.solve->settings.numerics.lanes;
     return find_step_error(planner, kShare * tiles * plan.solve->integrated_meshes);
 }
 

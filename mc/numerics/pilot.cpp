@@ -59,7 +59,7 @@ void add_feature(const PilotRecord& record, const PilotRecord& reference, std::s
 // that of a run.
 std::vector<GearboxId> filled(std::span<const GearboxId> ids, int lanes) {
     std::vector<GearboxId> all;
-    for (std::size_t lane = 0; lane < static_cast<std::size_t>(lanes); ++lane) {
+    for (LaneId lane{0}; lane < static_cast<std::size_t>(lanes); ++lane) {
         all.push_back(ids[lane % ids.size()]);
     }
     return all;
@@ -143,7 +143,7 @@ PilotRecord Pilot::record(const TilePlan& plan, int lanes, const Tile& tile_of) 
         record.tile_meshes += tile.integration.integrated_meshes;
         record.integration_s += tile.integration_cpu_s;
         for (std::size_t g = 0; g < some.size(); ++g) {
-            const int lane = static_cast<int>(g);
+            const LaneId lane{g};
             const Realization& realization = tile.realizations[g];
             const bool ok = tile.status[g] == Status::ok;
             record.ok.push_back(ok);

@@ -111,20 +111,21 @@ double PlanetaryDrivetrain::mesh_force_N(const InstanceInputs& instance) const {
     return torque.sun / radius_m_.sun / train_.planets;
 }
 
-std::string PlanetaryDrivetrain::pair_name(int pair) const {
+std::string PlanetaryDrivetrain::pair_name(PairId pair) const {
     const int n = train_.planets;
     return pair < n ? fmt::format("sp{}", pair + 1) : fmt::format("rp{}", pair - n + 1);
 }
 
-std::string PlanetaryDrivetrain::pair_members(int pair) const {
+std::string PlanetaryDrivetrain::pair_members(PairId pair) const {
     const int n = train_.planets;
     return fmt::format("{} and planet {}", pair < n ? "sun" : "ring", pair % n + 1);
 }
 
-double PlanetaryDrivetrain::pitch_phase(int pair) const {
+double PlanetaryDrivetrain::pitch_phase(PairId pair) const {
     const int n = train_.planets;
-    return pair < n ? gears::sun_mesh_phase(train_, pair, sense_)
-                    : gears::ring_mesh_phase(train_, pair - n, sense_) + ring_to_sun_phase_;
+    return pair < n
+               ? gears::sun_mesh_phase(train_, planet_of(pair, n), sense_)
+               : gears::ring_mesh_phase(train_, planet_of(pair, n), sense_) + ring_to_sun_phase_;
 }
 
 std::vector<double> PlanetaryDrivetrain::te_weight(const dynamics::GearboxLayout& layout) const {

@@ -8,6 +8,7 @@
 
 #include "dynamics/gearbox.hpp"
 #include "gears/planetary.hpp"
+#include "machine/ids.hpp"
 #include "mc/plan/instance_inputs.hpp"
 #include "mc/study/study.hpp"
 #include "signals/tile_signals.hpp"
@@ -51,10 +52,10 @@ class Drivetrain {
     // Number of gear pairs of each mesh of meshes_of(kind), in the order of the dynamic model.
     virtual int pairs_per_mesh() const = 0;
     // Name in results, "rp1", and members, "ring and planet 1".
-    virtual std::string pair_name(int pair) const = 0;
-    virtual std::string pair_members(int pair) const = 0;
+    virtual std::string pair_name(PairId pair) const = 0;
+    virtual std::string pair_members(PairId pair) const = 0;
     // Mesh phase at which a gear pair's contact is at the pitch point.
-    virtual double pitch_phase(int pair) const = 0;
+    virtual double pitch_phase(PairId pair) const = 0;
     // True if contact moves along the line of action from its end to its start.
     virtual bool reversed() const = 0;
 
@@ -88,9 +89,9 @@ class PlanetaryDrivetrain : public Drivetrain {
     void set(const InstanceInputs& instance, dynamics::GearboxInputs& inputs) const override;
     double mesh_force_N(const InstanceInputs& instance) const override;
     int pairs_per_mesh() const override { return train_.planets; }
-    std::string pair_name(int pair) const override;
-    std::string pair_members(int pair) const override;
-    double pitch_phase(int pair) const override;
+    std::string pair_name(PairId pair) const override;
+    std::string pair_members(PairId pair) const override;
+    double pitch_phase(PairId pair) const override;
     bool reversed() const override { return sense_ == gears::PlanetSense::counter_clockwise; }
     std::vector<double> te_weight(const dynamics::GearboxLayout& layout) const override;
     signals::SpanLayout span() const override;
@@ -134,9 +135,9 @@ class FixedShaftDrivetrain : public Drivetrain {
     void set(const InstanceInputs& instance, dynamics::GearboxInputs& inputs) const override;
     double mesh_force_N(const InstanceInputs& instance) const override;
     int pairs_per_mesh() const override { return 1; }
-    std::string pair_name(int) const override { return "m1"; }
-    std::string pair_members(int) const override { return "both gears"; }
-    double pitch_phase(int) const override { return 0.0; }
+    std::string pair_name(PairId) const override { return "m1"; }
+    std::string pair_members(PairId) const override { return "both gears"; }
+    double pitch_phase(PairId) const override { return 0.0; }
     bool reversed() const override { return false; }
     std::vector<double> te_weight(const dynamics::GearboxLayout& layout) const override;
     signals::SpanLayout span() const override;

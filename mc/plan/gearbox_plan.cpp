@@ -9,6 +9,7 @@
 #include "mc/study/fluctuations.hpp"
 #include "mc/study/gears.hpp"
 #include "mc/study/housing.hpp"
+#include "mc/study/other_sources.hpp"
 
 namespace gearpod::mc {
 namespace {
@@ -87,10 +88,10 @@ dynamics::FixedShaftInputs fixed_shaft_inputs(const InstanceInputs& in) {
 
 // Tooth of planet n that its ring side counts as 0. This tooth meshes with the ring half a planet
 // turn after its mesh with the sun (lockstep::planet_fault_pattern).
-int first_on_ring(const lockstep::PairSet& pairs, int n, int teeth) {
-    const int ring_pair = pairs.pairs() / 2 + n;
+int first_on_ring(const lockstep::PairSet& pairs, PlanetId n, int teeth) {
     const double half_turn = 0.5 * (teeth + (pairs.reversed ? 1 : -1));
-    const long later = std::lround(pairs.pitch_phase(n) + half_turn - pairs.pitch_phase(ring_pair));
+    const long later = std::lround(pairs.pitch_phase(sun_pair(n)) + half_turn -
+                                   pairs.pitch_phase(ring_pair(n, pairs.pairs() / 2)));
     return static_cast<int>((teeth - later % teeth) % teeth);
 }
 
@@ -100,7 +101,7 @@ void set_engagement(const lockstep::PairSet& pairs, std::span<const lockstep::Pa
     for (std::size_t p = 0; p < teeth.size(); ++p) {
         for (const int which : {0, 1}) {
             if (static_cast<std::size_t>(teeth[p].gear[which]) == side.gear) {
-                const int pair = static_cast<int>(p);
+                const PairId pair{p};
                 const stiffness::MeshStiffness& mesh = pairs.curve(pair);
                 const double ratio = mesh.slice().contact_ratio();
                 const bool outwards = (which == teeth[p].driver) != pairs.reversed;
@@ -139,7 +140,7 @@ class ToothErrorBuilder {
         for (int n = 0; n < gearbox_.planets; ++n) {
             const int teeth = add(Member::planet).teeth;
             add_side(MeshKind::sun_planet, 0, n);
-            add_side(MeshKind::ring_planet, first_on_ring(gearbox_.pairs(), n, teeth), n);
+            add_side(MeshKind::ring_planet, first_on_ring(gearbox_.pairs(), PlanetId{n}, teeth), n);
         }
         return std::move(model_);
     }

@@ -109,11 +109,6 @@ struct GearboxPlan {
     std::span<const MeshMembers> meshes() const { return meshes_of(kind); }
     const lockstep::PairSet& pairs() const { return stiffness->pairs(); }
     const SceneFault& fault() const { return stiffness->fault(); }
-    // Gear pair that the first passage of the faulty tooth weakens, or -1.
-    int faulty_pair() const {
-        const auto& passages = fault().pattern().passages;
-        return passages.empty() ? -1 : passages[0].pair;
-    }
     // Inputs of one gearbox with speed, load and bodies.
     dynamics::GearboxInputs inputs(const InstanceInputs& instance) const;
 

@@ -306,7 +306,7 @@ class PlanBuilder {
         lockstep::Pilot pilot;
         pilot.faults = {&stiffness_.pairs(), fault.pattern(), {}};
         pilot.faults.curve.resize(static_cast<std::size_t>(fault.curves()));
-        for (int lane = 0; lane < lockstep::kPilotLanes; ++lane) {
+        for (LaneId lane{0}; lane < lockstep::kPilotLanes; ++lane) {
             const InstanceInputs inputs =
                 lane == 0
                     ? gearbox_.nominal

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <ranges>
 
 #include "dynamics/helical_pair.hpp"
 #include "gears/tooth_deviations.hpp"
@@ -212,7 +213,7 @@ lockstep::PairSet make_pairs(const std::vector<SceneMesh>& meshes, const Drivetr
                                             : curve.pitch_position();
         for (int i = 0; i < drivetrain.pairs_per_mesh(); ++i) {
             pairs.start.push_back(
-                lockstep::phase_in_period(drivetrain.pitch_phase(pairs.pairs()) - since));
+                lockstep::phase_in_period(drivetrain.pitch_phase(PairId{pairs.pairs()}) - since));
             pairs.mesh.push_back(&curve);
         }
     }
@@ -265,7 +266,7 @@ SceneStiffness::SceneStiffness(const Study& study, const Drivetrain& drivetrain)
 std::vector<double> SceneStiffness::stiffest_pairs() const {
     constexpr int kPhases = 200;
     std::vector<double> k;
-    for (int i = 0; i < pairs_.pairs(); ++i) {
+    for (PairId i{0}; i < pairs_.pairs(); ++i) {
         double stiffest = 0.0;
         for (int p = 0; p < kPhases; ++p) {
             const double phase = static_cast<double>(p) / kPhases;
@@ -290,26 +291,26 @@ std::vector<double> SceneStiffness::transitions() const {
     return all;
 }
 
-double faulty_total(const lockstep::PairSet& pairs, int pair, const stiffness::FaultyMesh& mesh,
+double faulty_total(const lockstep::PairSet& pairs, PairId pair, const stiffness::FaultyMesh& mesh,
                     double since) {
     if (since < 0.0 || since >= mesh.duration()) {
-        return pairs.total(pair, pairs.start[static_cast<std::size_t>(pair)] + since);
+        return pairs.total(pair, pairs.start[pair] + since);
     }
     const double tau = pairs.reversed ? mesh.duration() - since : since;
     const auto limit = pairs.reversed ? stiffness::Limit::from_below : stiffness::Limit::from_above;
     return total_at(mesh, pairs.curve(pair).transitions(), tau, limit);
 }
 
-double loaded_approach(const SceneStiffness& stiffness, int pair, double phase) {
+double loaded_approach(const SceneStiffness& stiffness, PairId pair, double phase) {
     constexpr double kInside = 1e-9;  // mesh periods, towards later phases
     const lockstep::PairSet& pairs = stiffness.pairs();
-    const double since = phase - pairs.start[static_cast<std::size_t>(pair)];
+    const double since = phase - pairs.start[pair];
     const double tau = pairs.reversed ? pairs.curve(pair).contact_ratio() - since : since;
     const double inside = pairs.reversed ? tau - kInside : tau + kInside;
     const double period = std::floor(inside);
     const std::vector<SceneMesh>& meshes = stiffness.meshes();
     const auto pairs_per_mesh = static_cast<std::size_t>(pairs.pairs()) / meshes.size();
-    const SceneMesh& mesh = meshes[static_cast<std::size_t>(pair) / pairs_per_mesh];
+    const SceneMesh& mesh = meshes[pair / pairs_per_mesh];
     return mesh.loaded->approach(tau - period, inside - period);
 }
 
@@ -342,7 +343,7 @@ lockstep::FaultPattern make_pattern(const Study& study, const lockstep::PairSet&
         case Member::ring:
             return lockstep::ring_fault_pattern(pairs, planet_positions(study), teeth);
         case Member::planet:
-            return lockstep::planet_fault_pattern(pairs, f.planet - 1, *f.side, teeth);
+            return lockstep::planet_fault_pattern(pairs, PlanetId{f.planet - 1}, *f.side, teeth);
         case Member::pinion:
         case Member::gear:
             return lockstep::shaft_fault_pattern(pairs, teeth);
@@ -423,11 +424,10 @@ std::vector<double> SceneFault::jumps(const lockstep::PairSet& pairs) const {
     return phases;
 }
 
-std::vector<int> faulty_pairs(const SceneFault& fault) {
-    std::vector<int> pairs(static_cast<std::size_t>(fault.curves()), -1);
-    for (const lockstep::FaultPassage& passage : fault.pattern().passages) {
-        int& pair = pairs[static_cast<std::size_t>(passage.curve)];
-        pair = pair < 0 ? passage.pair : pair;
+std::vector<PairId> faulty_pairs(const SceneFault& fault) {
+    std::vector<PairId> pairs(static_cast<std::size_t>(fault.curves()));
+    for (const lockstep::FaultPassage& passage : std::views::reverse(fault.pattern().passages)) {
+        pairs[static_cast<std::size_t>(passage.curve)] = passage.pair;
     }
     return pairs;
 }

@@ -11,6 +11,7 @@
 #include "gears/tooth_deviations.hpp"
 #include "lockstep/plan/fault_schedule.hpp"
 #include "lockstep/plan/stiffness_nodes.hpp"
+#include "machine/ids.hpp"
 #include "mc/plan/drivetrain.hpp"
 #include "mc/plan/fault_plan.hpp"
 #include "mc/study/gears.hpp"
@@ -86,7 +87,7 @@ class SceneFault {
 };
 
 // First gear pair in which the faulty tooth engages, for each of its stiffness curves.
-std::vector<int> faulty_pairs(const SceneFault& fault);
+std::vector<PairId> faulty_pairs(const SceneFault& fault);
 
 // Stiffness of a study's gear pairs, healthy and with the fault, and the scales of their tooth
 // errors. Scenes share it unless they differ in numerics.stiffness_tolerance or
@@ -122,11 +123,11 @@ class SceneStiffness {
 
 // Stiffness, N/m, of the gear pair `since` mesh periods after its faulty tooth started to engage;
 // outside its engagement, that of the healthy pair.
-double faulty_total(const lockstep::PairSet& pairs, int pair, const stiffness::FaultyMesh& mesh,
+double faulty_total(const lockstep::PairSet& pairs, PairId pair, const stiffness::FaultyMesh& mesh,
                     double since);
 
 // Loaded static transmission error of a gear pair, m: approach of its gears along the line of
 // action at a phase of the mesh period under the nominal load.
-double loaded_approach(const SceneStiffness& stiffness, int pair, double phase);
+double loaded_approach(const SceneStiffness& stiffness, PairId pair, double phase);
 
 }  // namespace gearpod::mc

@@ -314,7 +314,8 @@ class Examples {
                                      " failed when computed again");
         }
         std::vector<LevelSignals> levels;
-        const LaneSignals gearbox_signals = lane_signals(plan_, tile, 0, features_.meshes());
+        const LaneSignals gearbox_signals =
+            lane_signals(plan_, tile, LaneId{0}, features_.meshes());
         auto values = features_.compute(gearbox_signals, tile.realizations[0], &levels);
         std::vector<double> te_turn = features_.record().te_turn;
         rotate_to_first_tooth(features_.record(), plan_.record.te_samples, te_turn);
@@ -383,7 +384,7 @@ class Examples {
     // Signals of all sensors from which records are taken.
     LaneSignals whole_signals(const GearboxTile& tile) const {
         return lane_signals(
-            plan_, tile, 0,
+            plan_, tile, LaneId{0},
             plan_.record.length ? plan_.record.signal_meshes : plan_.record.span.meshes());
     }
 
@@ -455,7 +456,7 @@ class Examples {
             RealizationFeatures features(plan_, &healthy, false, sensor.number);
             const Realization here = sensor.realization(tile.realizations[0]);
             SensorSignals record =
-                signals_of_sensor(sensor, lane_signals(plan_, tile, 0, features.meshes()));
+                signals_of_sensor(sensor, lane_signals(plan_, tile, LaneId{0}, features.meshes()));
             std::vector<LevelSignals> levels;
             features.compute(record.linked(), here, &levels);
             const Signals signals = record_of(
@@ -495,7 +496,7 @@ Json gearboxes_json(const TilePlan& tile, const EnsemblePlan& ensemble, const Re
 
 Json healthy_curves(const GearboxPlan& gearbox) {
     Json pairs = Json::array();
-    for (int pair = 0; pair < gearbox.pairs().pairs(); ++pair) {
+    for (PairId pair{0}; pair < gearbox.pairs().pairs(); ++pair) {
         Json values = Json::array();
         for (int i = 0; i < kStiffnessPoints; ++i) {
             values.push_back(
@@ -508,7 +509,7 @@ Json healthy_curves(const GearboxPlan& gearbox) {
 
 // Mesh stiffness from a quarter mesh period before the faulty tooth engages to a quarter after it
 // disengages.
-Json passage_json(const GearboxPlan& gearbox, int curve, int pair, std::vector<double> sizes) {
+Json passage_json(const GearboxPlan& gearbox, int curve, PairId pair, std::vector<double> sizes) {
     Json json{{"pair", gearbox.drivetrain->pair_name(pair)},
               {"mesh", Json::array()},
               {"healthy", Json::array()},
@@ -517,7 +518,7 @@ Json passage_json(const GearboxPlan& gearbox, int curve, int pair, std::vector<d
     for (const double size : sizes) {
         duration = std::max(duration, gearbox.fault().mesh(curve, size)->duration());
     }
-    const double start = gearbox.pairs().start[static_cast<std::size_t>(pair)];
+    const double start = gearbox.pairs().start[pair];
     const int last = static_cast<int>(std::ceil((duration + 0.25) * kStiffnessPoints));
     const auto since = [](int i) { return static_cast<double>(i) / kStiffnessPoints; };
     for (int i = -kStiffnessPoints / 4; i <= last; ++i) {
@@ -541,7 +542,7 @@ Json stiffness_json(const GearboxPlan& gearbox) {
         json["mesh"].push_back(static_cast<double>(i) / kStiffnessPoints);
     }
     json["pairs"] = healthy_curves(gearbox);
-    const std::vector<int> pairs = faulty_pairs(gearbox.fault());
+    const std::vector<PairId> pairs = faulty_pairs(gearbox.fault());
     const std::vector<double> sizes = gearbox.fault().plan().sizes;
     for (int curve = 0; curve < gearbox.fault().curves() && !sizes.empty(); ++curve) {
         json["passages"].push_back(

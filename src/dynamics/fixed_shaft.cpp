@@ -35,7 +35,7 @@ std::vector<SpringDamper> spring_dampers(const FixedShaftLayout& layout,
     const double k = pair_stiffness_N_m[0];
     springs.push_back(
         {"the mesh", mesh_row(layout), k,
-         mesh_damping_N_s_m(layout.mesh_damping, mesh_damping(layout, inputs, 0), k)});
+         mesh_damping_N_s_m(layout.mesh_damping, mesh_damping(layout, inputs, PairId{0}), k)});
     return springs;
 }
 
@@ -58,7 +58,7 @@ GearboxMatrices assemble(const FixedShaftLayout& layout, const FixedShaftInputs&
     return m;
 }
 
-DampingTerms mesh_damping(const FixedShaftLayout& layout, const FixedShaftInputs& inputs, int) {
+DampingTerms mesh_damping(const FixedShaftLayout& layout, const FixedShaftInputs& inputs, PairId) {
     return mesh_damping_terms(layout.mesh_damping, inputs.mesh_damping, inputs.mass_kg[pinion],
                               inputs.mass_kg[gear]);
 }

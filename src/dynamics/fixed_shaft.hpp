@@ -68,7 +68,8 @@ std::vector<SpringDamper> spring_dampers(const FixedShaftLayout& layout,
 GearboxMatrices assemble(const FixedShaftLayout& layout, const FixedShaftInputs& inputs,
                          const std::vector<double>& pair_stiffness_N_m);
 
-DampingTerms mesh_damping(const FixedShaftLayout& layout, const FixedShaftInputs& inputs, int pair);
+DampingTerms mesh_damping(const FixedShaftLayout& layout, const FixedShaftInputs& inputs,
+                          PairId pair);
 
 // Equal rotation of all four bodies, which deflects no spring.
 Eigen::VectorXd rigid_rotation(const FixedShaftLayout& layout);

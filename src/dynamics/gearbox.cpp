@@ -93,7 +93,7 @@ Eigen::VectorXd rigid_rotation(const GearboxLayout& layout) {
     return std::visit([](const auto& kind) { return rigid_rotation(kind); }, layout);
 }
 
-DampingTerms mesh_damping(const GearboxLayout& layout, const GearboxInputs& inputs, int pair) {
+DampingTerms mesh_damping(const GearboxLayout& layout, const GearboxInputs& inputs, PairId pair) {
     return with_inputs(layout, inputs, [&](const auto& kind, const auto& in) {
         return mesh_damping(kind, in, pair);
     });
@@ -103,7 +103,7 @@ std::vector<std::string> motion_names(const GearboxLayout& layout) {
     return std::visit([](const auto& kind) { return motion_names(kind); }, layout);
 }
 
-Eigen::VectorXd mesh_row(const GearboxLayout& layout, int pair) {
+Eigen::VectorXd mesh_row(const GearboxLayout& layout, PairId pair) {
     return std::visit(Overloaded{[&](const PlanetaryLayout& kind) -> Eigen::VectorXd {
                                      return motions_from_degrees(kind).transpose() *
                                             pair_row(kind, pair);

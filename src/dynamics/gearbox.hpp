@@ -8,6 +8,7 @@
 
 #include "dynamics/fixed_shaft.hpp"
 #include "dynamics/planetary.hpp"
+#include "machine/ids.hpp"
 
 namespace gearpod::dynamics {
 
@@ -34,11 +35,11 @@ GearboxMatrices assemble(const GearboxLayout& layout, const GearboxInputs& input
 std::vector<SpringDamper> spring_dampers(const GearboxLayout& layout, const GearboxInputs& inputs,
                                          const std::vector<double>& pair_stiffness_N_m);
 Eigen::VectorXd rigid_rotation(const GearboxLayout& layout);
-DampingTerms mesh_damping(const GearboxLayout& layout, const GearboxInputs& inputs, int pair);
+DampingTerms mesh_damping(const GearboxLayout& layout, const GearboxInputs& inputs, PairId pair);
 std::vector<std::string> motion_names(const GearboxLayout& layout);
 
 // Row of a pair's deflection, and of a source's motion along x (axis 0) or y (1).
-Eigen::VectorXd mesh_row(const GearboxLayout& layout, int pair);
+Eigen::VectorXd mesh_row(const GearboxLayout& layout, PairId pair);
 Eigen::VectorXd source_row(const GearboxLayout& layout, int source, int axis);
 
 // Time-varying forces on a gearbox's degrees of freedom. Each is a pattern over the degrees of

@@ -76,7 +76,7 @@ int body_index(gears::Member member) {
     return member == gears::Member::sun ? sun : member == gears::Member::carrier ? carrier : ring;
 }
 
-Eigen::VectorXd pair_row(const PlanetaryLayout& layout, int pair) {
+Eigen::VectorXd pair_row(const PlanetaryLayout& layout, PairId pair) {
     const bool with_sun = pair < layout.planets;
     const int n = pair % layout.planets;
     const double angle = pi / 2 + (with_sun ? -layout.sun_mesh_angle() : layout.ring_mesh_angle()) +
@@ -118,7 +118,8 @@ Eigen::MatrixXd motions_from_degrees(const PlanetaryLayout& layout) {
     return tie;
 }
 
-DampingTerms mesh_damping(const PlanetaryLayout& layout, const PlanetaryInputs& inputs, int pair) {
+DampingTerms mesh_damping(const PlanetaryLayout& layout, const PlanetaryInputs& inputs,
+                          PairId pair) {
     const int central = pair < layout.planets ? sun : ring;
     return mesh_damping_terms(layout.mesh_damping, inputs.mesh_damping, inputs.mass_kg[central],
                               inputs.planet_mass_kg(pair % layout.planets));
@@ -149,8 +150,8 @@ std::vector<SpringDamper> spring_dampers(const PlanetaryLayout& layout,
                                inputs.planet_deviations[n].bearing_damping *
                                    inputs.bearing_damping_N_s_m[planet]});
         }
-        for (const int pair : {n, layout.planets + n}) {
-            const double k = pair_stiffness_N_m[static_cast<std::size_t>(pair)];
+        for (const PairId pair : {sun_pair(PlanetId{n}), ring_pair(PlanetId{n}, layout.planets)}) {
+            const double k = pair_stiffness_N_m[pair];
             springs.push_back(
                 {fmt::format("planet {}'s mesh with the {}", n + 1, pair == n ? "sun" : "ring"),
                  pair_row(layout, pair), k,

@@ -14,6 +14,7 @@
 #include "dynamics/effects/mesh_law.hpp"
 #include "dynamics/eigen_forward.hpp"
 #include "gears/planetary.hpp"
+#include "machine/ids.hpp"
 #include "machine/instruction_sets.hpp"
 
 namespace gearpod::dynamics {
@@ -105,7 +106,7 @@ struct PlanetaryInputs {
 };
 
 // Row vectors of the deflections over all 9 + 3N motions. Pairs are sp1..spN, rp1..rpN.
-Eigen::VectorXd pair_row(const PlanetaryLayout& layout, int pair);
+Eigen::VectorXd pair_row(const PlanetaryLayout& layout, PairId pair);
 Eigen::VectorXd planet_bearing_row(const PlanetaryLayout& layout, int n, int axis);
 
 // All spring-dampers over the 9 + 3N motions, for the given stiffness of the 2N pairs (sp1..spN,
@@ -130,7 +131,8 @@ std::vector<std::string> motion_names(const PlanetaryLayout& layout);
 int body_index(gears::Member member);
 
 // Mesh damping of a pair by the layout's law.
-DampingTerms mesh_damping(const PlanetaryLayout& layout, const PlanetaryInputs& inputs, int pair);
+DampingTerms mesh_damping(const PlanetaryLayout& layout, const PlanetaryInputs& inputs,
+                          PairId pair);
 
 // Motion without any deflection: free rotation of the train relative to its fixed member. It is
 // neutral in a real gearbox. In the linear model, the centrifugal term W^2 x lets it grow at a rate

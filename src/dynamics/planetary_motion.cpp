@@ -65,8 +65,8 @@ void set_lane(PlanetaryLanes<W, Real>& lanes, int l, const PlanetaryLayout& layo
         lanes.support_damping[body][l] = Real(is_fixed ? in.support_damping_N_s_m : 0.0);
         lanes.force[body][l] = Real(in.force_N[body]);
     }
-    for (int pair = 0; pair < layout.pairs(); ++pair) {
-        lanes.mesh_damping[pair].set(l, mesh_damping(layout, in, pair));
+    for (PairId pair{0}; pair < layout.pairs(); ++pair) {
+        lanes.mesh_damping[pair].set(LaneId{l}, mesh_damping(layout, in, pair));
     }
     const double w = in.carrier_speed_rad_s;
     lanes.speed[l] = Real(w);

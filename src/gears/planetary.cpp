@@ -47,16 +47,16 @@ PlanetDimensions standard_dimensions(const PlanetaryTrain& train, double addendu
 }
 
 // Fractional part of teeth * step / steps, computed with integers.
-double reduced_phase(int teeth, int planet, const PlanetPositions& planets) {
-    const int step = planets.step.at(static_cast<std::size_t>(planet));
+double reduced_phase(int teeth, PlanetId planet, const PlanetPositions& planets) {
+    const int step = planets.step.at(planet);
     const long long remainder = static_cast<long long>(teeth) * step % planets.steps;
     return static_cast<double>(remainder) / planets.steps;
 }
 
 // Mesh periods of a gear from planet 0 to the given planet, in the forward direction if `forward`,
 // otherwise backward.
-double tooth_delay(int teeth, int planet, const PlanetPositions& planets, bool forward) {
-    const int step = planets.step.at(static_cast<std::size_t>(planet));
+double tooth_delay(int teeth, PlanetId planet, const PlanetPositions& planets, bool forward) {
+    const int step = planets.step.at(planet);
     const int passed = forward ? step : (planets.steps - step) % planets.steps;
     return static_cast<double>(static_cast<long long>(teeth) * passed) / planets.steps;
 }
@@ -121,8 +121,8 @@ void position_problems(const PlanetaryTrain& train, const PlanetDimensions& dime
         return;
     }
     const PlanetPositions planets = planet_positions(train);
-    for (int n = 0; n < train.planets; ++n)
-        for (int m = 0; m < n; ++m) {
+    for (PlanetId n{0}; n < train.planets; ++n)
+        for (PlanetId m{0}; m < n; ++m) {
             const double apart = planet_angle(planets, n) - planet_angle(planets, m);
             const double between_axes =
                 2 * dimensions.centre_distance * std::abs(std::sin(apart / 2));
@@ -154,14 +154,14 @@ PlanetPositions planet_positions(const PlanetaryTrain& train) {
     return planets;
 }
 
-double planet_angle(const PlanetPositions& positions, int planet) {
-    return 2 * pi * positions.step.at(static_cast<std::size_t>(planet)) / positions.steps;
+double planet_angle(const PlanetPositions& positions, PlanetId planet) {
+    return 2 * pi * positions.step.at(planet) / positions.steps;
 }
 
 std::vector<double> nearest_positions(const PlanetaryTrain& train) {
     const int steps = train.sun_teeth + train.ring_teeth, n = train.planets;
     std::vector<double> positions;
-    for (int planet = 0; planet < n; ++planet) {
+    for (PlanetId planet{0}; planet < n; ++planet) {
         const int step = (2 * planet * steps + n) / (2 * n);  // rounded, halves up
         positions.push_back(2 * pi * step / steps);
     }
@@ -199,22 +199,22 @@ std::vector<std::string> assembly_problems(const PlanetaryTrain& train,
     return problems;
 }
 
-double sun_mesh_phase(const PlanetaryTrain& train, int planet, PlanetSense sense) {
+double sun_mesh_phase(const PlanetaryTrain& train, PlanetId planet, PlanetSense sense) {
     return signed_phase(reduced_phase(train.sun_teeth, planet, planet_positions(train)),
                         sense == PlanetSense::counter_clockwise);
 }
 
-double ring_mesh_phase(const PlanetaryTrain& train, int planet, PlanetSense sense) {
+double ring_mesh_phase(const PlanetaryTrain& train, PlanetId planet, PlanetSense sense) {
     return signed_phase(reduced_phase(train.ring_teeth, planet, planet_positions(train)),
                         sense == PlanetSense::clockwise);
 }
 
-double sun_tooth_delay(const PlanetaryTrain& train, int planet, PlanetSense sense) {
+double sun_tooth_delay(const PlanetaryTrain& train, PlanetId planet, PlanetSense sense) {
     return tooth_delay(train.sun_teeth, planet, planet_positions(train),
                        sense == PlanetSense::clockwise);
 }
 
-double ring_tooth_delay(const PlanetaryTrain& train, int planet, PlanetSense sense) {
+double ring_tooth_delay(const PlanetaryTrain& train, PlanetId planet, PlanetSense sense) {
     return tooth_delay(train.ring_teeth, planet, planet_positions(train),
                        sense == PlanetSense::counter_clockwise);
 }

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "gears/gear.hpp"
+#include "machine/ids.hpp"
 
 namespace gearpod::gears {
 
@@ -29,7 +30,7 @@ struct PlanetPositions {
 };
 PlanetPositions planet_positions(const PlanetaryTrain& train);
 // psi_n, rad.
-double planet_angle(const PlanetPositions& positions, int planet);
+double planet_angle(const PlanetPositions& positions, PlanetId planet);
 
 // Sense of the planets' rotation relative to the carrier. It determines the order in which the
 // planets reach a mesh phase.
@@ -57,15 +58,15 @@ std::vector<std::string> assembly_problems(const PlanetaryTrain& train,
 // Mesh phase gamma: pair n's stiffness is pair 0's at t - gamma T_m (Liang, Eqs. 2.3.3-2.3.4). It
 // is reduced to (-1, 1) by whole mesh periods. The sign is that of the formula: +Z_s psi_n / 2 pi
 // and -Z_r psi_n / 2 pi for clockwise planets, opposite for counter-clockwise.
-double sun_mesh_phase(const PlanetaryTrain& train, int planet,
+double sun_mesh_phase(const PlanetaryTrain& train, PlanetId planet,
                       PlanetSense sense = PlanetSense::clockwise);
-double ring_mesh_phase(const PlanetaryTrain& train, int planet,
+double ring_mesh_phase(const PlanetaryTrain& train, PlanetId planet,
                        PlanetSense sense = PlanetSense::clockwise);
 // Mesh periods, 0 <= delay < teeth, from a sun or ring tooth's contact with planet 0 to the same
 // tooth's contact with planet `planet`. The fractional part is the mesh phase.
-double sun_tooth_delay(const PlanetaryTrain& train, int planet,
+double sun_tooth_delay(const PlanetaryTrain& train, PlanetId planet,
                        PlanetSense sense = PlanetSense::clockwise);
-double ring_tooth_delay(const PlanetaryTrain& train, int planet,
+double ring_tooth_delay(const PlanetaryTrain& train, PlanetId planet,
                         PlanetSense sense = PlanetSense::clockwise);
 // Delay of a planet's ring mesh relative to its sun mesh, from pitch point to pitch point: 0 or
 // 1/2.

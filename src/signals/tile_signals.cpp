@@ -14,7 +14,7 @@ namespace {
 
 }  // namespace
 
-void copy_lane(std::span<const double> interleaved, int lanes, int lane, std::span<double> out) {
+void copy_lane(std::span<const double> interleaved, int lanes, LaneId lane, std::span<double> out) {
     if (interleaved.size() != out.size() * static_cast<std::size_t>(lanes)) {
         fail(fmt::format("{} values of {} lanes do not fill {}", interleaved.size(), lanes,
                          out.size()));

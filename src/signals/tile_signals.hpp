@@ -10,6 +10,7 @@
 #include <span>
 #include <vector>
 
+#include "machine/ids.hpp"
 #include "machine/lanes.hpp"
 
 namespace gearpod::signals {
@@ -48,7 +49,7 @@ struct TileSignals {
 };
 
 // Copies one lane of a lane-interleaved array: out[i] = interleaved[i * lanes + lane].
-void copy_lane(std::span<const double> interleaved, int lanes, int lane, std::span<double> out);
+void copy_lane(std::span<const double> interleaved, int lanes, LaneId lane, std::span<double> out);
 
 // Copies the lanes from `first` on, one after the other: out[n * values + i] is the i-th of the
 // `values` values of lane first + n. Reads the array once for all of them.

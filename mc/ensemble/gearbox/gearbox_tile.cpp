@@ -176,7 +176,7 @@ TileSolution solve_coupled(const TilePlan& plan, const CoupledStages& coupled,
         solved.coupled.push_back(recorders.front().front()->signals(lanes, span.stages[i].meshes));
         solved.meshes += results[i + 1].integrated_meshes;
         // A gearbox fails if any of its stages does.
-        for (std::size_t lane = 0; lane < lanes; ++lane) {
+        for (LaneId lane{0}; lane < lanes; ++lane) {
             if (solved.integration.status[lane] == lockstep::LaneStatus::ok) {
                 solved.integration.status[lane] = results[i + 1].status[lane];
             }
@@ -235,7 +235,7 @@ GearboxTile drawn_tile(const Sampler& sampler, std::span<const GearboxId> ids, i
 }
 
 void add_status(const GearboxPlan& gearbox, const SolvePlan& solve, GearboxTile& tile) {
-    for (std::size_t lane = 0; lane < tile.gearboxes; ++lane) {
+    for (LaneId lane{0}; lane < tile.gearboxes; ++lane) {
         tile.status.push_back(status_of(gearbox, solve, tile.realizations[lane].inputs,
                                         tile.integration.status[lane]));
     }
@@ -439,9 +439,9 @@ GearboxTile run_side_by_side(const TilePlan& plan, std::span<const GearboxId> id
     GearboxTile tile = run_records(plan, both, lanes, options);
     auto start = WallClock::now();
     std::vector<LaneSignals> baseline;
-    for (std::size_t lane = ids.size(); lane < both.size(); ++lane) {
-        baseline.push_back(lane_signals(plan, tile, static_cast<int>(lane),
-                                        plan.record.sensor_meshes(plan.features.needs.all())));
+    for (LaneId lane{ids.size()}; lane < both.size(); ++lane) {
+        baseline.push_back(
+            lane_signals(plan, tile, lane, plan.record.sensor_meshes(plan.features.needs.all())));
     }
     tile.baseline = std::move(baseline);
     tile.signals_s += lap(start);
@@ -470,13 +470,13 @@ GearboxTile run_gearboxes(const TilePlan& plan, std::span<const GearboxId> ids, 
     return tile;
 }
 
-std::vector<double> contact_loss(const GearboxTile& tile, std::size_t lane, std::size_t meshes) {
+std::vector<double> contact_loss(const GearboxTile& tile, LaneId lane, std::size_t meshes) {
     const machine::AlignedVector& ratio = tile.integration.contact_loss;  // [gear pair][lane]
     const std::size_t lanes = tile.realizations.size();
     const std::size_t pairs = ratio.size() / lanes / std::max<std::size_t>(1, meshes);
     std::vector<double> mean(meshes, 0.0);
     for (std::size_t mesh = 0; mesh < meshes; ++mesh) {
-        for (std::size_t pair = mesh * pairs; pair < (mesh + 1) * pairs; ++pair) {
+        for (PairId pair{mesh * pairs}; pair < (mesh + 1) * pairs; ++pair) {
             mean[mesh] += ratio[pair * lanes + lane];
         }
         mean[mesh] /= static_cast<double>(pairs);

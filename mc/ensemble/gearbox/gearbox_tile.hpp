@@ -11,6 +11,7 @@
 
 #include "lockstep/tile/tile.hpp"
 #include "machine/clocks.hpp"
+#include "machine/ids.hpp"
 #include "mc/ensemble/gearbox/solution_choice.hpp"
 #include "mc/ensemble/gearbox/tile_sensors.hpp"
 #include "mc/plan/sampling.hpp"
@@ -152,17 +153,17 @@ GearboxTile complete_tile(const TilePlan& plan, std::span<const GearboxId> ids,
 
 // Contact loss ratio of each mesh of the gearbox: the mean over the gear pairs of that mesh.
 // `meshes` is the number of meshes; 0 gives an empty result.
-std::vector<double> contact_loss(const GearboxTile& tile, std::size_t lane, std::size_t meshes);
+std::vector<double> contact_loss(const GearboxTile& tile, LaneId lane, std::size_t meshes);
 
 // Transmission error of a lane over mesh periods of a tile with all records, as `samples` values in
 // each.
-std::vector<double> recorded_te(const RecordPlan& plan, const GearboxTile& tile, int lane,
+std::vector<double> recorded_te(const RecordPlan& plan, const GearboxTile& tile, LaneId lane,
                                 int first, int meshes, int samples);
 // Subtracts the mean of the values from each of them.
 void remove_mean(std::vector<double>& values);
 
 // Signals of one lane. `meshes` is the number of mesh periods of sensor signal, 0 for none.
-LaneSignals lane_signals(const TilePlan& plan, const GearboxTile& tile, int lane, int meshes);
+LaneSignals lane_signals(const TilePlan& plan, const GearboxTile& tile, LaneId lane, int meshes);
 // Signals of all requested gearboxes, computed together.
 std::vector<LaneSignals> all_lane_signals(const TilePlan& plan, const GearboxTile& tile,
                                           int meshes);

@@ -29,14 +29,14 @@ struct ChangedMeshes {
 };
 
 // True if mesh period k differs from the healthy one in a lane (lockstep::TileResult).
-bool changes(const lockstep::TileResult& integration, int k, std::size_t lane) {
+bool changes(const lockstep::TileResult& integration, int k, LaneId lane) {
     const int record = integration.content[static_cast<std::size_t>(k)];
     return record != lockstep::kUnchanged &&
            !std::isnan(integration.records[static_cast<std::size_t>(record)].te[lane]);
 }
 
 void clear_failed(HealthySolution::Signals& all) {
-    for (std::size_t lane = 0; lane < all.status.size(); ++lane) {
+    for (LaneId lane{0}; lane < all.status.size(); ++lane) {
         if (all.status[lane] != Status::ok) {
             all.lane[lane] = {};
         }
@@ -87,7 +87,7 @@ HealthySolution::Signals HealthySolution::with_fault(double size) const {
     }
     const GearboxTile changed = run_fault_perturbations(plan_, with_size(size), lanes_, states_);
     Signals all = healthy_;
-    for (std::size_t lane = 0; lane < realizations_.size(); ++lane) {
+    for (LaneId lane{0}; lane < realizations_.size(); ++lane) {
         all.lane[lane].folded.clear();  // the folded squares of the healthy gearbox no longer apply
         if (all.status[lane] == Status::ok) {
             all.status[lane] = changed.status[lane];
@@ -112,7 +112,7 @@ void HealthySolution::change_te(const GearboxTile& changed, std::vector<LaneSign
             continue;
         }
         const auto& now = changed.integration.records[static_cast<std::size_t>(record)].te;
-        for (std::size_t lane = 0; lane < realizations_.size(); ++lane) {
+        for (LaneId lane{0}; lane < realizations_.size(); ++lane) {
             std::vector<double>& turn = lanes[lane].te_turn;
             if (turn.empty() || !changes(changed.integration, static_cast<int>(k), lane)) {
                 continue;
@@ -138,7 +138,7 @@ void HealthySolution::change_sensor(const GearboxTile& changed,
     const auto sensor = signals::synthesize(views_of(plan_.record, changed), span.timeline,
                                             plan_.record.span, plan_.sensors->front().paths.front(),
                                             path_exponents(realizations_, 0), span.meshes);
-    for (std::size_t lane = 0; lane < realizations_.size(); ++lane) {
+    for (LaneId lane{0}; lane < realizations_.size(); ++lane) {
         if (lanes[lane].sensor.empty()) {
             continue;
         }

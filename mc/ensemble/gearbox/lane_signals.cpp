@@ -26,7 +26,7 @@ signals::TileSignals views_of(const RecordPlan& record, const GearboxTile& tile)
     return views;
 }
 
-std::vector<double> recorded_te(const RecordPlan& plan, const GearboxTile& tile, int lane,
+std::vector<double> recorded_te(const RecordPlan& plan, const GearboxTile& tile, LaneId lane,
                                 int first, int meshes, int samples) {
     const auto& content = tile.integration.content;
     const int stride = plan.samples / samples * tile.views.lanes;
@@ -52,8 +52,8 @@ void remove_mean(std::vector<double>& values) {
 namespace {
 
 // Folded signal of a sensor in one lane; empty as in the tile.
-std::vector<double> folded_of(const GearboxTile& tile, std::size_t sensor, int lane) {
-    if (sensor >= tile.folded.size()) {
+std::vector<double> folded_of(const GearboxTile& tile, SensorId sensor, LaneId lane) {
+    if (!(sensor < tile.folded.size())) {
         return {};
     }
     const machine::AlignedVector& all = tile.folded[sensor];
@@ -63,28 +63,28 @@ std::vector<double> folded_of(const GearboxTile& tile, std::size_t sensor, int l
 }
 
 // All signals of a lane except the sensor samples.
-LaneSignals folded_lane(std::size_t sensors, const GearboxTile& tile, int lane) {
+LaneSignals folded_lane(std::size_t sensors, const GearboxTile& tile, LaneId lane) {
     LaneSignals signals;
-    signals.noise = noise_of(tile.realizations[static_cast<std::size_t>(lane)].inputs);
-    signals.folded = folded_of(tile, 0, lane);
+    signals.noise = noise_of(tile.realizations[lane].inputs);
+    signals.folded = folded_of(tile, SensorId{0}, lane);
     signals.te_turn.resize(tile.te_turn.size() / static_cast<std::size_t>(tile.views.lanes));
     signals::copy_lane(tile.te_turn, tile.views.lanes, lane, signals.te_turn);
     signals.additional.resize(sensors - 1);
-    for (std::size_t s = 1; s < sensors; ++s) {
+    for (SensorId s{1}; s < sensors; ++s) {
         signals.additional[s - 1].folded = folded_of(tile, s, lane);
     }
     if (!tile.baseline.empty()) {
         signals.baselines = tile.baseline.size() / tile.status.size();
-        signals.baseline = &tile.baseline[static_cast<std::size_t>(lane) * signals.baselines];
+        signals.baseline = &tile.baseline[lane * signals.baselines];
     }
     for (const auto& stage : tile.coupled) {
-        signals.coupled.push_back(stage[static_cast<std::size_t>(lane)]);
+        signals.coupled.push_back(stage[lane]);
     }
     return signals;
 }
 
 // Transmission error of a lane over the mesh periods of the signals.
-std::vector<double> te_signal(const RecordPlan& plan, const GearboxTile& tile, int lane) {
+std::vector<double> te_signal(const RecordPlan& plan, const GearboxTile& tile, LaneId lane) {
     if (!tile.sensor_recorders.empty()) {
         return tile.sensor_recorders.front().front()->te_signal(lane, plan.signal_meshes);
     }
@@ -121,7 +121,7 @@ class LaneSamples {
     LaneSignals& of_lane(std::size_t i) {
         return sensor_->number == 0 ? lanes_[i] : lanes_[i].additional[sensor_->number - 1];
     }
-    int tile_lane(std::size_t i) const { return static_cast<int>(first_lane_ + i); }
+    LaneId tile_lane(std::size_t i) const { return LaneId{first_lane_ + i}; }
     const InstanceInputs& inputs(std::size_t i) const {
         return tile_.realizations[first_lane_ + i].inputs;
     }
@@ -249,13 +249,13 @@ std::vector<LaneSignals> signals_of_lanes(const TilePlan& plan, const GearboxTil
     const RecordPlan& record = plan.record;
     const std::vector<SensorPlan>& sensors = *plan.sensors;
     std::vector<LaneSignals> lanes;
-    for (std::size_t lane = first; lane < first + count; ++lane) {
-        lanes.push_back(folded_lane(sensors.size(), tile, static_cast<int>(lane)));
+    for (LaneId lane{first}; lane < first + count; ++lane) {
+        lanes.push_back(folded_lane(sensors.size(), tile, lane));
     }
     // Records that are cut from the signals need their transmission error, too.
     if (record.length && meshes == record.sensor_meshes(plan.features.needs.all())) {
         for (std::size_t i = 0; i < count; ++i) {
-            lanes[i].te = te_signal(record, tile, static_cast<int>(first + i));
+            lanes[i].te = te_signal(record, tile, LaneId{first + i});
         }
     }
     if (meshes > 0) {
@@ -271,9 +271,8 @@ std::vector<LaneSignals> signals_of_lanes(const TilePlan& plan, const GearboxTil
 
 }  // namespace
 
-LaneSignals lane_signals(const TilePlan& plan, const GearboxTile& tile, int lane, int meshes) {
-    return std::move(
-        signals_of_lanes(plan, tile, static_cast<std::size_t>(lane), 1, meshes).front());
+LaneSignals lane_signals(const TilePlan& plan, const GearboxTile& tile, LaneId lane, int meshes) {
+    return std::move(signals_of_lanes(plan, tile, lane, 1, meshes).front());
 }
 
 std::vector<LaneSignals> all_lane_signals(const TilePlan& plan, const GearboxTile& tile,

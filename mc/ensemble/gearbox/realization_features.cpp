@@ -172,7 +172,7 @@ HealthyReference HealthyRecordsMean::mean() const {
 namespace {
 
 HealthyReference reference_of(const TilePlan& plan, const SensorPlan& sensor) {
-    const int lanes = plan.solve->settings.lanes;
+    const int lanes = plan.solve->settings.numerics.lanes;
     RealizationSignals records(plan.record, plan.features, sensor,
                                features::SignalSet::of<features::SensorTurn>());
     const std::size_t levels = plan.record.noise_levels.size();
@@ -185,7 +185,7 @@ HealthyReference reference_of(const TilePlan& plan, const SensorPlan& sensor) {
         const GearboxTile tile =
             run_gearboxes(plan, ids, lanes, {.signal_meshes = records.meshes()});
         auto signals = all_lane_signals(plan, tile, records.meshes());
-        for (std::size_t lane = 0; lane < ids.size(); ++lane) {
+        for (LaneId lane{0}; lane < ids.size(); ++lane) {
             machine::throw_if_cancelled();
             if (tile.status[lane] == Status::ok) {
                 const Realization realization = sensor.realization(tile.realizations[lane]);

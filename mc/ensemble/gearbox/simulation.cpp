@@ -55,8 +55,8 @@ void add_motion(const lockstep::IntegrationPlan& plan, const Drivetrain& drivetr
              })});
     }
     const auto pairs = static_cast<std::size_t>(plan.nodes.pairs);
-    for (std::size_t pair = 0; pair < pairs; ++pair) {
-        out.columns.push_back({drivetrain.pair_name(static_cast<int>(pair)) + "_force", "N",
+    for (PairId pair{0}; pair < pairs; ++pair) {
+        out.columns.push_back({drivetrain.pair_name(pair) + "_force", "N",
                                unroll(tile, samples, meshes, [&](const auto& r, auto p) {
                                    return r.mesh_force[(p * pairs + pair) * lanes];
                                })});
@@ -91,7 +91,7 @@ void add_sensor(const RecordPlan& plan, const SensorPlan& sensor, const Realizat
 void add_sensors(const TilePlan& plan, const GearboxTile& tile, const RealizationFeatures& features,
                  std::size_t rows, Simulation& out) {
     const Realization& realization = tile.realizations[0];
-    const LaneSignals all = lane_signals(plan, tile, 0, plan.record.signal_meshes);
+    const LaneSignals all = lane_signals(plan, tile, LaneId{0}, plan.record.signal_meshes);
     add_sensor(plan.record, plan.sensors->front(), realization, all, features, "sensor", rows, out);
     for (LaneSignals& other :
          with_other_fault(plan, std::span(&realization, 1), std::span(&all, 1))) {
@@ -105,8 +105,8 @@ void add_sensors(const TilePlan& plan, const GearboxTile& tile, const Realizatio
         const HealthyReference healthy = healthy_reference(plan, sensor.number);
         RealizationFeatures sensor_features(plan, &healthy, false, sensor.number);
         const Realization here = sensor.realization(realization);
-        SensorSignals signals =
-            signals_of_sensor(sensor, lane_signals(plan, tile, 0, sensor_features.meshes()));
+        SensorSignals signals = signals_of_sensor(
+            sensor, lane_signals(plan, tile, LaneId{0}, sensor_features.meshes()));
         sensor_features.compute(signals.linked(), here);
         add_sensor(plan.record, sensor, here, signals_of_sensor(sensor, all).record,
                    sensor_features, kSensorVariant + sensor.name, rows, out);
@@ -174,8 +174,8 @@ Simulation simulate(const TilePlan& plan, const GearboxId& id, long meshes) {
     for (const features::Feature* feature : plan.features.used) {
         out.feature_names.emplace_back(feature->name);
     }
-    out.features =
-        features.compute(lane_signals(plan, tile, 0, features.meshes()), tile.realizations[0]);
+    out.features = features.compute(lane_signals(plan, tile, LaneId{0}, features.meshes()),
+                                    tile.realizations[0]);
 
     const int samples = plan.record.samples;
     const auto inputs = plan.gearbox->inputs(tile.realizations[0].inputs);
@@ -200,7 +200,7 @@ Simulation simulate(const TilePlan& plan, const GearboxId& id, long meshes) {
     add_motion(plan.solve->integration(), *plan.gearbox->drivetrain, tile, range, out);
     if (!tile.integration.contact_loss.empty()) {
         const auto meshes_of_kind = plan.gearbox->meshes();
-        const auto loss = contact_loss(tile, 0, meshes_of_kind.size());
+        const auto loss = contact_loss(tile, LaneId{0}, meshes_of_kind.size());
         for (std::size_t m = 0; m < loss.size(); ++m) {
             out.contact_loss.push_back({mesh_name(meshes_of_kind[m]), {loss[m]}});
         }

@@ -111,7 +111,7 @@ signals::Tones draw_tones(std::span<const Tone> requested, const GearboxPlan& ge
     }
     const std::size_t lanes = realizations.size();
     tones.phase_rad.resize(requested.size() * lanes);
-    for (std::size_t lane = 0; lane < lanes; ++lane) {
+    for (LaneId lane{0}; lane < lanes; ++lane) {
         tones.mesh_period_s.push_back(
             dynamics::mesh_period_s(gearbox.inputs(realizations[lane].inputs)));
         Philox engine = record_stream(seed, realizations[lane].id, StreamPurpose::tone_phases);
@@ -123,7 +123,7 @@ signals::Tones draw_tones(std::span<const Tone> requested, const GearboxPlan& ge
     for (const Tone& tone : requested) {
         const double turns_per_mesh =
             tone.shaft ? gearbox.drivetrain->shaft_turns_per_mesh(*tone.shaft) : 0.0;
-        for (std::size_t lane = 0; lane < lanes; ++lane) {
+        for (LaneId lane{0}; lane < lanes; ++lane) {
             tones.frequency_Hz.push_back(tone.shaft ? tone.order * turns_per_mesh /
                                                           tones.mesh_period_s[lane]
                                                     : tone.frequency_Hz);
@@ -157,7 +157,7 @@ gears::DeviationScales scales_of(const ToothedBody& body, const InstanceInputs& 
 // Fills one lane of the errors of all flanks.
 class LaneTeeth {
   public:
-    LaneTeeth(std::size_t lane, std::size_t lanes, Normals pitch, Normals waves, Normals slopes,
+    LaneTeeth(LaneId lane, std::size_t lanes, Normals pitch, Normals waves, Normals slopes,
               lockstep::ToothErrors& errors)
         : lane_(lane),
           lanes_(lanes),
@@ -209,7 +209,7 @@ lockstep::ToothErrors draw_tooth_errors(const ToothErrorModel& model, const Draw
         const machine::AlignedVector none(static_cast<std::size_t>(body.teeth) * lanes);
         errors.gears.insert(errors.gears.end(), body.sides.size(), {body.teeth, none, none});
     }
-    for (std::size_t lane = 0; lane < lanes; ++lane) {
+    for (LaneId lane{0}; lane < lanes; ++lane) {
         const auto normals = [&](StreamPurpose purpose) {
             return Normals(draw.seed, realizations[lane].id, purpose);
         };

@@ -37,7 +37,7 @@ class Simulator {
           lengths_(lengths),
           summary_(summary) {}
 
-    int lanes() const { return tile_.solve->settings.lanes; }
+    int lanes() const { return tile_.solve->settings.numerics.lanes; }
 
     // Values [item][background][record][feature]; empty for a gearbox that failed.
     std::vector<RecordValues> run(std::span<const Item> items) const {
@@ -51,9 +51,9 @@ class Simulator {
         const GearboxTile tile = run_realizations(tile_, std::move(realizations), lanes(),
                                                   {.records = lockstep::RecordOptions{}});
         std::vector<RecordValues> values(items.size());
-        for (std::size_t lane = 0; lane < items.size(); ++lane) {
+        for (LaneId lane{0}; lane < items.size(); ++lane) {
             if (tile.status[lane] == Status::ok) {
-                values[lane] = records_of(tile, static_cast<int>(lane), items[lane]);
+                values[lane] = records_of(tile, lane, items[lane]);
             }
         }
         return values;
@@ -64,7 +64,7 @@ class Simulator {
         return {Group::threshold, item.set * lengths_.size() + item.gearbox};
     }
 
-    std::vector<double> synthesize(const GearboxTile& tile, int lane, double exponent,
+    std::vector<double> synthesize(const GearboxTile& tile, LaneId lane, double exponent,
                                    const signals::Tones& tones) const {
         return signals::synthesize(tile.views, lane, tile.integration.content, plan_.record.span,
                                    tile_.sensors->front().paths.front(), exponent, 0,
@@ -72,7 +72,7 @@ class Simulator {
     }
 
     // Records of a gearbox with each background.
-    RecordValues records_of(const GearboxTile& tile, int lane, const Item& item) const {
+    RecordValues records_of(const GearboxTile& tile, LaneId lane, const Item& item) const {
         const GearboxId id = id_of(item);
         RecordValues values;
         std::vector<double> bare, tones;

@@ -11,6 +11,8 @@
 #include <stdexcept>
 #include <string_view>
 
+#include "machine/ids.hpp"
+
 namespace gearpod::dynamics {
 
 // Damping of a mesh, N s/m: factor times the law's shape of its stiffness, plus constant. The shape
@@ -28,7 +30,7 @@ template <int W, class Real = double>
 struct DampingLanes {
     Real factor[W], constant[W];
 
-    void set(int lane, const DampingTerms& terms) {
+    void set(LaneId lane, const DampingTerms& terms) {
         factor[lane] = Real(terms.factor);
         constant[lane] = Real(terms.constant);
     }

@@ -93,7 +93,7 @@ namespace {
 Eigen::MatrixXd mesh_rows(const dynamics::GearboxLayout& layout) {
     Eigen::MatrixXd rows(dynamics::pairs(layout), dynamics::degrees_of_freedom(layout));
     for (int pair = 0; pair < rows.rows(); ++pair) {
-        rows.row(pair) = dynamics::mesh_row(layout, pair).transpose();
+        rows.row(pair) = dynamics::mesh_row(layout, PairId{pair}).transpose();
     }
     return rows;
 }
@@ -239,7 +239,8 @@ ImplicitLanes<W> make_implicit_lanes(const IntegrationPlan& plan, double diagona
         lanes.backlash[l] = dynamics::backlash_m(in);
         lanes.frame_speed[l] = dynamics::frame_speed_rad_s(in);
         for (int pair = 0; pair < lanes.pairs; ++pair) {
-            lanes.mesh_damping[pair].set(l, dynamics::mesh_damping(plan.layout, in, pair));
+            lanes.mesh_damping[pair].set(LaneId{l},
+                                         dynamics::mesh_damping(plan.layout, in, PairId{pair}));
         }
         const dynamics::GearboxMatrices m = without_meshes(plan.layout, in);
         set_constants(lanes, m, l);

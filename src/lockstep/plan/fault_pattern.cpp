@@ -8,8 +8,8 @@ namespace {
 
 // Passage of the tooth pair of `pair` that engages nearest to `due` (mesh periods), shifted into
 // [0, length).
-FaultPassage passage_near(const PairSet& pairs, int pair, double due, int length, int curve) {
-    const double start = pairs.start[static_cast<std::size_t>(pair)];
+FaultPassage passage_near(const PairSet& pairs, PairId pair, double due, int length, int curve) {
+    const double start = pairs.start[pair];
     const long meshes = std::lround(due - start) % length;
     return {pair, start + static_cast<double>(meshes < 0 ? meshes + length : meshes), curve};
 }
@@ -29,7 +29,7 @@ FaultPattern central_gear_pattern(const PairSet& pairs, const PlanetPositions& p
     for (int n = 0; n < planets.planets(); ++n) {
         const double turn = planets.position[static_cast<std::size_t>(n)];
         pattern.passages.push_back(
-            passage_near(pairs, first_pair + n, first + order * turn * teeth, teeth, 0));
+            passage_near(pairs, PairId{first_pair + n}, first + order * turn * teeth, teeth, 0));
     }
     sort_passages(pattern);
     return pattern;
@@ -50,26 +50,26 @@ FaultPattern ring_fault_pattern(const PairSet& pairs, const PlanetPositions& pla
                                 pairs.reversed ? 1 : -1);
 }
 
-FaultPattern planet_fault_pattern(const PairSet& pairs, int planet, PlanetSide side,
+FaultPattern planet_fault_pattern(const PairSet& pairs, PlanetId planet, PlanetSide side,
                                   int planet_teeth) {
-    const int sun_pair = planet, ring_pair = pairs.pairs() / 2 + planet;
+    const PairId with_sun = sun_pair(planet), with_ring = ring_pair(planet, pairs.pairs() / 2);
     FaultPattern pattern;
     pattern.length = planet_teeth;
-    const int first = side == PlanetSide::ring ? ring_pair : sun_pair;
+    const PairId first = side == PlanetSide::ring ? with_ring : with_sun;
     pattern.passages.push_back({first, pairs.start[static_cast<std::size_t>(first)], 0});
     if (side == PlanetSide::both) {
         const double half_turn = 0.5 * (planet_teeth + (pairs.reversed ? 1 : -1));
-        const double pitch = pairs.pitch_phase(sun_pair) + half_turn;
+        const double pitch = pairs.pitch_phase(with_sun) + half_turn;
         const double since =
-            pairs.pitch_phase(ring_pair) - pairs.start[static_cast<std::size_t>(ring_pair)];
-        pattern.passages.push_back(passage_near(pairs, ring_pair, pitch - since, planet_teeth, 1));
+            pairs.pitch_phase(with_ring) - pairs.start[with_ring];
+        pattern.passages.push_back(passage_near(pairs, with_ring, pitch - since, planet_teeth, 1));
     }
     sort_passages(pattern);
     return pattern;
 }
 
 FaultPattern shaft_fault_pattern(const PairSet& pairs, int teeth) {
-    return {teeth, {{0, pairs.start[0], 0}}};
+    return {teeth, {{PairId{0}, pairs.start[0], 0}}};
 }
 
 }  // namespace gearpod::lockstep

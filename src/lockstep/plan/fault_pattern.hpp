@@ -7,13 +7,14 @@
 #include <vector>
 
 #include "lockstep/plan/stiffness_nodes.hpp"
+#include "machine/ids.hpp"
 
 namespace gearpod::lockstep {
 
 // One engagement of the faulty tooth in the pattern. From phase `start` (mesh periods), `pair` has
 // the stiffness of the lane's curve `curve` instead of the healthy one.
 struct FaultPassage {
-    int pair = 0;
+    PairId pair;
     double start = 0.0;
     int curve = 0;
 };
@@ -45,7 +46,7 @@ FaultPattern ring_fault_pattern(const PairSet& pairs, const PlanetPositions& pla
 // ring. In the reversed sense it is (Z_p + 1) / 2. Curve 0 belongs to the sun side if it is
 // included; the ring side then has curve 1. `planet` is 0 to N - 1.
 enum class PlanetSide { sun, ring, both };
-FaultPattern planet_fault_pattern(const PairSet& pairs, int planet, PlanetSide side,
+FaultPattern planet_fault_pattern(const PairSet& pairs, PlanetId planet, PlanetSide side,
                                   int planet_teeth);
 
 // Pattern of a tooth of a fixed-shaft gear, which meets the mating gear once per revolution. It

@@ -8,10 +8,9 @@
 
 namespace gearpod::lockstep {
 
-bool FaultCurves::faulty(int lane) const {
-    return std::any_of(curve.begin(), curve.end(), [&](const auto& lanes) {
-        return lanes[static_cast<std::size_t>(lane)] != nullptr;
-    });
+bool FaultCurves::faulty(LaneId lane) const {
+    return std::any_of(curve.begin(), curve.end(),
+                       [&](const auto& lanes) { return lanes[lane] != nullptr; });
 }
 
 FaultSchedule::FaultSchedule(const IntegrationPlan& plan, const FaultCurves& faults,
@@ -98,7 +97,7 @@ PairOverride FaultSchedule::make_override(const FaultPassage& passage, int k, do
     o.tooth_stiffness.resize(count * slots * lanes);
     for (std::size_t l = 0; l < lanes; ++l) {
         if (!curves[l]) {
-            copy_healthy(l, lanes, o);
+            copy_healthy(LaneId{l}, lanes, o);
             continue;
         }
         const stiffness::MeshStiffness& healthy = faults_.pairs->curve(passage.pair);
@@ -123,15 +122,14 @@ PairOverride FaultSchedule::make_override(const FaultPassage& passage, int k, do
 }
 
 // Copies the plan's healthy values into a lane without a fault.
-void FaultSchedule::copy_healthy(std::size_t lane, std::size_t lanes, PairOverride& o) const {
+void FaultSchedule::copy_healthy(LaneId lane, std::size_t lanes, PairOverride& o) const {
     const StiffnessNodes& nodes = plan_.nodes;
     const auto pairs = static_cast<std::size_t>(nodes.pairs);
     const std::size_t first =
         static_cast<std::size_t>(o.first_step) * plan_.grid.stage_nodes.size();
     const auto copy = [&](const std::vector<double>& from, std::size_t slots, auto& to) {
         for (std::size_t i = 0; i < to.size() / lanes; ++i) {
-            to[i * lanes + lane] =
-                from[(first * slots + i) * pairs + static_cast<std::size_t>(o.pair)];
+            to[i * lanes + lane] = from[(first * slots + i) * pairs + o.pair];
         }
     };
     copy(nodes.stiffness, 1, o.stiffness);

@@ -10,6 +10,7 @@
 #include "lockstep/plan/fault_pattern.hpp"
 #include "lockstep/plan/integration_plan.hpp"
 #include "lockstep/plan/tooth_pairs.hpp"
+#include "machine/ids.hpp"
 #include "stiffness/mesh_stiffness.hpp"
 
 namespace gearpod::lockstep {
@@ -25,7 +26,7 @@ struct FaultCurves {
     // MeshOverrides::wear of every mesh period.
     machine::AlignedVector wear = {};
 
-    bool faulty(int lane) const;
+    bool faulty(LaneId lane) const;
 };
 
 // Maps mesh periods to stiffness overrides and gaps. Keeps references: the arguments must outlive
@@ -61,7 +62,7 @@ class FaultSchedule {
         return duration_[static_cast<std::size_t>(passage.curve)];
     }
     PairOverride make_override(const FaultPassage& passage, int k, double start) const;
-    void copy_healthy(std::size_t lane, std::size_t lanes, PairOverride& o) const;
+    void copy_healthy(LaneId lane, std::size_t lanes, PairOverride& o) const;
 
     const IntegrationPlan& plan_;
     const FaultCurves& faults_;

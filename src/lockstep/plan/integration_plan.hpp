@@ -8,6 +8,7 @@
 #include "lockstep/plan/mode_inertia.hpp"
 #include "lockstep/plan/phase_grid.hpp"
 #include "lockstep/plan/stiffness_nodes.hpp"
+#include "machine/ids.hpp"
 #include "machine/lanes.hpp"
 
 namespace gearpod::lockstep {
@@ -50,7 +51,7 @@ struct MeshRecord {
 
 // Stiffness of a gear pair that differs between lanes, during some steps of a mesh period.
 struct PairOverride {
-    int pair = 0;
+    PairId pair;
     int first_step = 0;
     int last_step = 0;                     // one past the last
     machine::AlignedVector stiffness;      // [step - first_step][stage node][lane], N/m
@@ -64,7 +65,7 @@ struct PairOverride {
 // in the middle of the engagement, and its growth along the engagement (times
 // StiffnessNodes::tooth_position).
 struct PairGaps {
-    int pair = 0;
+    PairId pair;
     int first_step = 0;
     int last_step = 0;  // one past the last
     machine::AlignedVector gap, growth;

@@ -86,15 +86,14 @@ PairTotals pair_totals(const stiffness::MeshStiffness& healthy, const Mesh& mesh
 
 }  // namespace
 
-double PairSet::pitch_phase(int pair) const {
+double PairSet::pitch_phase(PairId pair) const {
     const auto& m = curve(pair);
-    return start[static_cast<std::size_t>(pair)] +
-           (reversed ? m.contact_ratio() - m.pitch_position() : m.pitch_position());
+    return start[pair] + (reversed ? m.contact_ratio() - m.pitch_position() : m.pitch_position());
 }
 
-double PairSet::total(int pair, double phase) const {
+double PairSet::total(PairId pair, double phase) const {
     const auto& m = curve(pair);
-    const double since = phase - start[static_cast<std::size_t>(pair)];
+    const double since = phase - start[pair];
     return reversed ? total_at(m, m.contact_ratio() - since, stiffness::Limit::from_below)
                     : total_at(m, since, stiffness::Limit::from_above);
 }
@@ -105,7 +104,7 @@ double phase_in_period(double phase) {
 
 std::vector<double> contact_transitions(const PairSet& pairs) {
     std::vector<double> phases;
-    for (int i = 0; i < pairs.pairs(); ++i) {
+    for (PairId i{0}; i < pairs.pairs(); ++i) {
         const auto& mesh = pairs.curve(i);
         const double start = pairs.start[static_cast<std::size_t>(i)];
         for (const double transition : mesh.transitions()) {
@@ -159,7 +158,7 @@ StiffnessNodes tabulate(const PairSet& pairs, const PhaseGrid& grid,
     const auto count = static_cast<std::size_t>(nodes.pairs);
     nodes.stiffness.resize(grid.steps.size() * grid.stage_nodes.size() * count);
     nodes.damping_shape.resize(nodes.stiffness.size());
-    for (std::size_t pair = 0; pair < count; ++pair) {
+    for (PairId pair{0}; pair < count; ++pair) {
         // Positions count from an engagement that starts before the mesh period.
         const StepPositions steps = overlapping_steps(grid, 0.0, pairs.start[pair] - 1.0, kForever);
         const PairTotals totals = healthy_totals(*pairs.mesh[pair], pairs.reversed, steps);
@@ -194,9 +193,9 @@ void add_errors(const PairSet& pairs, const PhaseGrid& grid, std::span<const Mes
     for (const Step& step : grid.steps) {
         for (const double node : grid.stage_nodes) {
             const double phase = step.phase + node * step.length;
-            for (int pair = 0; pair < nodes.pairs; ++pair, ++index) {
-                const ErrorValue value = error_at(errors[static_cast<std::size_t>(pair)],
-                                                  sense * (phase - pairs.pitch_phase(pair)));
+            for (PairId pair{0}; pair < nodes.pairs; ++pair, ++index) {
+                const ErrorValue value =
+                    error_at(errors[pair], sense * (phase - pairs.pitch_phase(pair)));
                 nodes.error[index] += value.error;
                 nodes.error_rate[index] += sense * value.rate;
             }

@@ -7,6 +7,7 @@
 
 #include "dynamics/effects/mesh_damping.hpp"
 #include "lockstep/plan/phase_grid.hpp"
+#include "machine/ids.hpp"
 
 namespace gearpod::stiffness {
 class FaultyMesh;  // defined in stiffness/mesh_stiffness.hpp, which kernels do not include
@@ -27,14 +28,12 @@ struct PairSet {
     bool reversed = false;
 
     int pairs() const { return static_cast<int>(start.size()); }
-    const stiffness::MeshStiffness& curve(int pair) const {
-        return *mesh[static_cast<std::size_t>(pair)];
-    }
+    const stiffness::MeshStiffness& curve(PairId pair) const { return *mesh[pair]; }
     // Phase at which the tooth pair that engages at start[pair] passes its pitch point.
-    double pitch_phase(int pair) const;
+    double pitch_phase(PairId pair) const;
     // Total stiffness of a healthy pair at a phase (mesh periods since sp1 was at its pitch point).
     // At a transition, the limit from later phases.
-    double total(int pair, double phase) const;
+    double total(PairId pair, double phase) const;
 };
 
 // Fractional part of a phase, in [0, 1).
@@ -46,7 +45,7 @@ std::vector<double> contact_transitions(const PairSet& pairs);
 // Steps in which the same tooth pairs of a gear pair are engaged. A tooth pair that starts to
 // engage in the current mesh period has age 0, the previous one age 1, and so on.
 struct ToothEngagement {
-    int pair = 0;
+    PairId pair;
     int first_step = 0;
     int last_step = 0;  // one past the last
     int youngest = 0;   // age of the youngest tooth pair; each further one is a mesh period older

@@ -17,13 +17,14 @@ namespace {
 
 // Position on the path of contact in the mesh's own sense, from the time since the engagement
 // began.
-double position_of(const PairSet& pairs, int pair, double since) {
+double position_of(const PairSet& pairs, PairId pair, double since) {
     return pairs.reversed ? pairs.curve(pair).contact_ratio() - since : since;
 }
 
 // Stiffness of one slice of a tooth pair at time `since` after its engagement began, N/m; `inside`
 // is a time within the same stretch between transitions.
-double contact_stiffness(const PairSet& pairs, int pair, int slice, double since, double inside) {
+double contact_stiffness(const PairSet& pairs, PairId pair, int slice, double since,
+                         double inside) {
     const stiffness::MeshStiffness& mesh = pairs.curve(pair);
     const double middle = position_of(pairs, pair, inside);
     const auto stretch = stiffness::stretch_around(mesh.transitions(), {}, middle);
@@ -35,8 +36,8 @@ double contact_stiffness(const PairSet& pairs, int pair, int slice, double since
 
 }  // namespace
 
-EngagedTeeth engaged_teeth(const PairSet& pairs, int pair, double phase) {
-    const double since = phase - pairs.start[static_cast<std::size_t>(pair)];
+EngagedTeeth engaged_teeth(const PairSet& pairs, PairId pair, double phase) {
+    const double since = phase - pairs.start[pair];
     const int youngest = static_cast<int>(std::floor(-since)) + 1;
     const double left = pairs.curve(pair).contact_ratio() - (since + youngest);
     return {youngest, static_cast<int>(std::ceil(left))};
@@ -46,13 +47,13 @@ namespace {
 
 // Fills the springs of one pair at one stage node; `first` is the index of the first in the tables,
 // `worn` is true if the pair's flanks wear.
-void fill_node(const PairSet& pairs, int pair, double phase, double middle, std::size_t first,
+void fill_node(const PairSet& pairs, PairId pair, double phase, double middle, std::size_t first,
                bool worn, StiffnessNodes& nodes) {
     const stiffness::MeshStiffness& mesh = pairs.curve(pair);
     const EngagedTeeth teeth = engaged_teeth(pairs, pair, middle);
     const auto count = static_cast<std::size_t>(nodes.pairs);
     for (int j = 0; j < teeth.count; ++j) {
-        const double engaged = pairs.start[static_cast<std::size_t>(pair)] - teeth.youngest - j;
+        const double engaged = pairs.start[pair] - teeth.youngest - j;
         const double since = phase - engaged;
         const double tau = position_of(pairs, pair, since);
         for (int slice = 0; slice < mesh.slices(); ++slice) {
@@ -80,10 +81,10 @@ void fill_contacts(const PairSet& pairs, const PhaseGrid& grid, const std::vecto
     for (const Step& step : grid.steps) {
         const double middle = step.phase + 0.5 * step.length;
         for (const double part : grid.stage_nodes) {
-            for (int pair = 0; pair < nodes.pairs; ++pair) {
+            for (PairId pair{0}; pair < nodes.pairs; ++pair) {
                 fill_node(pairs, pair, step.phase + part * step.length, middle,
-                          index * contacts * count + static_cast<std::size_t>(pair),
-                          std::ranges::count(worn, pair) > 0, nodes);
+                          index * contacts * count + pair, std::ranges::count(worn, pair) > 0,
+                          nodes);
             }
             ++index;
         }
@@ -94,7 +95,7 @@ void fill_contacts(const PairSet& pairs, const PhaseGrid& grid, const std::vecto
 
 void add_tooth_pairs(const PairSet& pairs, const PhaseGrid& grid, StiffnessNodes& nodes,
                      const std::vector<int>& worn) {
-    for (int pair = 0; pair < nodes.pairs; ++pair) {
+    for (PairId pair{0}; pair < nodes.pairs; ++pair) {
         for (int i = 0; const Step& step : grid.steps) {
             const auto [youngest, count] =
                 engaged_teeth(pairs, pair, step.phase + 0.5 * step.length);
@@ -113,7 +114,7 @@ void add_tooth_pairs(const PairSet& pairs, const PhaseGrid& grid, StiffnessNodes
     }
     nodes.slices = 1;
     bool gaps = false;
-    for (int pair = 0; pair < nodes.pairs; ++pair) {
+    for (PairId pair{0}; pair < nodes.pairs; ++pair) {
         nodes.slices = std::max(nodes.slices, pairs.curve(pair).slices());
         gaps = gaps || pairs.curve(pair).has_gaps();
     }
@@ -141,7 +142,7 @@ std::vector<double> faulty_tooth_pairs(const PairSet& pairs, const stiffness::Fa
     const int last = static_cast<int>(std::lround(faulty.duration() - mesh.contact_ratio()));
     const std::size_t nodes = steps.middle.empty() ? 0 : steps.node.size() / steps.middle.size();
     const auto contacts = static_cast<std::size_t>(tooth_pairs * slices);
-    const double begun = pairs.start[static_cast<std::size_t>(passage.pair)];
+    const double begun = pairs.start[passage.pair];
     std::vector<double> all(steps.node.size() * contacts, 0.0), tau(nodes), slice_values(nodes);
     for (std::size_t step = 0; step < steps.middle.size(); ++step) {
         const auto position = [&](double since) {
@@ -186,9 +187,9 @@ struct ToothPairGap {
     double gap = 0.0, growth = 0.0;
 };
 
-ToothPairGap tooth_pair_gap(const ToothErrors& errors, int pair, int k, std::size_t lane,
+ToothPairGap tooth_pair_gap(const ToothErrors& errors, PairId pair, int k, LaneId lane,
                             std::size_t width) {
-    const PairTeeth& teeth = errors.pairs[static_cast<std::size_t>(pair)];
+    const PairTeeth& teeth = errors.pairs[pair];
     ToothPairGap sum;
     for (const int side : {0, 1}) {
         const GearErrors& gear = errors.gears[static_cast<std::size_t>(teeth.gear[side])];
@@ -209,14 +210,14 @@ ToothPairGap tooth_pair_gap(const ToothErrors& errors, int pair, int k, std::siz
 std::vector<PairTeeth> planetary_teeth(const PairSet& pairs, const gears::PlanetaryTrain& train,
                                        gears::PlanetSense sense) {
     std::vector<PairTeeth> teeth;
-    for (int pair = 0; pair < pairs.pairs(); ++pair) {
-        const int n = pair % train.planets;
+    for (PairId pair{0}; pair < pairs.pairs(); ++pair) {
+        const PlanetId n = planet_of(pair, train.planets);
         const bool with_sun = pair == n;
         const double delay = with_sun ? gears::sun_tooth_delay(train, n, sense)
                                       : gears::ring_tooth_delay(train, n, sense);
         // Delay of the tooth's engagement with this planet after its engagement with planet 1.
         const double engages = pairs.start[static_cast<std::size_t>(pair - n)] + delay;
-        const double first = engages - pairs.start[static_cast<std::size_t>(pair)];
+        const double first = engages - pairs.start[pair];
         teeth.push_back({{with_sun ? 0 : 1, 2 + 2 * n + (with_sun ? 0 : 1)},
                          {static_cast<int>(std::lround(first)), 0},
                          with_sun ? 0 : 1});
@@ -237,8 +238,9 @@ std::vector<PairGaps> tooth_gaps(const IntegrationPlan& plan, const ToothErrors&
                    machine::AlignedVector(slots * width), machine::AlignedVector(slots * width)};
         for (std::size_t j = 0; j < slots; ++j) {
             for (std::size_t l = 0; l < width; ++l) {
-                const ToothPairGap gap = tooth_pair_gap(
-                    errors, engaged.pair, k - engaged.youngest - static_cast<int>(j), l, width);
+                const ToothPairGap gap =
+                    tooth_pair_gap(errors, engaged.pair, k - engaged.youngest - static_cast<int>(j),
+                                   LaneId{l}, width);
                 g.gap[j * width + l] = gap.gap;
                 g.growth[j * width + l] = gap.growth;
             }
@@ -248,7 +250,7 @@ std::vector<PairGaps> tooth_gaps(const IntegrationPlan& plan, const ToothErrors&
     return all;
 }
 
-const PairGaps* gaps_of_pair(std::span<const PairGaps> gaps, int pair, int step) {
+const PairGaps* gaps_of_pair(std::span<const PairGaps> gaps, PairId pair, int step) {
     for (const PairGaps& g : gaps) {
         if (g.pair == pair && g.first_step <= step && step < g.last_step) {
             return &g;
@@ -257,14 +259,15 @@ const PairGaps* gaps_of_pair(std::span<const PairGaps> gaps, int pair, int step)
     return nullptr;
 }
 
-std::size_t tooth_pair_at(const IntegrationPlan& plan, int step, int node, int contact, int pair) {
+std::size_t tooth_pair_at(const IntegrationPlan& plan, int step, int node, int contact,
+                          PairId pair) {
     const auto nodes = static_cast<int>(plan.grid.stage_nodes.size());
     return static_cast<std::size_t>(
         ((step * nodes + node) * plan.nodes.contacts() + contact) * plan.nodes.pairs + pair);
 }
 
-double tooth_gap(const IntegrationPlan& plan, std::span<const PairGaps> gaps, int pair, int step,
-                 int node, int contact, int lane, double wear) {
+double tooth_gap(const IntegrationPlan& plan, std::span<const PairGaps> gaps, PairId pair, int step,
+                 int node, int contact, LaneId lane, double wear) {
     const std::size_t index = tooth_pair_at(plan, step, node, contact, pair);
     const auto worn = [&](double gap) {
         return plan.nodes.tooth_wear.empty() ? gap
@@ -277,7 +280,7 @@ double tooth_gap(const IntegrationPlan& plan, std::span<const PairGaps> gaps, in
     }
     const auto teeth = static_cast<std::size_t>(plan.nodes.tooth_pairs);
     const auto tooth = static_cast<std::size_t>(contact / plan.nodes.slices);
-    const auto i = tooth * (pair_gaps->gap.size() / teeth) + static_cast<std::size_t>(lane);
+    const auto i = tooth * (pair_gaps->gap.size() / teeth) + lane;
     return worn(
         std::fma(plan.nodes.tooth_position[index], pair_gaps->growth[i], pair_gaps->gap[i]) +
         shared);

@@ -8,6 +8,7 @@
 #include "gears/planetary.hpp"
 #include "lockstep/plan/integration_plan.hpp"
 #include "lockstep/plan/stiffness_nodes.hpp"
+#include "machine/ids.hpp"
 
 namespace gearpod::lockstep {
 
@@ -17,7 +18,7 @@ struct EngagedTeeth {
     int youngest = 0;  // age of the youngest
     int count = 0;     // each further one is a mesh period older
 };
-EngagedTeeth engaged_teeth(const PairSet& pairs, int pair, double phase);
+EngagedTeeth engaged_teeth(const PairSet& pairs, PairId pair, double phase);
 
 // Adds the springs of the tooth pairs to a table. `worn` lists the pairs whose flanks wear; their
 // meshes give the shape (MeshStiffness::slice_wear). Throws std::invalid_argument if more than
@@ -28,7 +29,7 @@ void add_tooth_pairs(const PairSet& pairs, const PhaseGrid& grid, StiffnessNodes
 // Passage of a fault through a pair. `start` is the phase at which its first faulty tooth starts to
 // engage, in mesh periods from the same origin as mesh period `mesh`.
 struct Passage {
-    int pair = 0;
+    PairId pair;
     int mesh = 0;  // index of the mesh period
     double start = 0.0;
 };
@@ -82,15 +83,16 @@ std::vector<PairTeeth> fixed_shaft_teeth();
 std::vector<PairGaps> tooth_gaps(const IntegrationPlan& plan, const ToothErrors& errors, int k);
 
 // Gaps of a pair in a step; null if it has none.
-const PairGaps* gaps_of_pair(std::span<const PairGaps> gaps, int pair, int step);
+const PairGaps* gaps_of_pair(std::span<const PairGaps> gaps, PairId pair, int step);
 
 // Index of one spring of a pair in the tables of StiffnessNodes; contact = tooth pair * slices +
 // slice.
-std::size_t tooth_pair_at(const IntegrationPlan& plan, int step, int node, int contact, int pair);
+std::size_t tooth_pair_at(const IntegrationPlan& plan, int step, int node, int contact,
+                          PairId pair);
 
 // Total gap of that spring at a stage node, m: tooth errors, relief, corner contact, and wear of
 // the given depth, m.
-double tooth_gap(const IntegrationPlan& plan, std::span<const PairGaps> gaps, int pair, int step,
-                 int node, int contact, int lane, double wear = 0.0);
+double tooth_gap(const IntegrationPlan& plan, std::span<const PairGaps> gaps, PairId pair, int step,
+                 int node, int contact, LaneId lane, double wear = 0.0);
 
 }  // namespace gearpod::lockstep

@@ -159,14 +159,14 @@ struct Squares {
     double deviation = 0.0, size = 0.0;
 };
 Squares squares(const machine::AlignedVector& values, const machine::AlignedVector& other,
-                std::size_t lane, bool about_mean) {
+                LaneId lane, bool about_mean) {
     double mean = 0.0;
     const double count = static_cast<double>(values.size() / kLanes);
-    for (std::size_t i = lane; about_mean && i < values.size(); i += kLanes) {
+    for (auto i = static_cast<std::size_t>(lane); about_mean && i < values.size(); i += kLanes) {
         mean += values[i] / count;
     }
     Squares s;
-    for (std::size_t i = lane; i < values.size(); i += kLanes) {
+    for (auto i = static_cast<std::size_t>(lane); i < values.size(); i += kLanes) {
         s.deviation += (values[i] - other[i]) * (values[i] - other[i]);
         s.size += (values[i] - mean) * (values[i] - mean);
     }
@@ -180,7 +180,7 @@ double relative(const Squares& s) {
 // Relative rms difference of the worst lane; NaN counts as infinite.
 double difference(const std::vector<MeshRecord>& a, const std::vector<MeshRecord>& b) {
     double worst = 0.0;
-    for (std::size_t lane = 0; lane < kLanes; ++lane) {
+    for (LaneId lane{0}; lane < kLanes; ++lane) {
         Squares sensor, te;
         for (std::size_t r = 0; r < a.size(); ++r) {
             const Squares x = squares(a[r].acceleration, b[r].acceleration, lane, false);

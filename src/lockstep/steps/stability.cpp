@@ -201,7 +201,7 @@ double velocity_scale(const dynamics::GearboxMatrices& m) {
 TileState unit_states(Eigen::Index n, int channels, int first, double rate) {
     const auto degrees = static_cast<std::size_t>(n);
     TileState state = zero_state(degrees, channels, kUnitMotions);
-    for (std::size_t lane = 0; lane < kUnitMotions; ++lane) {
+    for (LaneId lane{0}; lane < kUnitMotions; ++lane) {
         const std::size_t unit = static_cast<std::size_t>(first) + lane;
         if (unit >= 1 && unit <= degrees) {
             state.q[(unit - 1) * kUnitMotions + lane] = 1.0 / rate;
@@ -223,7 +223,7 @@ Eigen::MatrixXd mesh_period_map(const IntegrationPlan& plan, const dynamics::Gea
     for (int first = 0; first < ends.cols(); first += kUnitMotions) {
         TileState state = unit_states(n, plan.channels(), first, rate);
         (*mesh_integrator)({}, state, record);
-        for (int lane = 0; lane < kUnitMotions && first + lane < ends.cols(); ++lane) {
+        for (LaneId lane{0}; lane < kUnitMotions && first + lane < ends.cols(); ++lane) {
             for (Eigen::Index d = 0; d < n; ++d) {
                 const auto index = static_cast<std::size_t>(d * kUnitMotions + lane);
                 ends(d, first + lane) = rate * state.q[index];
@@ -244,7 +244,7 @@ std::vector<double> mean_stiffness(const IntegrationPlan& plan) {
     for (const Step& step : plan.grid.steps) {
         const double share = step.length / static_cast<double>(nodes);
         for (std::size_t node = 0; node < nodes; ++node, stiffness += pairs) {
-            for (std::size_t pair = 0; pair < pairs; ++pair) {
+            for (PairId pair{0}; pair < pairs; ++pair) {
                 mean[pair] += share * stiffness[pair];
             }
         }

@@ -55,7 +55,7 @@ class StageTile : SpanTile<W> {
         const double* q = this->state_.q.data() + end.degree * W;
         const double* v = this->state_.v.data() + end.degree * W;
         const double* previous = previous_m_s_.data() + shaft * W;
-        for (std::size_t l = 0; l < W; ++l) {
+        for (LaneId l{0}; l < W; ++l) {
             motion.turn[l] = end.turn_per_m * (q[l] + ahead * mesh_period_s_[l] * v[l]);
             motion.rate[l] = end.turn_per_m * (v[l] + part * (v[l] - previous[l]));
         }
@@ -63,19 +63,15 @@ class StageTile : SpanTile<W> {
     }
 
     // Common rotation of all stages. A stage's part in it is `part` times its own free rotation.
-    double inertia_kg(std::size_t lane) const { return this->rotation_.inertia_kg(lane); }
-    double rotation_m(std::size_t lane) const {
-        return this->rotation_.amount(this->state_.q, lane);
-    }
-    double rotation_m_s(std::size_t lane) const {
-        return this->rotation_.amount(this->state_.v, lane);
-    }
+    double inertia_kg(LaneId lane) const { return this->rotation_.inertia_kg(lane); }
+    double rotation_m(LaneId lane) const { return this->rotation_.amount(this->state_.q, lane); }
+    double rotation_m_s(LaneId lane) const { return this->rotation_.amount(this->state_.v, lane); }
     // Rotation of a shaft's end per unit of the free rotation, rad/m.
     double turn_of(std::size_t shaft) const {
         return shafts_[shaft].turn_per_m * this->rotation_.at(shafts_[shaft].degree);
     }
     // Subtracts rotation of a lane: `position_m` at the time of `first`, and `speed_m_s`.
-    void subtract_rotation(double position_m, double speed_m_s, std::size_t lane,
+    void subtract_rotation(double position_m, double speed_m_s, LaneId lane,
                            const StageTile& first) {
         const double later = (time_at(position_phase()) - first.time_at(first.position_phase())) *
                              first.mesh_period_s_[lane];
@@ -198,7 +194,7 @@ class CommonRotation {
     }
 
     void remove(std::span<StageTile<W>* const> stages) const {
-        for (std::size_t l = 0; l < W; ++l) {
+        for (LaneId l{0}; l < W; ++l) {
             double inertia = 0.0, position = 0.0, speed = 0.0;
             for (std::size_t s = 0; s < stages.size(); ++s) {
                 const double weight = part_[s] * stages[s]->inertia_kg(l);
@@ -225,7 +221,7 @@ class ShaftTorque {
                 std::span<StageTile<W>* const> stages, double start)
         : shaft_(shaft), column_{column[0], column[1]} {
         const EndMotion<W> a = motion(0, stages, start), b = motion(1, stages, start);
-        for (std::size_t l = 0; l < W; ++l) {
+        for (LaneId l{0}; l < W; ++l) {
             twist_[l] = a.turn[l] - b.turn[l];
         }
     }
@@ -239,7 +235,7 @@ class ShaftTorque {
         const double time = stages[stage]->next(), sign = side == 0 ? -1.0 : 1.0;
         const EndMotion<W> a = motion(0, stages, time), b = motion(1, stages, time);
         double* torque = stages[stage]->torques().data() + column_[side] * W;
-        for (std::size_t l = 0; l < W; ++l) {
+        for (LaneId l{0}; l < W; ++l) {
             const double twist = a.turn[l] - b.turn[l] - twist_[l];
             torque[l] = sign * (shaft_.stiffness_N_m_rad[l] * twist +
                                 shaft_.damping_N_m_s_rad[l] * (a.rate[l] - b.rate[l]));

@@ -84,10 +84,10 @@ class PeriodicTile : IntegratedTile<W> {
                                 const std::array<bool, W>& finished) {
         const MeshOverrides overrides = schedule_.pattern_overrides(k);
         bool any = false;
-        for (int l = 0; l < W; ++l) {
-            auto& q = unperturbed[static_cast<std::size_t>(l)];
+        for (LaneId l{0}; l < W; ++l) {
+            auto& q = unperturbed[l];
             q = q && (overrides.faults.empty() || !faulty(l));
-            any = any || (!q && !finished[static_cast<std::size_t>(l)]);
+            any = any || (!q && !finished[l]);
         }
         if (!any) {
             return;
@@ -103,9 +103,9 @@ class PeriodicTile : IntegratedTile<W> {
         std::ranges::transform(unperturbed, finished, perturbed.begin(),
                                [](bool still, bool done) { return !still && !done; });
         copy_lanes<W>(record, result_.records[static_cast<std::size_t>(id)], perturbed);
-        for (int l = 0; l < W; ++l) {
-            auto& q = unperturbed[static_cast<std::size_t>(l)];
-            if (q || finished[static_cast<std::size_t>(l)]) {
+        for (LaneId l{0}; l < W; ++l) {
+            auto& q = unperturbed[l];
+            if (q || finished[l]) {
                 continue;
             }
             if (diverged(l)) {
@@ -127,9 +127,9 @@ class PeriodicTile : IntegratedTile<W> {
         result_.content.assign(static_cast<std::size_t>(length), 0);
         std::array<bool, W> unperturbed;
         std::array<bool, W> finished;
-        for (int l = 0; l < W; ++l) {
-            unperturbed[static_cast<std::size_t>(l)] = true;
-            finished[static_cast<std::size_t>(l)] = !faulty(l);
+        for (LaneId l{0}; l < W; ++l) {
+            unperturbed[l] = true;
+            finished[l] = !faulty(l);
         }
         const int passes = 1 + (convergence_.max_meshes + length - 1) / length;
         for (int pass = 0; pass < passes; ++pass) {
@@ -138,9 +138,9 @@ class PeriodicTile : IntegratedTile<W> {
                 integrate_pattern_mesh(k, unperturbed, finished);
             }
             bool any_pending = false;
-            for (int l = 0; l < W; ++l) {
-                auto& done = finished[static_cast<std::size_t>(l)];
-                done = done || unperturbed[static_cast<std::size_t>(l)] ||
+            for (LaneId l{0}; l < W; ++l) {
+                auto& done = finished[l];
+                done = done || unperturbed[l] ||
                        distance(state_, before, result_.records[0], l) <= convergence_.tolerance;
                 any_pending = any_pending || !done;
             }
@@ -193,10 +193,10 @@ class PerturbedTile : IntegratedTile<W> {
             copy_lanes<W>(healthy_.before(k), state_, unperturbed);
             MeshRecord& record = k >= 0 ? add_record(k) : scratch;
             integrate_mesh(k, schedule_.all_overrides(k), record);
-            for (std::size_t l = 0; l < W; ++l) {
+            for (LaneId l{0}; l < W; ++l) {
                 if (!perturbed[l]) {
-                    fill_lane<W>(record.acceleration, static_cast<int>(l), NAN);
-                    fill_lane<W>(record.te, static_cast<int>(l), NAN);
+                    fill_lane<W>(record.acceleration, l, NAN);
+                    fill_lane<W>(record.te, l, NAN);
                 }
             }
             end_perturbation(k, healthy_.before(k + 1), record, perturbed);

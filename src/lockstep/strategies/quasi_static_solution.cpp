@@ -137,7 +137,7 @@ class QuasiStaticTile {
                         .tooth_position[first + j * pairs + static_cast<std::size_t>(g.pair)];
                 double* const row = tooth_row(state_.tooth_e, j, g.pair);
                 const std::size_t first_lane = j / slices * W;
-                for (std::size_t l = 0; l < W; ++l) {
+                for (LaneId l{0}; l < W; ++l) {
                     row[l] = std::fma(position, g.growth[first_lane + l], g.gap[first_lane + l]) +
                              row[l];
                 }
@@ -151,10 +151,8 @@ class QuasiStaticTile {
 
     // Row of one spring in [contact][pair][lane].
     template <class Rows>
-    double* tooth_row(Rows& rows, std::size_t slot, int pair) const {
-        return rows.data() + (slot * static_cast<std::size_t>(plan_.nodes.pairs) +
-                              static_cast<std::size_t>(pair)) *
-                                 W;
+    double* tooth_row(Rows& rows, std::size_t slot, PairId pair) const {
+        return rows.data() + (slot * static_cast<std::size_t>(plan_.nodes.pairs) + pair) * W;
     }
 
     void set_up_excitation(const VaryingForces& forces,
@@ -163,7 +161,7 @@ class QuasiStaticTile {
         forces_ = make_excitation_forces<W>(plan_, excitation_, inputs, false);
         rows_ = std::make_unique<ExcitationRows>(plan_, excitation_, inputs);
         forces_.rows = rows_->rows().data();
-        for (std::size_t l = 0; l < W; ++l) {
+        for (LaneId l{0}; l < W; ++l) {
             for (int e = 0; e < forces_.first[forces_.columns]; ++e) {
                 lanes_.force_size[l] =
                     std::max(lanes_.force_size[l], std::abs(forces_.pattern[e][l]));
@@ -212,7 +210,7 @@ class QuasiStaticTile {
     }
 
     void write(std::size_t sample, MeshRecord& record) const {
-        for (std::size_t l = 0; l < W; ++l) {
+        for (LaneId l{0}; l < W; ++l) {
             double te = 0.0;
             for (std::size_t d = plan_.te_weight.size(); d-- > 0;) {
                 te = std::fma(plan_.te_weight[d], state_.q[d * W + l], te);
@@ -227,7 +225,7 @@ class QuasiStaticTile {
     }
 
     void note_status() {
-        for (std::size_t l = 0; l < W; ++l) {
+        for (LaneId l{0}; l < W; ++l) {
             LaneStatus& status = result_.status[l];
             if (state_.unsupported[l] != 0.0) {
                 status = LaneStatus::diverged;
@@ -238,7 +236,7 @@ class QuasiStaticTile {
     }
 
     void mark_unsupported_lanes() {
-        for (std::size_t l = 0; l < W; ++l) {
+        for (LaneId l{0}; l < W; ++l) {
             if (result_.status[l] != LaneStatus::diverged) {
                 continue;
             }

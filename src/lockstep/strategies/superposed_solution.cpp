@@ -60,11 +60,9 @@ class SuperposedTile : SpanTile<W> {
                                                            &whole.periodic_orbit, record));
             machine::AlignedVector().swap(record.step_states);
         }
-        for (int l = 0; l < W; ++l) {
-            periodic[static_cast<std::size_t>(l)] =
-                periodic[static_cast<std::size_t>(l)] &&
-                distance(state_, part.states.front(), part.records.back(), l) <=
-                    convergence_.tolerance;
+        for (LaneId l{0}; l < W; ++l) {
+            periodic[l] = periodic[l] && distance(state_, part.states.front(), part.records.back(),
+                                                  l) <= convergence_.tolerance;
         }
         return part;
     }
@@ -75,8 +73,8 @@ class SuperposedTile : SpanTile<W> {
         SuperposedMotion whole;
         whole.periodic_orbit_state = periodic_orbit_;
         state_ = periodic_orbit_;
-        const auto may = [this](int lane) { return may_superpose(lane); };
-        if (std::ranges::none_of(std::views::iota(0, W), may)) {
+        if (std::ranges::none_of(std::views::iota(0, W),
+                                 [&](int l) { return may_superpose(LaneId{l}); })) {
             return std::nullopt;
         }
         whole.periodic_orbit_compression =
@@ -95,9 +93,8 @@ class SuperposedTile : SpanTile<W> {
         whole.count_periodic_orbit_once();
     }
 
-    bool may_superpose(int lane) const {
-        return result_.status[static_cast<std::size_t>(lane)] == LaneStatus::ok &&
-               (superpose_faulty_ || !faulty(lane));
+    bool may_superpose(LaneId lane) const {
+        return result_.status[lane] == LaneStatus::ok && (superpose_faulty_ || !faulty(lane));
     }
 
     // Computes the mesh periods of the span: superposed in lanes that keep contact, fully
@@ -116,8 +113,8 @@ class SuperposedTile : SpanTile<W> {
         const std::vector<char> in_contact =
             whole.keeps_contact(-span_.run_in_meshes, span_.meshes, W);
         bool all = true;
-        for (std::size_t l = 0; l < W; ++l) {
-            kept[l] = kept[l] && in_contact[l] && may_superpose(static_cast<int>(l));
+        for (LaneId l{0}; l < W; ++l) {
+            kept[l] = kept[l] && in_contact[l] && may_superpose(l);
             all = all && kept[l];
         }
         result_.superposed.assign(kept.begin(), kept.end());

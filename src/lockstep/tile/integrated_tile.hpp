@@ -17,6 +17,7 @@
 #include "lockstep/tile/tile.hpp"
 #include "lockstep/tile/tile_integrators.hpp"
 #include "lockstep/tile/tooth_contact.hpp"
+#include "machine/ids.hpp"
 
 namespace gearpod::lockstep {
 
@@ -48,9 +49,8 @@ class IntegratedTile {
     // A larger motion counts as diverged.
     static constexpr double kDivergedMotion_m = 1.0;
 
-    bool faulty(int lane) const {
-        return tile_.faults.faulty(lane) &&
-               result_.status[static_cast<std::size_t>(lane)] == LaneStatus::ok;
+    bool faulty(LaneId lane) const {
+        return tile_.faults.faulty(lane) && result_.status[lane] == LaneStatus::ok;
     }
 
     static std::unique_ptr<ExcitedIntegrator<W>> make_excited(const TileInputs& tile,
@@ -78,10 +78,10 @@ class IntegratedTile {
         }
         result_.contact_loss = separation_time_;
         for (std::size_t i = 0; i < separation_time_.size(); ++i) {
-            result_.contact_loss[i] /= contact_->time_engaged(static_cast<int>(i / W)) * meshes;
+            result_.contact_loss[i] /= contact_->time_engaged(PairId{i / W}) * meshes;
         }
-        for (int l = 0; l < W; ++l) {
-            if (result_.status[static_cast<std::size_t>(l)] == LaneStatus::diverged) {
+        for (LaneId l{0}; l < W; ++l) {
+            if (result_.status[l] == LaneStatus::diverged) {
                 fill_lane<W>(result_.contact_loss, l, NAN);
             }
         }
@@ -136,7 +136,7 @@ class IntegratedTile {
     // Distance of two states relative to the motion. Velocities are weighted at the sensor's band
     // edge, and filtered accelerations by the largest recorded one.
     double distance(const TileState& a, const TileState& b, const MeshRecord& record,
-                    int lane) const {
+                    LaneId lane) const {
         const double scale = largest<W>(b.q, lane);
         // Lower bound of the scale, so that rounding does not count as motion where the sensor
         // signal is nearly zero.
@@ -146,7 +146,7 @@ class IntegratedTile {
         const double dq = largest_difference<W>(a.q, b.q, lane);
         const double dv = largest_difference<W>(a.v, b.v, lane) / plan_.low_pass_rad_s;
         double df = 0.0;
-        for (std::size_t i = static_cast<std::size_t>(lane); i < a.filter.size();
+        for (auto i = static_cast<std::size_t>(lane); i < a.filter.size();
              i += 2 * W) {  // outputs of the filter sections; their rates follow
             df = std::max(df, std::abs(a.filter[i] - b.filter[i]));
         }
@@ -154,7 +154,7 @@ class IntegratedTile {
         return std::max(motion, acceleration > 0.0 ? df / acceleration : 0.0);
     }
 
-    bool diverged(int lane) const {
+    bool diverged(LaneId lane) const {
         return !(largest<W>(state_.q, lane) < kDivergedMotion_m) ||
                !std::isfinite(largest<W>(state_.v, lane)) ||
                !std::isfinite(largest<W>(state_.filter, lane));
@@ -162,8 +162,8 @@ class IntegratedTile {
 
     // Removes a diverged lane from the integration: sets its records to NaN and its periodic orbit
     // to zero.
-    void mark_diverged(int lane) {
-        result_.status[static_cast<std::size_t>(lane)] = LaneStatus::diverged;
+    void mark_diverged(LaneId lane) {
+        result_.status[lane] = LaneStatus::diverged;
         for (MeshRecord& record : result_.records) {
             fill_lane<W>(record.acceleration, lane, NAN);
             fill_lane<W>(record.te, lane, NAN);
@@ -180,9 +180,9 @@ class IntegratedTile {
     LaneMask<W> start_perturbation(int k, const LaneMask<W>& lanes, LaneMask<W>& perturbed) const {
         const bool passes = schedule_.passes(k);
         LaneMask<W> unperturbed;
-        for (std::size_t l = 0; l < W; ++l) {
+        for (LaneId l{0}; l < W; ++l) {
             unperturbed[l] = !perturbed[l];
-            perturbed[l] = perturbed[l] || (passes && lanes[l] && faulty(static_cast<int>(l)));
+            perturbed[l] = perturbed[l] || (passes && lanes[l] && faulty(l));
         }
         return unperturbed;
     }
@@ -191,8 +191,8 @@ class IntegratedTile {
     // period k. A lane's end never depends on the other lanes. Marks diverged lanes.
     void end_perturbation(int k, const TileState& healthy, const MeshRecord& record,
                           LaneMask<W>& perturbed) {
-        for (int l = 0; l < W; ++l) {
-            auto& is_perturbed = perturbed[static_cast<std::size_t>(l)];
+        for (LaneId l{0}; l < W; ++l) {
+            auto& is_perturbed = perturbed[l];
             if (is_perturbed && diverged(l)) {
                 mark_diverged(l);
                 is_perturbed = false;
@@ -204,7 +204,7 @@ class IntegratedTile {
 
     // Sets the status of lanes that did not converge to their periodic orbit within max_meshes.
     void mark_not_converged(const LaneMask<W>& converged) {
-        for (std::size_t l = 0; l < W; ++l) {
+        for (LaneId l{0}; l < W; ++l) {
             if (!converged[l]) {
                 result_.status[l] = LaneStatus::not_converged;
             }
@@ -226,8 +226,8 @@ class IntegratedTile {
             copy_lanes<W>(record, result_.records[0], unconverged);
             copy_lanes<W>(state_, periodic_orbit_, unconverged);
             bool any_pending = false;
-            for (int l = 0; l < W; ++l) {
-                if (converged[static_cast<std::size_t>(l)]) {
+            for (LaneId l{0}; l < W; ++l) {
+                if (converged[l]) {
                     continue;
                 }
                 const bool lost = diverged(l);
@@ -236,7 +236,7 @@ class IntegratedTile {
                 }
                 const bool done =
                     lost || distance(state_, before, record, l) <= convergence_.tolerance;
-                converged[static_cast<std::size_t>(l)] = done;
+                converged[l] = done;
                 any_pending = any_pending || !done;
             }
             if (!any_pending) {
@@ -317,8 +317,8 @@ class SpanTile : protected IntegratedTile<W> {
 
     // Clears the contact loss of superposed lanes, whose tooth pairs never separate.
     void clear_contact_loss(const LaneMask<W>& lanes) {
-        for (int l = 0; l < W; ++l) {
-            if (lanes[static_cast<std::size_t>(l)]) {
+        for (LaneId l{0}; l < W; ++l) {
+            if (lanes[l]) {
                 fill_lane<W>(separation_time_, l, 0.0);
             }
         }
@@ -382,8 +382,8 @@ class SpanTile : protected IntegratedTile<W> {
     }
 
     void mark_diverged_lanes(const LaneMask<W>& unused = {}) {
-        for (int l = 0; l < W; ++l) {
-            const auto lane = static_cast<std::size_t>(l);
+        for (LaneId l{0}; l < W; ++l) {
+            const auto lane = l;
             if (!unused[lane] && result_.status[lane] == LaneStatus::ok && diverged(l)) {
                 mark_diverged(l);
             }

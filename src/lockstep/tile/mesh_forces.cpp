@@ -29,10 +29,9 @@ MeshForces<W>::MeshForces(const IntegrationPlan& plan,
         lanes_.mesh_period[l] = dynamics::mesh_period_s(inputs[l]);
         lanes_.backlash[l] = dynamics::backlash_m(inputs[l]);
     }
-    for (int pair = 0; pair < plan.nodes.pairs; ++pair) {
-        for (std::size_t l = 0; l < W; ++l) {
-            lanes_.mesh_damping[pair].set(static_cast<int>(l),
-                                          dynamics::mesh_damping(plan.layout, inputs[l], pair));
+    for (PairId pair{0}; pair < plan.nodes.pairs; ++pair) {
+        for (LaneId l{0}; l < W; ++l) {
+            lanes_.mesh_damping[pair].set(l, dynamics::mesh_damping(plan.layout, inputs[l], pair));
         }
         const Eigen::VectorXd row = dynamics::mesh_row(plan.layout, pair);
         row_.emplace_back(row.begin(), row.end());
@@ -46,9 +45,9 @@ void MeshForces<W>::with_law(int step, const MeshOverrides& overrides, std::span
     using Pairs = typename Model<Law>::Pairs;
     const auto pairs = std::make_unique_for_overwrite<Pairs>();
     load_pairs<Model<Law>>(plan_, lanes_, overrides, step, 0, *pairs);
-    for (int pair = 0; pair < plan_.nodes.pairs; ++pair) {
+    for (PairId pair{0}; pair < plan_.nodes.pairs; ++pair) {
         alignas(64) double d[W] = {}, r[W] = {};
-        const std::vector<double>& row = row_[static_cast<std::size_t>(pair)];
+        const std::vector<double>& row = row_[pair];
         for (std::size_t i = 0; i < row.size(); ++i) {
             for (std::size_t l = 0; l < W; ++l) {
                 d[l] += row[i] * q[i * W + l];
@@ -59,7 +58,7 @@ void MeshForces<W>::with_law(int step, const MeshOverrides& overrides, std::span
         if constexpr (Law::kHasTeeth) {
             Law::template forces<W>(*pairs, pair, d, r, pair_force);
         } else {
-            for (int l = 0; l < W; ++l) {
+            for (LaneId l{0}; l < W; ++l) {
                 pair_force[l] = Law::force(*pairs, pair * W + l, l, d[l], r[l]);
             }
         }

@@ -17,7 +17,7 @@ RigidRotation::RigidRotation(const dynamics::GearboxLayout& layout,
     }
 }
 
-double RigidRotation::amount(const machine::AlignedVector& motion, std::size_t lane) const {
+double RigidRotation::amount(const machine::AlignedVector& motion, LaneId lane) const {
     double rotation = 0.0;
     for (Eigen::Index d = 0; d < turn_.size(); ++d) {
         rotation += weight_[lane](d) * motion[static_cast<std::size_t>(d) * weight_.size() + lane];
@@ -25,15 +25,14 @@ double RigidRotation::amount(const machine::AlignedVector& motion, std::size_t l
     return rotation;
 }
 
-void RigidRotation::subtract(double amount, std::size_t lane,
-                             machine::AlignedVector& motion) const {
+void RigidRotation::subtract(double amount, LaneId lane, machine::AlignedVector& motion) const {
     for (Eigen::Index d = 0; d < turn_.size(); ++d) {
         motion[static_cast<std::size_t>(d) * weight_.size() + lane] -= amount * turn_(d);
     }
 }
 
 void RigidRotation::remove(machine::AlignedVector& motion) const {
-    for (std::size_t l = 0; l < weight_.size(); ++l) {
+    for (LaneId l{0}; l < weight_.size(); ++l) {
         subtract(amount(motion, l), l, motion);
     }
 }

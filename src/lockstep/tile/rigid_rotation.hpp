@@ -8,6 +8,7 @@
 
 #include "dynamics/gearbox.hpp"
 #include "lockstep/plan/integration_plan.hpp"
+#include "machine/ids.hpp"
 
 namespace gearpod::lockstep {
 
@@ -21,10 +22,10 @@ class RigidRotation {
     void remove(TileState& state) const;
 
     // Rotation that the motion of a lane contains, in units of phi = dynamics::rigid_rotation.
-    double amount(const machine::AlignedVector& motion, std::size_t lane) const;
-    void subtract(double amount, std::size_t lane, machine::AlignedVector& motion) const;
+    double amount(const machine::AlignedVector& motion, LaneId lane) const;
+    void subtract(double amount, LaneId lane, machine::AlignedVector& motion) const;
     // Inertia of the rotation of a lane, phi M phi, kg.
-    double inertia_kg(std::size_t lane) const { return inertia_kg_[lane]; }
+    double inertia_kg(LaneId lane) const { return inertia_kg_[lane]; }
     // phi at a degree of freedom.
     double at(int degree) const { return turn_(degree); }
 

@@ -33,7 +33,7 @@ StaticLanes<W> make_static_lanes(const dynamics::GearboxLayout& layout, dynamics
     lanes.contacts = contacts;
     lanes.first.push_back(0);
     for (int pair = 0; pair < lanes.pairs; ++pair) {
-        const Eigen::VectorXd row = dynamics::mesh_row(layout, pair);
+        const Eigen::VectorXd row = dynamics::mesh_row(layout, PairId{pair});
         for (int i = 0; i < lanes.degrees; ++i) {
             if (row(i) != 0.0) {
                 lanes.motion.push_back(i);

@@ -10,6 +10,7 @@
 
 #include "lockstep/plan/fault_schedule.hpp"
 #include "lockstep/plan/integration_plan.hpp"
+#include "machine/ids.hpp"
 
 namespace gearpod::lockstep {
 
@@ -104,16 +105,16 @@ using LaneMask = std::array<bool, W>;
 
 // Sets all values of a lane (indices lane, lane + W, ...).
 template <int W>
-void fill_lane(machine::AlignedVector& values, int lane, double value) {
-    for (std::size_t i = static_cast<std::size_t>(lane); i < values.size(); i += W) {
+void fill_lane(machine::AlignedVector& values, LaneId lane, double value) {
+    for (auto i = static_cast<std::size_t>(lane); i < values.size(); i += W) {
         values[i] = value;
     }
 }
 
 template <int W>
-double largest(const machine::AlignedVector& values, int lane) {
+double largest(const machine::AlignedVector& values, LaneId lane) {
     double result = 0.0;
-    for (std::size_t i = static_cast<std::size_t>(lane); i < values.size(); i += W) {
+    for (auto i = static_cast<std::size_t>(lane); i < values.size(); i += W) {
         result = std::isfinite(values[i]) ? std::max(result, std::abs(values[i])) : INFINITY;
     }
     return result;
@@ -121,9 +122,9 @@ double largest(const machine::AlignedVector& values, int lane) {
 
 template <int W>
 double largest_difference(const machine::AlignedVector& a, const machine::AlignedVector& b,
-                          int lane) {
+                          LaneId lane) {
     double result = 0.0;
-    for (std::size_t i = static_cast<std::size_t>(lane); i < a.size(); i += W) {
+    for (auto i = static_cast<std::size_t>(lane); i < a.size(); i += W) {
         result = std::max(result, std::abs(a[i] - b[i]));
     }
     return result;

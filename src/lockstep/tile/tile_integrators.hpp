@@ -8,6 +8,7 @@
 
 #include "lockstep/plan/excitation.hpp"
 #include "lockstep/plan/integration_plan.hpp"
+#include "machine/ids.hpp"
 
 namespace gearpod::lockstep {
 

@@ -12,12 +12,12 @@ namespace {
 constexpr int kStretches = 24;  // per mesh period
 
 // Static transmission error of a pair at a stage node, m.
-double static_error(const IntegrationPlan& plan, int step, std::size_t node, int pair) {
+double static_error(const IntegrationPlan& plan, int step, std::size_t node, PairId pair) {
     const StiffnessNodes& nodes = plan.nodes;
     const std::size_t index =
         (static_cast<std::size_t>(step) * plan.grid.stage_nodes.size() + node) *
             static_cast<std::size_t>(nodes.pairs) +
-        static_cast<std::size_t>(pair);
+        pair;
     return nodes.error.empty() ? 0.0 : nodes.error[index];
 }
 
@@ -27,7 +27,7 @@ double static_error(const IntegrationPlan& plan, int step, std::size_t node, int
 class ToothContact::LaneGaps {
   public:
     // `size` is the number of tooth pairs times lanes. `wear` may be null.
-    LaneGaps(std::span<const PairGaps> all, const machine::AlignedVector* wear, int pair,
+    LaneGaps(std::span<const PairGaps> all, const machine::AlignedVector* wear, PairId pair,
              std::size_t size)
         : all_(all), wear_(wear), pair_(pair), none_(size, 0.0) {}
 
@@ -51,7 +51,7 @@ class ToothContact::LaneGaps {
   private:
     std::span<const PairGaps> all_;
     const machine::AlignedVector* wear_;
-    int pair_;
+    PairId pair_;
     const machine::AlignedVector none_;
     const PairGaps* now_ = nullptr;
 };
@@ -63,7 +63,7 @@ ToothContact::ToothContact(const IntegrationPlan& plan, std::vector<double> mesh
       nodes_(static_cast<std::size_t>(plan.nodes.pairs)),
       engaged_(static_cast<std::size_t>(plan.nodes.pairs), 0.0) {
     const int steps = static_cast<int>(plan.grid.steps.size());
-    for (int pair = 0; pair < plan.nodes.pairs; ++pair) {
+    for (PairId pair{0}; pair < plan.nodes.pairs; ++pair) {
         for (int step = 0; step < steps; ++step) {
             for (std::size_t node = 0; node < plan.grid.stage_nodes.size(); ++node) {
                 add_node(pair, step, node);
@@ -79,8 +79,7 @@ ToothContact::ToothContact(const IntegrationPlan& plan, std::vector<double> mesh
     }
 }
 
-void ToothContact::add_node(int pair, int step, std::size_t node) {
-    const auto p = static_cast<std::size_t>(pair);
+void ToothContact::add_node(PairId pair, int step, std::size_t node) {
     const double length = plan_.grid.steps[static_cast<std::size_t>(step)].length;
     Node pair_node{step,
                    node == 0,
@@ -99,24 +98,25 @@ void ToothContact::add_node(int pair, int step, std::size_t node) {
             const double position = plan_.nodes.tooth_position[index];
             pair_node.teeth.push_back({static_cast<std::size_t>(contact),
                                        static_cast<std::size_t>(contact / plan_.nodes.slices),
-                                       position, tooth_gap(plan_, {}, pair, step, n, contact, 0),
+                                       position,
+                                       tooth_gap(plan_, {}, pair, step, n, contact, LaneId{0}),
                                        worn ? plan_.nodes.tooth_wear[index] : 0.0,
                                        gaps ? plan_.nodes.tooth_on_path[index] : 1.0});
         }
     }
     for (const Tooth& tooth : pair_node.teeth) {
-        engaged_[p] += pair_node.first ? tooth.on_path * length : 0.0;
+        engaged_[pair] += pair_node.first ? tooth.on_path * length : 0.0;
     }
-    nodes_[p].push_back(std::move(pair_node));
+    nodes_[pair].push_back(std::move(pair_node));
 }
 
 // Adds sign times the pair's deflection, or its rate, at the step ends to d. `first_degree` is the
 // index at which positions or velocities start in a row of step states.
-void ToothContact::deflect(const MeshRecord& record, int pair, double sign,
+void ToothContact::deflect(const MeshRecord& record, PairId pair, double sign,
                            std::size_t first_degree, machine::AlignedVector& d) const {
     const std::size_t lanes = mesh_period_s_.size(), rows = plan_.grid.steps.size() + 1;
     const std::size_t width = record.step_states.size() / rows;
-    for (const Entry& entry : row_[static_cast<std::size_t>(pair)]) {
+    for (const Entry& entry : row_[pair]) {
         const double weight = sign * entry.weight;
         const double* __restrict from =
             record.step_states.data() + (first_degree + entry.degree) * lanes;
@@ -160,17 +160,16 @@ machine::AlignedVector ToothContact::least_compression(const MeshRecord& record,
     const std::size_t pairs = nodes_.size();
     machine::AlignedVector least(kStretches * pairs * contacts_ * width, INFINITY);
     machine::AlignedVector d(width), at(rows * width), rate(rows * width);
-    for (std::size_t pair = 0; pair < pairs; ++pair) {
-        const int p = static_cast<int>(pair);
+    for (PairId pair{0}; pair < pairs; ++pair) {
         std::ranges::fill(at, 0.0);
         std::ranges::fill(rate, 0.0);
-        deflect(record, p, 1.0, 0, at);
-        deflect(record, p, 1.0, degrees, rate);
+        deflect(record, pair, 1.0, 0, at);
+        deflect(record, pair, 1.0, degrees, rate);
         if (periodic_orbit != nullptr) {
-            deflect(*periodic_orbit, p, -1.0, 0, at);
-            deflect(*periodic_orbit, p, -1.0, degrees, rate);
+            deflect(*periodic_orbit, pair, -1.0, 0, at);
+            deflect(*periodic_orbit, pair, -1.0, degrees, rate);
         }
-        LaneGaps lane_gaps(gaps, nullptr, p, contacts_ * width);
+        LaneGaps lane_gaps(gaps, nullptr, pair, contacts_ * width);
         for (const Node& node : nodes_[pair]) {
             const std::size_t before = static_cast<std::size_t>(node.step) * width;
             least_deflection(node, at.data() + before, rate.data() + before, d.data());
@@ -208,7 +207,7 @@ machine::AlignedVector ToothContact::least_compression(const MeshRecord& record,
 }
 
 // `d` holds the pair's deflection; `weight` is added in each lane without contact.
-void ToothContact::add_separation(const Node& node, std::size_t pair, const double* __restrict d,
+void ToothContact::add_separation(const Node& node, PairId pair, const double* __restrict d,
                                   LaneGaps& lane_gaps, const double* __restrict weight,
                                   machine::AlignedVector& apart) const {
     const std::size_t width = mesh_period_s_.size();
@@ -237,11 +236,10 @@ void ToothContact::add_separation_time(const MeshRecord& record, const MeshOverr
                                        machine::AlignedVector& apart) const {
     const std::size_t width = mesh_period_s_.size();
     machine::AlignedVector at((plan_.grid.steps.size() + 1) * width), d(width), weight(width);
-    for (std::size_t pair = 0; pair < nodes_.size(); ++pair) {
-        const int p = static_cast<int>(pair);
+    for (PairId pair{0}; pair < nodes_.size(); ++pair) {
         std::ranges::fill(at, 0.0);
-        deflect(record, p, 1.0, 0, at);
-        LaneGaps lane_gaps(overrides.gaps, &overrides.wear, p, contacts_ * width);
+        deflect(record, pair, 1.0, 0, at);
+        LaneGaps lane_gaps(overrides.gaps, &overrides.wear, pair, contacts_ * width);
         for (const Node& node : nodes_[pair]) {
             if (!node.first) {
                 continue;
@@ -264,7 +262,7 @@ void ToothContact::add_position(int step, const machine::AlignedVector& q,
     const std::size_t width = mesh_period_s_.size(), stages = plan_.grid.stage_nodes.size();
     const machine::AlignedVector weights(width, weight);
     machine::AlignedVector d(width);
-    for (std::size_t pair = 0; pair < nodes_.size(); ++pair) {
+    for (PairId pair{0}; pair < nodes_.size(); ++pair) {
         std::ranges::fill(d, 0.0);
         for (const Entry& entry : row_[pair]) {
             for (std::size_t l = 0; l < width; ++l) {
@@ -275,8 +273,7 @@ void ToothContact::add_position(int step, const machine::AlignedVector& q,
         for (const Tooth& tooth : node.teeth) {
             time.engaged[pair] += tooth.on_path * weight;
         }
-        LaneGaps lane_gaps(overrides.gaps, &overrides.wear, static_cast<int>(pair),
-                           contacts_ * width);
+        LaneGaps lane_gaps(overrides.gaps, &overrides.wear, pair, contacts_ * width);
         add_separation(node, pair, d.data(), lane_gaps, weights.data(), time.apart);
     }
 }

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "lockstep/plan/tooth_pairs.hpp"
+#include "machine/ids.hpp"
 
 namespace gearpod::lockstep {
 
@@ -54,7 +55,7 @@ class ToothContact {
                              std::span<const bool> lanes, machine::AlignedVector& apart) const;
     // Time that the tooth pairs of a gear pair spend on the nominal path, mesh periods per mesh
     // period.
-    double time_engaged(int pair) const { return engaged_[static_cast<std::size_t>(pair)]; }
+    double time_engaged(PairId pair) const { return engaged_[pair]; }
 
     // Same for the start of one step with positions `q`, [degree of freedom][lane]. Adds `weight`
     // to the engaged time of each tooth pair on the nominal path, and to the time apart of each
@@ -86,12 +87,12 @@ class ToothContact {
     };
     class LaneGaps;
 
-    void add_node(int pair, int step, std::size_t node);
+    void add_node(PairId pair, int step, std::size_t node);
     void least_deflection(const Node& node, const double* deflection_start, const double* rate,
                           double* least) const;
-    void add_separation(const Node& node, std::size_t pair, const double* d, LaneGaps& lane_gaps,
+    void add_separation(const Node& node, PairId pair, const double* d, LaneGaps& lane_gaps,
                         const double* weight, machine::AlignedVector& apart) const;
-    void deflect(const MeshRecord& record, int pair, double sign, std::size_t first_degree,
+    void deflect(const MeshRecord& record, PairId pair, double sign, std::size_t first_degree,
                  machine::AlignedVector& d) const;
 
     const IntegrationPlan& plan_;

@@ -111,7 +111,7 @@ PathGrid::PathGrid(const RingLoad& load, const gears::PlanetPositions& planets, 
     const bool along_x = load.axis == RingLoad::Axis::x;
     const int n = load.nodal_diameters;
     const double share = n > 0 ? 1.0 / n : 0.0;
-    const auto weight = [&](int planet, long position) {
+    const auto weight = [&](PlanetId planet, long position) {
         const double mirrored = turn.step_rad * static_cast<double>(position) - std::numbers::pi;
         const double angle = n * (sense == CarrierSense::negative ? -mirrored : mirrored);
         const double sine = std::sin(angle), cosine = std::cos(angle);
@@ -169,7 +169,7 @@ void PathGrid::tabulate(const gears::PlanetPositions& planets, CarrierSense sens
                 turn.step_rad * static_cast<double>(wrapped(carrier - turn.sensor, turn.steps)));
             sine_.push_back(sine);
             cosine_.push_back(cosine);
-            for (int n = 0; n < planets_; ++n) {
+            for (PlanetId n{0}; n < planets_; ++n) {
                 window_.push_back(weight(n, (carrier + position(n)) % turn.steps));
             }
         }

@@ -14,7 +14,7 @@ namespace gearpod::signals {
 namespace {
 
 machine::AlignedVector lane_values(const machine::AlignedVector& values, std::size_t lanes,
-                                   int lane) {
+                                   LaneId lane) {
     machine::AlignedVector of_lane;
     for (auto i = static_cast<std::size_t>(lane); i < values.size(); i += lanes) {
         of_lane.push_back(values[i]);
@@ -22,7 +22,7 @@ machine::AlignedVector lane_values(const machine::AlignedVector& values, std::si
     return of_lane;
 }
 
-Tones tones_of_lane(const Tones& tones, int lanes, int lane) {
+Tones tones_of_lane(const Tones& tones, int lanes, LaneId lane) {
     return {
         lane_values(tones.mesh_period_s, lanes, lane), lane_values(tones.frequency_Hz, lanes, lane),
         lane_values(tones.amplitude_m_s2, lanes, lane), lane_values(tones.phase_rad, lanes, lane)};
@@ -64,8 +64,8 @@ std::vector<std::vector<double>> signals_of(const TileSignals& tile, int first,
         path_weights_of_one_lane(
             {&path, &path_exponent[n], whole_steps.data(), of_phase.data(), weight.back().data()});
         signal.emplace_back(static_cast<std::size_t>(mesh_count) * tile.phases);
-        table.emplace_back(tones_of_lane(tones, tile.lanes, first + n), 1, first_mesh, mesh_count,
-                           tile.phases);
+        table.emplace_back(tones_of_lane(tones, tile.lanes, LaneId{first + n}), 1, first_mesh,
+                           mesh_count, tile.phases);
     }
     for (int i = 0; i < mesh_count; ++i) {
         const long k = meshes[static_cast<std::size_t>(i)];
@@ -91,7 +91,7 @@ std::vector<std::vector<double>> signals_of(const TileSignals& tile, int first,
 
 }  // namespace
 
-std::vector<double> synthesize(const TileSignals& tile, int lane, const Timeline& timeline,
+std::vector<double> synthesize(const TileSignals& tile, LaneId lane, const Timeline& timeline,
                                const SpanLayout& layout, const PathGrid& path, double path_exponent,
                                int first_mesh, int mesh_count, const Tones& tones) {
     return std::move(signals_of(tile, lane, timeline, layout, path, {&path_exponent, 1},
@@ -224,7 +224,7 @@ std::vector<std::vector<double>> SensorResponse::signals(std::size_t lanes, int 
     return all;
 }
 
-std::vector<double> SensorResponse::signal(int lane, int meshes) const {
+std::vector<double> SensorResponse::signal(LaneId lane, int meshes) const {
     if (meshes > kept_meshes_) {
         throw std::invalid_argument("sensor response: more meshes requested than were kept");
     }
@@ -234,7 +234,7 @@ std::vector<double> SensorResponse::signal(int lane, int meshes) const {
     return lane_signal;
 }
 
-std::vector<double> SensorResponse::te_signal(int lane, int meshes) const {
+std::vector<double> SensorResponse::te_signal(LaneId lane, int meshes) const {
     if (te_samples(meshes) > te_signal_.size()) {
         throw std::invalid_argument("sensor response: more meshes requested than were kept");
     }

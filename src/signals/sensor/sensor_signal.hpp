@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "machine/ids.hpp"
 #include "signals/noise/tones.hpp"
 #include "signals/path/transmission_path.hpp"
 #include "signals/tile_signals.hpp"
@@ -15,7 +16,7 @@ namespace gearpod::signals {
 // of the span (k counted from `first`), with the tones of its lane. The arithmetic is that of
 // fold_squares, so that folding this signal gives the same values. Throws std::invalid_argument if
 // the shapes disagree.
-std::vector<double> synthesize(const TileSignals& tile, int lane, const Timeline& timeline,
+std::vector<double> synthesize(const TileSignals& tile, LaneId lane, const Timeline& timeline,
                                const SpanLayout& layout, const PathGrid& path, double path_exponent,
                                int first_mesh, int mesh_count, const Tones& tones = {});
 
@@ -62,9 +63,9 @@ class SensorResponse {
     // Sensor signals of the first meshes, at most `kept_meshes`, for the first `lanes` lanes or for
     // one lane. The bits are those of synthesize.
     std::vector<std::vector<double>> signals(std::size_t lanes, int meshes) const;
-    std::vector<double> signal(int lane, int meshes) const;
+    std::vector<double> signal(LaneId lane, int meshes) const;
     // Transmission error of one lane in the first meshes, rad, [k * P_te + p]; needs keeps_te.
-    std::vector<double> te_signal(int lane, int meshes) const;
+    std::vector<double> te_signal(LaneId lane, int meshes) const;
 
   private:
     std::size_t samples(int meshes) const;
