@@ -111,8 +111,39 @@ inline Outcome program(const std::string& arguments) {
     const bool measures = arguments.starts_with("describe ") &&
                           arguments.find("--seconds") == std::string::npos &&
                           arguments.find("--keys") == std::string::npos;
-    return shell(std::string(GEARPOD_PROGRAM) + " " + arguments +
-                 (measures ? " --seconds 3" : ""));
+    return shell(std::string(GEARPOD_PROGRAM) + " " + arguments + (measures ? " --seconds 3" : ""));
+}
+
+inline void check_mentions(const Outcome& outcome, const std::vector<std::string>& words) {
+    INFO(outcome.output);
+    for (const std::string& text : words) {
+        INFO(text);
+        CHECK(outcome.mentions(text));
+    }
+}
+
+// Checks that a command ended with success.
+inline Outcome require_success(const Outcome& outcome) {
+    INFO(outcome.output);
+    REQUIRE(outcome.code == 0);
+    return outcome;
+}
+inline Outcome require_success(const std::string& arguments) {
+    INFO(arguments);
+    return require_success(program(arguments));
+}
+
+// Checks that a command ended as one with bad input does, with a message that has all these words.
+inline Outcome check_refused(const Outcome& outcome, const std::vector<std::string>& words = {}) {
+    check_mentions(outcome, words);
+    INFO(outcome.output);
+    CHECK(outcome.code == 2);
+    return outcome;
+}
+inline Outcome check_refused(const std::string& arguments,
+                             const std::vector<std::string>& words = {}) {
+    INFO(arguments);
+    return check_refused(program(arguments), words);
 }
 
 // Command prefix for that many ranks, allowed as root and with more ranks than processors; empty in
@@ -153,27 +184,17 @@ inline std::vector<std::uint64_t> bits_of_values(const std::vector<double>& valu
 // All datasets of the gearboxes bit by bit.
 inline std::vector<std::uint64_t> bits(const mc::Results& results) {
     std::vector<std::uint64_t> all;
-    for (const auto& parameter : results.parameters) {
-        for (const double value : parameter.values) {
-            all.push_back(std::bit_cast<std::uint64_t>(value));
+    const auto add = [&](const auto& columns) {
+        for (const auto& column : columns) {
+            const auto more = bits_of_values(column.values);
+            all.insert(all.end(), more.begin(), more.end());
         }
-    }
-    for (const auto& feature : results.features) {
-        for (const double value : feature.values) {
-            all.push_back(std::bit_cast<std::uint64_t>(value));
-        }
-    }
-    for (const auto& mesh : results.contact_loss) {
-        for (const double value : mesh.values) {
-            all.push_back(std::bit_cast<std::uint64_t>(value));
-        }
-    }
+    };
+    add(results.parameters);
+    add(results.features);
+    add(results.contact_loss);
     for (const auto& variant : results.variants) {
-        for (const auto& feature : variant.features) {
-            for (const double value : feature.values) {
-                all.push_back(std::bit_cast<std::uint64_t>(value));
-            }
-        }
+        add(variant.features);
     }
     all.insert(all.end(), results.group.begin(), results.group.end());
     all.insert(all.end(), results.status.begin(), results.status.end());

@@ -15,20 +15,25 @@
 
 namespace gearpod::test {
 
-inline mc::Study shipped_study(const std::string& name,
-                               const std::vector<std::string>& overrides = {}) {
-    const mc::StudyReading reading = mc::read_study(study_path(name), overrides);
+inline mc::Study valid_study(const mc::StudyReading& reading) {
     INFO(mc::format(reading.problems));
     REQUIRE(reading.study.has_value());
     return *reading.study;
 }
 
+inline mc::Study shipped_study(const std::string& name,
+                               const std::vector<std::string>& overrides = {}) {
+    return valid_study(mc::read_study(study_path(name), overrides));
+}
+
 inline mc::Study study_of_text(const std::string& text,
                                const std::vector<std::string>& overrides = {}) {
-    const auto reading = mc::read_study_text(text, "study.toml", overrides);
-    INFO(mc::format(reading.problems));
-    REQUIRE(reading.study);
-    return *reading.study;
+    return valid_study(mc::read_study_text(text, "study.toml", overrides));
+}
+
+// Checks that the resolved text of a study is read as the same study.
+inline void check_reads_back(const mc::Study& study) {
+    CHECK(study_of_text(resolved_text(study)) == study);
 }
 
 inline mc::Results run(const mc::Study& study) {

@@ -6,13 +6,12 @@
 namespace test_built_kernels {
 
 using namespace gearpod;
-using test::Outcome;
-using test::study;
+using namespace gearpod::test;
 
 TEST_CASE("Lanes without a kernel in this build are bad input, reported with the available ones") {
     for (const int lanes : {1, 4}) {
         const std::string change = " --set numerics.lanes=" + std::to_string(lanes);
-        const Outcome here = test::program("describe " + study("planet-crack-ideal.toml") + change);
+        const Outcome here = program("describe " + study("planet-crack-ideal.toml") + change);
         INFO(here.output);
         if (GEARPOD_PORTABLE) {
             CHECK(here.code == 0);
@@ -27,20 +26,19 @@ TEST_CASE("Lanes without a kernel in this build are bad input, reported with the
 }
 
 TEST_CASE("Results contain the kernels of the program") {
-    const test::Folder folder;
+    const Folder folder;
     const std::string out = folder.file("r.h5");
-    REQUIRE(test::program("run " + study("planet-crack-ideal.toml") +
-                          " --quiet --instances 8 --set ensemble.threshold_instances=8 --out " +
-                          out)
+    REQUIRE(program("run " + study("planet-crack-ideal.toml") +
+                    " --quiet --instances 8 --set ensemble.threshold_instances=8 --out " + out)
                 .code == 0);
     const std::string kernels = mc::read_frame(out).provenance_value("kernels");
-    CHECK(test::program("--version").mentions("kernels: " + kernels + "\n"));
+    CHECK(program("--version").mentions("kernels: " + kernels + "\n"));
 }
 
 TEST_CASE("Single-precision gearboxes that do not converge are counted with sixteen lanes") {
-    const test::Folder folder;
+    const Folder folder;
     for (const std::string integrator : {"rk4", "central-difference"}) {
-        const Outcome run = test::program(
+        const Outcome run = program(
             "run " + study("planet-crack-ideal.toml") + " --set numerics.precision='\"single\"'" +
             " --set numerics.integrator='\"" + integrator + "\"' --set numerics.max_meshes=2" +
             " --set numerics.settle_tolerance=1e-5 --instances 8" +

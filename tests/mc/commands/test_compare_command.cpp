@@ -7,10 +7,7 @@
 namespace test_compare_command {
 
 using namespace gearpod;
-using test::bytes_of;
-using test::Folder;
-using test::Outcome;
-using test::program;
+using namespace gearpod::test;
 using Json = nlohmann::json;
 
 namespace {
@@ -18,19 +15,15 @@ namespace {
 // Runs a quasi-static study without sensor, in about a second.
 std::string run(const Folder& folder, const std::string& name, const std::string& options) {
     const std::string file = folder.file(name);
-    const Outcome run = program("run " + test::study("planet-crack-ideal.toml") +
-                                " --quiet --set ensemble.threshold_instances=100 "
-                                "--set ensemble.instances=140 --set numerics.threads=2 --out " +
-                                file + " " + options);
-    INFO(run.output);
-    REQUIRE(run.code == 0);
+    require_success("run " + study("planet-crack-ideal.toml") +
+                    " --quiet --set ensemble.threshold_instances=100 "
+                    "--set ensemble.instances=140 --set numerics.threads=2 --out " +
+                    file + " " + options);
     return file;
 }
 
 Json compared(const std::string& files, const std::string& json) {
-    const Outcome compare = program("compare " + files + " --json " + json);
-    INFO(compare.output);
-    REQUIRE(compare.code == 0);
+    require_success("compare " + files + " --json " + json);
     return Json::parse(bytes_of(json));
 }
 
@@ -100,15 +93,12 @@ TEST_CASE("compare reports everything that cannot be compared") {
                       b = run(folder, "b.h5",
                               "--set detection.false_alarm_rate=0.1 "
                               "--set sensor.noise_levels=[2]");
-    const Outcome one = program("compare " + a);
-    CHECK(one.code == 2);
+    const Outcome one = check_refused("compare " + a);
     CHECK_THAT(one.output, Catch::Contains("give two or more"));
-    const Outcome refused = program("compare " + a + " " + b);
-    CHECK(refused.code == 2);
+    const Outcome refused = check_refused("compare " + a + " " + b);
     CHECK_THAT(refused.output, Catch::Contains("its false-alarm rate is 0.1"));
     CHECK_THAT(refused.output, Catch::Contains("no noise level in common"));
-    const Outcome over = program("compare " + a + " " + b + " --json " + a);
-    CHECK(over.code == 2);
+    check_refused("compare " + a + " " + b + " --json " + a);
     CHECK_THAT(program("compare " + a + " " + folder.file("none.h5")).output,
                Catch::Contains("none.h5"));
 }
@@ -117,21 +107,16 @@ TEST_CASE("compare reports every missing or incomplete file") {
     const Folder folder;
     const std::string a = run(folder, "a.h5", ""), part = run(folder, "p.h5", "--part 1/2"),
                       text = folder.file("text.h5"), cut = folder.file("cut.h5");
-    test::write_bytes(text, "size,hit\n1,0\n");
+    write_bytes(text, "size,hit\n1,0\n");
     const std::string whole = bytes_of(a);
-    test::write_bytes(cut, whole.substr(0, whole.size() / 2));
-    const Outcome refused =
-        program("compare " + text + " " + a + " " + cut + " " + folder.file("none.h5") + " " + cut);
-    INFO(refused.output);
-    CHECK(refused.code == 2);
+    write_bytes(cut, whole.substr(0, whole.size() / 2));
+    const Outcome refused = check_refused("compare " + text + " " + a + " " + cut + " " +
+                                          folder.file("none.h5") + " " + cut);
     CHECK(std::count(refused.output.begin(), refused.output.end(), '\n') == 3);
-    CHECK(refused.mentions("text.h5: is not a results file"));
-    CHECK(refused.mentions("cut.h5: is truncated"));
-    CHECK(refused.mentions("none.h5: cannot be read"));
+    check_mentions(refused, {"text.h5: is not a results file", "cut.h5: is truncated",
+                             "none.h5: cannot be read"});
 
-    const Outcome compare = program("compare " + a + " " + part);
-    INFO(compare.output);
-    CHECK(compare.code == 0);
+    const Outcome compare = require_success("compare " + a + " " + part);
     CHECK(compare.mentions("part 1/2 only"));
 }
 

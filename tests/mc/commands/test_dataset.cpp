@@ -16,27 +16,20 @@
 namespace test_dataset {
 
 using namespace gearpod;
-using test::bytes_of;
-using test::Folder;
-using test::Outcome;
-using test::program;
+using namespace gearpod::test;
 
 namespace {
 
 const std::string kRun =
-    "run " + test::study("planet-crack-ideal.toml") +
+    "run " + study("planet-crack-ideal.toml") +
     " --instances 50 --set ensemble.threshold_instances=35 --set sensor.noise_levels=[0,1] --quiet"
     " --set 'sensor.additional=[{name=\"side\", angle_deg=90}]' ";
 const std::vector<std::string> kData{"train.csv", "validation.csv", "test.csv"};
 
 std::string dataset_of(const Folder& folder, const std::string& name, const std::string& run) {
     const std::string results = folder.file(name + ".h5");
-    const Outcome ran = program(run + " --out " + results);
-    INFO(ran.output);
-    REQUIRE(ran.code == 0);
-    const Outcome report = program("report " + results + " --dataset " + folder.file(name));
-    INFO(report.output);
-    REQUIRE(report.code == 0);
+    require_success(run + " --out " + results);
+    const Outcome report = require_success("report " + results + " --dataset " + folder.file(name));
     CHECK(report.mentions("dataset: " + folder.file(name)));
     return folder.file(name);
 }
@@ -230,25 +223,21 @@ TEST_CASE("A dataset replaces no other file, and lives have none") {
     CHECK(program(report + data).code == 0);  // its own files
     for (const std::string name : {"README.md", "train.csv", "study.toml"}) {
         std::filesystem::create_directory(folder.file("other"));
-        test::write_bytes(folder.file("other/" + name), "notes of a user\n");
-        const Outcome refused = program(report + folder.file("other"));
-        INFO(refused.output);
-        CHECK(refused.code == 2);
-        CHECK(refused.mentions("--dataset " + folder.file("other/" + name) +
-                               ": is a file of another kind than this output"));
-        CHECK(refused.mentions("--force"));
+        write_bytes(folder.file("other/" + name), "notes of a user\n");
+        check_refused(report + folder.file("other"),
+                      {"--dataset " + folder.file("other/" + name) +
+                           ": is a file of another kind than this output",
+                       "--force"});
         CHECK(std::distance(std::filesystem::directory_iterator(folder.file("other")),
                             std::filesystem::directory_iterator{}) == 1);
         std::filesystem::remove_all(folder.file("other"));
     }
     const std::string lives = folder.file("lives.h5");
-    const Outcome ran = program("lives " + test::study("planet-crack-ideal.toml") +
-                                test::life_arguments() + " --quiet --out " + lives);
+    const Outcome ran = program("lives " + study("planet-crack-ideal.toml") + life_arguments() +
+                                " --quiet --out " + lives);
     INFO(ran.output);
-    const Outcome refused = program("report " + lives + " --dataset " + folder.file("lives"));
-    CHECK(refused.code == 2);
-    CHECK(refused.mentions("lives.h5: holds lives"));
-    CHECK(refused.mentions("--dataset"));
+    check_refused("report " + lives + " --dataset " + folder.file("lives"),
+                  {"lives.h5: holds lives", "--dataset"});
     CHECK_FALSE(std::filesystem::exists(folder.file("lives")));
 }
 

@@ -7,10 +7,7 @@
 namespace test_false_alarms {
 
 using namespace gearpod;
-using test::Folder;
-using test::Outcome;
-using test::program;
-using test::study;
+using namespace gearpod::test;
 
 namespace {
 
@@ -25,11 +22,10 @@ TEST_CASE(
     const Folder folder;
     const std::string rare = kSmall + " --set detection.false_alarm_rate=0.001";
     const Outcome described = program("describe " + rare);
-    CHECK(described.mentions("Too few healthy gearboxes for a false-alarm rate of 0.001: 30"));
-    CHECK(described.mentions("At least 999 are needed"));
+    check_mentions(described, {"Too few healthy gearboxes for a false-alarm rate of 0.001: 30",
+                               "At least 999 are needed"});
     const std::string results = folder.file("r.h5");
-    const Outcome run = program("run " + rare + " --quiet --out " + results);
-    REQUIRE(run.code == 0);
+    const Outcome run = require_success("run " + rare + " --quiet --out " + results);
     CHECK(run.mentions("Too few healthy gearboxes"));  // also where only problems are printed
     const Outcome report = program("report " + results);
     CHECK(report.output.starts_with("Too few healthy gearboxes for a false-alarm rate of 0.001"));
@@ -37,7 +33,7 @@ TEST_CASE(
     CHECK(!report.mentions("No tested"));
     CHECK(!report.mentions("not reached"));
     REQUIRE(program("report " + results + " --html " + folder.file("r.html")).code == 0);
-    const std::string page = test::bytes_of(folder.file("r.html"));
+    const std::string page = bytes_of(folder.file("r.html"));
     CHECK(page.find("Too few healthy gearboxes") != std::string::npos);
     CHECK(page.find("No tested") == std::string::npos);
     const Outcome compared = program("compare " + results + " " + results);
@@ -54,13 +50,12 @@ TEST_CASE("A sweep begins with what its healthy samples cannot determine, also o
                               folder.file("s") + " --vary sensor.noise_m_s2=[1,2]";
     REQUIRE(program(sweep).code == 0);
     // Finished points are not computed again; the warning appears again, once.
-    const Outcome again = program(sweep + " --html " + folder.file("s.html"));
-    REQUIRE(again.code == 0);
+    const Outcome again = require_success(sweep + " --html " + folder.file("s.html"));
     const std::size_t warning_position = again.output.find("Too few healthy gearboxes");
     CHECK(warning_position < again.output.find("smallest fault found"));
     CHECK(again.output.find("Too few healthy gearboxes", warning_position + 1) ==
           std::string::npos);
-    const std::string page = test::bytes_of(folder.file("s.html"));
+    const std::string page = bytes_of(folder.file("s.html"));
     CHECK(page.find("Too few healthy gearboxes") != std::string::npos);
     CHECK(page.find("no threshold in 2 of 2 studies") != std::string::npos);
     CHECK(page.find("none in any") == std::string::npos);
@@ -80,25 +75,19 @@ TEST_CASE("Costs of an alarm and of a miss give a threshold; all three keys are 
     const std::string results = folder.file("r.h5");
     REQUIRE(program("run " + kSmall + " --quiet --out " + results).code == 0);
     const std::string costs = " --alarm-cost 10 --miss-cost 500";
-    const Outcome two = program("report " + results + costs);
-    CHECK(two.code == 2);
-    CHECK(two.mentions("need all three"));
-    const Outcome all = program("report " + results + costs + " --fault-share 0.01");
-    CHECK(all.code == 0);
-    CHECK(all.mentions("Thresholds of least expected cost"));
-    CHECK(all.mentions("without any alarm"));
+    check_refused("report " + results + costs, {"need all three"});
+    const Outcome all = require_success("report " + results + costs + " --fault-share 0.01");
+    check_mentions(all, {"Thresholds of least expected cost", "without any alarm"});
     CHECK(program("report " + results).output.find("expected cost") == std::string::npos);
     const Outcome bad =
-        program("report " + results + " --alarm-cost nan --miss-cost -1 --fault-share 2");
-    CHECK(bad.code == 2);
+        check_refused("report " + results + " --alarm-cost nan --miss-cost -1 --fault-share 2");
     CHECK(bad.output ==
           "--alarm-cost: nan is not a finite number\n"
           "--miss-cost: must be at least 0, but is -1\n"
           "--fault-share: must be 0 to 1, but is 2\n"
           "Run with --help for more information.\n");
     const Outcome json = program("report " + results + costs + " --fault-share 0.01 --json -");
-    CHECK(json.mentions("\"least_cost\""));
-    CHECK(json.mentions("\"by_false_alarm_rate\""));
+    check_mentions(json, {"\"least_cost\"", "\"by_false_alarm_rate\""});
 }
 
 TEST_CASE("Uncertainty left by a calibration is a separate band in text, data and page") {
@@ -124,12 +113,11 @@ TEST_CASE("Uncertainty left by a calibration is a separate band in text, data an
     CHECK(band["a90_low"]["size"].get<double>() < 0.9 * band["a90_high"]["size"].get<double>());
     CHECK(band["band"]["lower"].size() == level["hit_miss"]["band"]["size"].size());
     REQUIRE(program("report " + results + " --html " + folder.file("r.html")).code == 0);
-    const std::string page = test::bytes_of(folder.file("r.html"));
+    const std::string page = bytes_of(folder.file("r.html"));
     CHECK(page.find("Unknown for this machine") != std::string::npos);
-    const Outcome unknown = program("describe " + study("planet-crack-ideal.toml") +
-                                    " --set 'detection.uncertain_inputs=[\"sensor.gain\"]'");
-    CHECK(unknown.code == 2);
-    CHECK(unknown.mentions("\"sensor.gain\" is not a random input of the gearboxes"));
+    check_refused("describe " + study("planet-crack-ideal.toml") +
+                      " --set 'detection.uncertain_inputs=[\"sensor.gain\"]'",
+                  {"\"sensor.gain\" is not a random input of the gearboxes"});
 }
 
 }  // namespace test_false_alarms

@@ -25,9 +25,8 @@ const std::string kReference = std::string(GEARPOD_SOURCE_DIR) + "/tests/feature
 const std::string kSmall = kReference + "small.toml";
 
 nlohmann::json features_of(const std::string& signal, const std::string& options) {
-    const Outcome outcome = program("features " + signal + " --study " + options + " --json -");
-    INFO(outcome.output);
-    REQUIRE(outcome.code == 0);
+    const Outcome outcome =
+        require_success("features " + signal + " --study " + options + " --json -");
     return nlohmann::json::parse(outcome.output);
 }
 
@@ -83,8 +82,8 @@ std::vector<double> simulated_feature(const std::string& path, const std::string
 // Definitions in numpy on stored signals: tests/features/reference/README.md.
 TEST_CASE("Every feature equals the numpy result for the same signals") {
     const auto result = features_of(kReference + "faulty.h5", kSmall + " --healthy " + kReference +
-                                                                   "healthy-1.h5 --healthy " +
-                                                                   kReference + "healthy-2.h5");
+                                                                  "healthy-1.h5 --healthy " +
+                                                                  kReference + "healthy-2.h5");
     std::ifstream stream(kReference + "expected.json");
     const auto expected = nlohmann::json::parse(stream);
     CHECK(result["unavailable"].empty());
@@ -175,10 +174,7 @@ TEST_CASE("A recording at changing speed is resampled with its speed column") {
 TEST_CASE("Every problem of a signal is reported in one message, with exit code 2") {
     const Folder folder;
     const auto refused = [&](const std::string& arguments, const std::string& message) {
-        const Outcome outcome = program("features " + arguments + " --study " + kSmall);
-        INFO(outcome.output);
-        CHECK(outcome.code == 2);
-        CHECK(outcome.mentions(message));
+        check_refused("features " + arguments + " --study " + kSmall, {message});
     };
     const std::vector<double> eight{0, 1, 2, 3, 4, 5, 6, 7};
     std::vector<double> phase(80), time(80), bad(80, 1.0), good(80, 1.0);
@@ -263,10 +259,8 @@ TEST_CASE("A feature without a value is reported with its reason, and no number 
     }
     for (const double level : {1e19, 1e200, -1e308}) {
         write_csv(file, hostile([&](double at) { return level * std::sin(at); }));
-        const Outcome outcome = program("features " + file + " --study " + kSmall);
-        CHECK(outcome.code == 2);
-        CHECK(outcome.mentions("column te: sample"));
-        CHECK(outcome.mentions("are not supported"));
+        check_refused("features " + file + " --study " + kSmall,
+                      {"column te: sample", "are not supported"});
     }
     // Two samples per mesh from the encoders resolve none of its harmonics.
     write_csv(file, hostile([](double at) { return 1e-5 * std::sin(0.1 * at); }));
@@ -289,8 +283,8 @@ TEST_CASE("A recording's speed is accepted only where it is plausible") {
             columns[2].second.push_back(rpm(i));
         }
         write_csv(file, columns);
-        return test::shell(test::within_memory(1000000) + std::string(GEARPOD_PROGRAM) +
-                           " features " + file + " --study " + kSmall);
+        return shell(within_memory(1000000) + std::string(GEARPOD_PROGRAM) + " features " + file +
+                     " --study " + kSmall);
     };
     const Outcome forwards = recorded([](int) { return 20.0; });
     INFO(forwards.output);
@@ -320,10 +314,8 @@ TEST_CASE("Recordings of a few samples are too short, whatever their format") {
                 columns[1].second.push_back(0.5 + i % 2);
             }
             write_csv(file, columns);
-            const Outcome outcome = program("features " + file + " --study " + kSmall);
-            INFO(column << " " << samples << "\n" << outcome.output);
-            CHECK(outcome.code == 2);
-            CHECK(outcome.mentions("too short for every feature: "));
+            check_refused("features " + file + " --study " + kSmall,
+                          {"too short for every feature: "});
         }
     }
 }
@@ -336,9 +328,7 @@ TEST_CASE("A MAT file that declares gigabytes is reported as damaged, without al
     const double before = mc::peak_memory_bytes();
     CHECK_THROWS_AS(mc::open_signal_file(file)->names(), mc::SignalError);
     CHECK(mc::peak_memory_bytes() - before < 500e6);
-    const Outcome outcome = program("features " + file + " --study " + kSmall);
-    CHECK(outcome.code == 2);
-    CHECK(outcome.mentions("x.mat: "));
+    check_refused("features " + file + " --study " + kSmall, {"x.mat: "});
 }
 
 TEST_CASE("A table of two hundred thousand columns is refused immediately with a short message") {
@@ -355,10 +345,9 @@ TEST_CASE("A table of two hundred thousand columns is refused immediately with a
         }
         stream << "\n";
     }
-    const Outcome outcome = test::shell("timeout 10 " + std::string(GEARPOD_PROGRAM) +
-                                        " features " + file + " --study " + kSmall);
-    CHECK(outcome.code == 2);
-    CHECK(outcome.mentions("200000 columns; at most 10000 are supported"));
+    const Outcome outcome = check_refused(shell("timeout 10 " + std::string(GEARPOD_PROGRAM) +
+                                                " features " + file + " --study " + kSmall),
+                                          {"200000 columns; at most 10000 are supported"});
     CHECK(outcome.output.size() < 1000);
 }
 
@@ -366,20 +355,16 @@ TEST_CASE("Control characters in file names and titles do not reach the terminal
     const Folder folder;
     const std::string file = folder.file("x.csv"), study = folder.file("s.toml");
     write_bytes(file, "mesh_phase,\x1b[31mred\n0,1\n0.1,2\n");
-    const Outcome column = program("features " + file + " --study " + kSmall);
-    CHECK(column.code == 2);
+    const Outcome column = check_refused("features " + file + " --study " + kSmall);
     CHECK_FALSE(column.mentions("\x1b"));
     const Outcome option =
-        program("features " + file + " --sensor '\x1b[31mred' --study " + kSmall);
-    CHECK(option.code == 2);
-    CHECK(option.mentions("argument 4 (?[31mred) has control characters"));
+        check_refused("features " + file + " --sensor '\x1b[31mred' --study " + kSmall,
+                      {"argument 4 (?[31mred) has control characters"});
     CHECK_FALSE(option.mentions("\x1b"));
     for (const char* line : {"title = \"\\u001b[31mred\"\n", "title = \"\\u009b31mred\"\n",
                              "title = \"two\\nlines\"\n", "\"\\u001b[31mred\" = 1\n"}) {
         write_bytes(study, std::string(line) + bytes_of(kSmall));
-        const Outcome outcome = program("describe " + study);
-        INFO(line << outcome.output);
-        CHECK(outcome.code == 2);
+        const Outcome outcome = check_refused("describe " + study);
         CHECK_FALSE(outcome.mentions("\x1b"));
         CHECK_FALSE(outcome.mentions("\xc2\x9b"));
     }

@@ -6,10 +6,7 @@
 namespace test_help {
 
 using namespace gearpod;
-using test::bytes_of;
-using test::Folder;
-using test::program;
-using test::write_bytes;
+using namespace gearpod::test;
 
 namespace {
 
@@ -86,13 +83,12 @@ ask gearpod com
 ask gearpod compare --h
 ask gearpod pod t.csv --alarm h
 )");
-    const auto completed = test::shell("bash " + script);
+    const auto completed = shell("bash " + script);
     CHECK(completed.output == "compare\n--help --html\nhigh\n");
 }
 
 TEST_CASE("The version states source revision and build") {
-    const auto completed = program("--version");
-    CHECK(completed.code == 0);
+    const auto completed = require_success("--version");
     for (const char* word : {"gearpod ", "git ", "compiler: ", "kernels: ", "HDF5: "}) {
         CHECK_THAT(completed.output, Catch::Contains(word));
     }

@@ -9,10 +9,7 @@
 namespace test_kills {
 
 using namespace gearpod;
-using test::bits;
-using test::Folder;
-using test::mpirun;
-using test::Outcome;
+using namespace gearpod::test;
 
 namespace {
 
@@ -34,12 +31,12 @@ TEST_CASE("Killed two hundred times with a concurrent rival, a run loses nothing
     const Folder folder;
     const std::string out = folder.file("r.h5");
     const auto command = [&](const std::string& file) {
-        return std::string(GEARPOD_PROGRAM) + " run " + test::study("crack-in-sun.toml") +
+        return std::string(GEARPOD_PROGRAM) + " run " + study("crack-in-sun.toml") +
                " --instances 300 --set ensemble.threshold_instances=100 --set "
                "ensemble.checkpoint_s=0 --quiet --resume --out " +
                file;
     };
-    REQUIRE(test::shell(command(folder.file("whole.h5"))).code == 0);
+    REQUIRE(shell(command(folder.file("whole.h5"))).code == 0);
     const auto reference = bits(folder.file("whole.h5"));
     std::mt19937 engine(200);
     std::uniform_real_distribution<double> moment(0.05, 2.0);
@@ -49,7 +46,7 @@ TEST_CASE("Killed two hundred times with a concurrent rival, a run loses nothing
         const pid_t child = start((ranks == 1 ? "" : "env " + mpirun(ranks)) + command(out));
         std::this_thread::sleep_for(std::chrono::duration<double>(0.5 * moment(engine)));
         const Outcome rival =
-            test::shell("timeout -s KILL " + std::to_string(moment(engine)) + " " + command(out));
+            shell("timeout -s KILL " + std::to_string(moment(engine)) + " " + command(out));
         CHECK((rival.code == 0 || rival.code == 2 || rival.code == 137));
         if (rival.code == 2) {
             INFO(rival.output);
@@ -65,10 +62,10 @@ TEST_CASE("Killed two hundred times with a concurrent rival, a run loses nothing
             ++whole;
         }
     }
-    Outcome last = test::shell(command(out));
+    Outcome last = shell(command(out));
     for (int i = 0; i < 50 && last.mentions("is using it"); ++i) {
         std::this_thread::sleep_for(std::chrono::milliseconds(200));  // ranks may outlive mpirun
-        last = test::shell(command(out));
+        last = shell(command(out));
     }
     INFO(last.output << whole << " times whole in between");
     CHECK(last.code == 0);

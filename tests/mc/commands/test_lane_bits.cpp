@@ -8,9 +8,7 @@
 namespace test_lane_bits {
 
 using namespace gearpod;
-using test::bits;
-using test::compared_program;
-using test::Folder;
+using namespace gearpod::test;
 
 namespace {
 
@@ -18,9 +16,7 @@ namespace {
 const std::string kStudy = std::string(GEARPOD_SOURCE_DIR) + "/tests/bench/rare_teeth.toml";
 
 std::string output_of(const std::string& arguments) {
-    const test::Outcome outcome = compared_program(arguments);
-    INFO(outcome.output);
-    REQUIRE(outcome.code == 0);
+    const Outcome outcome = require_success(compared_program(arguments));
     return outcome.output;
 }
 

@@ -13,8 +13,7 @@
 namespace test_machines {
 
 using namespace gearpod;
-using test::Folder;
-using test::Outcome;
+using namespace gearpod::test;
 namespace fs = std::filesystem;
 
 namespace {
@@ -51,15 +50,14 @@ TEST_CASE("Machines share the detection statistics, and the report is that of on
     }
     const Folder folder;
     const std::string command =
-        std::string(GEARPOD_PROGRAM) + " run " + test::study("planet-crack-ideal.toml") +
+        std::string(GEARPOD_PROGRAM) + " run " + study("planet-crack-ideal.toml") +
         " --instances 300 --set ensemble.threshold_instances=200 --set numerics.threads=1 --out ";
-    const Outcome one = test::shell(command + folder.file("one.h5"));
-    const Outcome two = test::shell(on_two_machines(folder) + command + folder.file("two.h5"));
+    const Outcome one = shell(command + folder.file("one.h5"));
+    const Outcome two = shell(on_two_machines(folder) + command + folder.file("two.h5"));
     INFO(two.output);
     REQUIRE(one.code == 0);
     REQUIRE(two.code == 0);
-    CHECK(two.mentions("(3 ranks, 3 threads in total"));
-    CHECK(two.mentions("on 2 machines"));
+    check_mentions(two, {"(3 ranks, 3 threads in total", "on 2 machines"});
     CHECK_FALSE(one.mentions("machines"));
     CHECK(tables(one) == tables(two));
 

@@ -97,10 +97,8 @@ TEST_CASE("A measured baseline gives the result of the simulated one, for any st
 TEST_CASE("Features of the change equal the numpy result for the same signals") {
     const std::string reference = std::string(GEARPOD_SOURCE_DIR) + "/tests/features/reference/";
     const Outcome outcome =
-        program("features " + reference + "faulty.h5 --study " + reference +
-                "small.toml --baseline " + reference + "healthy-1.h5 --json -");
-    INFO(outcome.output);
-    REQUIRE(outcome.code == 0);
+        require_success("features " + reference + "faulty.h5 --study " + reference +
+                        "small.toml --baseline " + reference + "healthy-1.h5 --json -");
     const auto result = nlohmann::json::parse(outcome.output)["features"];
     std::ifstream stream(reference + "expected-change.json");
     const auto expected = nlohmann::json::parse(stream);
@@ -146,8 +144,7 @@ TEST_CASE("Many recordings are compared with one baseline") {
         features(healthy + " " + faulty, "--quiet --csv - --baseline " + healthy);
     INFO(outcome.output);
     REQUIRE(outcome.code == 0);
-    CHECK(outcome.mentions("own_window_ratio"));
-    CHECK(outcome.mentions("change_window_z"));
+    check_mentions(outcome, {"own_window_ratio", "change_window_z"});
     CHECK(features(healthy + " " + faulty, "--quiet --csv -").mentions("window_ratio"));
     CHECK_FALSE(features(healthy + " " + faulty, "--quiet --csv -").mentions("change_"));
 }

@@ -5,12 +5,7 @@
 namespace test_merge {
 
 using namespace gearpod;
-using test::bits;
-using test::bytes_of;
-using test::Folder;
-using test::Outcome;
-using test::program;
-using test::study;
+using namespace gearpod::test;
 
 namespace {
 
@@ -23,16 +18,13 @@ const std::string kRun = "run " + study("planet-crack-ideal.toml") +
 std::string part(const Folder& folder, const std::string& which, const std::string& more = "") {
     std::string name = which + ".h5";
     name[name.find('/')] = '-';
-    const Outcome run =
-        program(kRun + " --part " + which + " --out " + folder.file(name) + " " + more);
-    INFO(run.output);
-    REQUIRE(run.code == 0);
+    require_success(kRun + " --part " + which + " --out " + folder.file(name) + " " + more);
     return folder.file(name);
 }
 
 // Dataset names, where h5dump is installed.
 std::string datasets(const std::string& file) {
-    return test::shell("h5dump -n " + file + " | tail -n +2").output;
+    return shell("h5dump -n " + file + " | tail -n +2").output;
 }
 
 }  // namespace
@@ -44,9 +36,7 @@ TEST_CASE("Four merged parts equal one run, bit by bit", "[merge]") {
         parts += " " + part(folder, which);
     }
     const std::string merged = folder.file("merged.h5"), whole = folder.file("whole.h5");
-    const Outcome merge = program("merge" + parts + " --out " + merged);
-    INFO(merge.output);
-    REQUIRE(merge.code == 0);
+    const Outcome merge = require_success("merge" + parts + " --out " + merged);
     CHECK(merge.mentions("results: " + merged));
     REQUIRE(program(kRun + " --out " + whole).code == 0);
     CHECK(bits(merged) == bits(whole));
@@ -55,10 +45,8 @@ TEST_CASE("Four merged parts equal one run, bit by bit", "[merge]") {
     CHECK(program("report " + merged).output == program("report " + whole).output);
     CHECK(!std::filesystem::exists(merged + ".part"));
     // A repeated part is refused.
-    const Outcome twice =
-        program("merge " + merged + " " + whole + " --out " + folder.file("t.h5"));
-    CHECK(twice.code == 2);
-    CHECK(twice.mentions("whole.h5: cannot be merged: rows 0 to 15 and more are also in "));
+    check_refused("merge " + merged + " " + whole + " --out " + folder.file("t.h5"),
+                  {"whole.h5: cannot be merged: rows 0 to 15 and more are also in "});
 }
 
 TEST_CASE("Parts have their own gearboxes and are labelled as parts", "[merge]") {
@@ -81,36 +69,26 @@ TEST_CASE("Parts have their own gearboxes and are labelled as parts", "[merge]")
     // Examples on the page are gearboxes of the part.
     CHECK(program("report " + second + " --json -").mentions("\"same_bits\": true"));
     // Another part cannot resume this one.
-    const Outcome other = program(kRun + " --part 2/2 --resume --out " + first);
-    CHECK(other.code == 2);
-    CHECK(other.mentions("has part 1/2, this is part 2/2"));
+    check_refused(kRun + " --part 2/2 --resume --out " + first, {"has part 1/2, this is part 2/2"});
 }
 
 TEST_CASE("Parts that do not match are refused by name, all at once", "[merge]") {
     const Folder folder;
     const std::string first = part(folder, "1/3"), second = part(folder, "2/3");
     const std::string out = " --out " + folder.file("m.h5");
-    const Outcome gap = program("merge " + first + " " + second + out);
-    CHECK(gap.code == 2);
-    CHECK(gap.mentions("are in none of the files, first rows 32 to 34; compute them"));
-    CHECK(gap.mentions("run --part 3/3"));
+    check_refused(
+        "merge " + first + " " + second + out,
+        {"are in none of the files, first rows 32 to 34; compute them", "run --part 3/3"});
     const std::string seed = part(folder, "3/3", "--seed 77");
-    const Outcome other = program("merge " + first + " " + second + " " + seed + out);
-    CHECK(other.code == 2);
-    CHECK(other.mentions("3-3.h5: cannot be merged: it has seed 77"));
+    check_refused("merge " + first + " " + second + " " + seed + out,
+                  {"3-3.h5: cannot be merged: it has seed 77"});
     const std::string third = part(folder, "3/3", "--force --set gearbox.mesh_damping_ratio=0.08");
-    const Outcome study = program("merge " + first + " " + third + " /none/there.h5" + out);
-    CHECK(study.code == 2);
-    CHECK(study.mentions("belongs to another study"));
-    CHECK(study.mentions("/none/there.h5"));
-    const Outcome itself = program("merge " + first + " " + second + " --out " + first);
-    CHECK(itself.code == 2);
-    CHECK(itself.mentions("would overwrite"));
+    check_refused("merge " + first + " " + third + " /none/there.h5" + out,
+                  {"belongs to another study", "/none/there.h5"});
+    check_refused("merge " + first + " " + second + " --out " + first, {"would overwrite"});
     CHECK(!std::filesystem::exists(folder.file("m.h5")));
     for (const char* bad : {"0/4", "5/4", "2", "a/b", "2/4x", "1/0"}) {
-        const Outcome refused = program(kRun + " --part " + bad + out);
-        CHECK(refused.code == 2);
-        CHECK(refused.mentions("must be K/N"));
+        check_refused(kRun + " --part " + bad + out, {"must be K/N"});
     }
     CHECK(program(kRun + " --part 9/9" + out).mentions("this part has none"));
 }
@@ -123,23 +101,18 @@ TEST_CASE("Parts from another version of the program are refused", "[merge]") {
         value = name == "git_hash" ? "0123456789abcdef" : value;
     }
     mc::write_results(second, older);
-    const Outcome refused =
-        program("merge " + first + " " + second + " --out " + folder.file("m.h5"));
-    CHECK(refused.code == 2);
-    CHECK(refused.mentions("2-2.h5: cannot be merged: it was made by gearpod"));
-    CHECK(refused.mentions("git 0123456789ab"));
+    check_refused("merge " + first + " " + second + " --out " + folder.file("m.h5"),
+                  {"2-2.h5: cannot be merged: it was made by gearpod", "git 0123456789ab"});
 }
 
 TEST_CASE("An interrupted part is resumed before it is merged; progress is available as JSON",
           "[merge]") {
     const Folder folder;
     const std::string first = part(folder, "1/2", "--progress json");
-    const Outcome run = program(kRun + " --part 2/2 --progress json --out " + folder.file("b.h5"));
-    REQUIRE(run.code == 0);
-    CHECK(run.mentions("\"finished\":true"));
-    CHECK(run.mentions("\"done\":48,"));
-    CHECK(run.mentions("\"of\":48,"));
-    CHECK(run.mentions("\"counted\":\"gearboxes\""));
+    const Outcome run =
+        require_success(kRun + " --part 2/2 --progress json --out " + folder.file("b.h5"));
+    check_mentions(
+        run, {"\"finished\":true", "\"done\":48,", "\"of\":48,", "\"counted\":\"gearboxes\""});
     const Outcome records = program(kRun +
                                     " --part 2/2 --progress json --set "
                                     "ensemble.threshold_records=2 --out " +
@@ -158,10 +131,8 @@ TEST_CASE("An interrupted part is resumed before it is merged; progress is avail
     some.group.resize(16);
     some.status.resize(16);
     mc::write_results(first, some);
-    const Outcome refused =
-        program("merge " + first + " " + folder.file("b.h5") + " --out " + folder.file("m.h5"));
-    CHECK(refused.code == 2);
-    CHECK(refused.mentions("1-2.h5: contains 16 of its 37 gearboxes"));
+    check_refused("merge " + first + " " + folder.file("b.h5") + " --out " + folder.file("m.h5"),
+                  {"1-2.h5: contains 16 of its 37 gearboxes"});
 }
 
 TEST_CASE("A merge on a full disk leaves nothing and can be repeated", "[merge]") {
@@ -172,8 +143,8 @@ TEST_CASE("A merge on a full disk leaves nothing and can be repeated", "[merge]"
     // Limits in blocks of 512 bytes: too small for the checkpoint, and for the results only.
     bool results_failed = false;
     for (int blocks = 4; blocks <= 1024; blocks *= 2) {
-        const Outcome full = test::shell("ulimit -f " + std::to_string(blocks) + "; " +
-                                         GEARPOD_PROGRAM + " merge " + parts + " --out " + out);
+        const Outcome full = shell("ulimit -f " + std::to_string(blocks) + "; " + GEARPOD_PROGRAM +
+                                   " merge " + parts + " --out " + out);
         INFO(blocks << "\n" << full.output);
         results_failed = results_failed || full.mentions("m.h5: cannot be written");
         if (full.code == 0) {

@@ -7,20 +7,18 @@
 namespace test_misses {
 
 using namespace gearpod;
-using test::program;
-using test::shell;
+using namespace gearpod::test;
 
 namespace {
 
 // Thresholds are set by 100 healthy gearboxes.
-std::string run_small(const test::Folder& folder, const std::string& more = "") {
+std::string run_small(const Folder& folder, const std::string& more = "") {
     const std::string results = folder.file("ideal.h5");
-    const test::Outcome run =
-        program("run " + test::study("planet-crack-ideal.toml") + " --quiet --out " + results +
-                " --instances 40 --set ensemble.threshold_instances=100 --set "
-                "'sensor.noise_levels=[0,2]' --set 'features.use=[\"te_rms\",\"window_ratio\"]' " +
-                more);
-    REQUIRE(run.code == 0);
+    require_success(
+        "run " + study("planet-crack-ideal.toml") + " --quiet --out " + results +
+        " --instances 40 --set ensemble.threshold_instances=100 --set "
+        "'sensor.noise_levels=[0,2]' --set 'features.use=[\"te_rms\",\"window_ratio\"]' " +
+        more);
     return results;
 }
 
@@ -29,19 +27,17 @@ const std::string kRequest = " --feature window_ratio --size 1 --quiet --json -"
 }  // namespace
 
 TEST_CASE("Rates of misses agree with counted ones") {
-    const test::Folder folder;
+    const Folder folder;
     const std::string results = run_small(folder);
-    const test::Outcome importance_sampled =
-        program("misses " + results + " --gearboxes 60 --records 32" + kRequest);
-    INFO(importance_sampled.output);
-    REQUIRE(importance_sampled.code == 0);
+    const Outcome importance_sampled =
+        require_success("misses " + results + " --gearboxes 60 --records 32" + kRequest);
     const auto result = nlohmann::json::parse(importance_sampled.output);
     CHECK(result["noise_level"] == 2.0);
     REQUIRE(result["miss_rate"].is_number());
     // Other gearboxes of the same study, with one plain record each, against the same threshold.
     const double threshold = result["threshold"];
     const std::string counted = folder.file("counted.h5");
-    REQUIRE(program("run " + test::study("planet-crack-ideal.toml") + " --quiet --out " + counted +
+    REQUIRE(program("run " + study("planet-crack-ideal.toml") + " --quiet --out " + counted +
                     " --instances 500 --seed 77 --set ensemble.threshold_instances=8 --set "
                     "'sensor.noise_levels=[0,2]' --set 'features.use=[\"window_ratio\"]' --set "
                     "'random.fault.depth_mm={distribution=\"levels\",values=[1]}'")
@@ -61,13 +57,11 @@ TEST_CASE("Rates of misses agree with counted ones") {
 }
 
 TEST_CASE("The miss rate of faults that are nearly always missed is at most 1") {
-    const test::Folder folder;
+    const Folder folder;
     const std::string request = "misses " + run_small(folder) +
                                 " --feature window_ratio --size 0.01 --gearboxes 60 --records 16 "
                                 "--quiet";
-    const test::Outcome text = program(request);
-    INFO(text.output);
-    REQUIRE(text.code == 0);
+    const Outcome text = require_success(request);
     CHECK(text.mentions("misses are not rare enough for this method"));
     const auto result = nlohmann::json::parse(program(request + " --json -").output);
     CHECK(result["miss_rate"] <= 1.0);
@@ -77,47 +71,40 @@ TEST_CASE("The miss rate of faults that are nearly always missed is at most 1") 
 }
 
 TEST_CASE("Rates of misses have the same bits for any number of threads") {
-    const test::Folder folder;
+    const Folder folder;
     const std::string request =
         "misses " + run_small(folder) + " --gearboxes 40 --records 8" + kRequest;
-    const test::Outcome one =
-        shell("OMP_NUM_THREADS=1 " + std::string(GEARPOD_PROGRAM) + " " + request);
-    REQUIRE(one.code == 0);
+    const Outcome one =
+        require_success(shell("OMP_NUM_THREADS=1 " + std::string(GEARPOD_PROGRAM) + " " + request));
     CHECK(shell("OMP_NUM_THREADS=3 " + std::string(GEARPOD_PROGRAM) + " " + request).output ==
           one.output);
 }
 
 TEST_CASE("Rates of misses have the same bits for any number of ranks", "[mpi]") {
-    const test::Folder folder;
+    const Folder folder;
     const std::string request =
         "misses " + run_small(folder) + " --gearboxes 40 --records 8" + kRequest;
-    const test::Outcome one = program(request);
-    REQUIRE(one.code == 0);
-    CHECK(shell(test::mpirun(2) + GEARPOD_PROGRAM + " " + request).output == one.output);
+    const Outcome one = require_success(request);
+    CHECK(shell(mpirun(2) + GEARPOD_PROGRAM + " " + request).output == one.output);
 }
 
 TEST_CASE("Invalid requests to misses are refused, every problem at once") {
-    const test::Folder folder;
+    const Folder folder;
     const std::string results = run_small(folder);
-    const test::Outcome wrong =
-        program("misses " + results + " --feature te_rms --size 0 --noise-level 3 --records 6");
-    CHECK(wrong.code == 2);
-    CHECK(wrong.mentions("--feature: \"te_rms\" does not use the acceleration signal"));
-    CHECK(wrong.mentions("--size: must be > 0 and finite, but is 0"));
-    CHECK(wrong.mentions("--noise-level: 3 is not a noise level of the file; choose from 0, 2"));
-    CHECK(wrong.mentions("--records: must be a multiple of 4 up to 10000, but is 6"));
-    const test::Outcome many = program("misses " + results +
+    check_refused("misses " + results + " --feature te_rms --size 0 --noise-level 3 --records 6",
+                  {"--feature: \"te_rms\" does not use the acceleration signal",
+                   "--size: must be > 0 and finite, but is 0",
+                   "--noise-level: 3 is not a noise level of the file; choose from 0, 2",
+                   "--records: must be a multiple of 4 up to 10000, but is 6"});
+    const Outcome many = check_refused("misses " + results +
                                        " --feature window_ratio --size 1 --records 40000 "
                                        "--gearboxes 1");
-    CHECK(many.code == 2);
     CHECK(many.output ==
           "--records: must be a multiple of 4 up to 10000, but is 40000\n"
           "--gearboxes: must be between 2 and 10000, but is 1\n");
-    const test::Outcome unknown = program("misses " + results + " --feature nothing --size 1");
-    CHECK(unknown.code == 2);
-    CHECK(unknown.mentions("its features are te_rms, window_ratio"));
-    const test::Outcome deep = program("misses " + results + " --feature window_ratio --size 900");
-    CHECK(deep.code == 2);
+    check_refused("misses " + results + " --feature nothing --size 1",
+                  {"its features are te_rms, window_ratio"});
+    const Outcome deep = check_refused("misses " + results + " --feature window_ratio --size 900");
     CHECK(deep.output.starts_with("--size: "));
     CHECK(std::count(deep.output.begin(), deep.output.end(), '\n') == 1);
     CHECK(program("misses " + folder.file("none.h5") + " --feature fm4 --size 1").code == 2);

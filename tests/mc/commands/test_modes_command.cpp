@@ -35,10 +35,8 @@ TEST_CASE("Critical speeds lie where a mesh harmonic crosses a natural frequency
 TEST_CASE("modes writes a Campbell diagram, and prints the critical speeds") {
     const Folder folder;
     const std::string html = folder.file("m.html");
-    const Outcome outcome = program("modes " + study("bell-206b.toml") + " --html " + html +
-                                    " --json " + folder.file("m.json"));
-    INFO(outcome.output);
-    REQUIRE(outcome.code == 0);
+    const Outcome outcome = require_success("modes " + study("bell-206b.toml") + " --html " + html +
+                                            " --json " + folder.file("m.json"));
     CHECK(outcome.mentions("speeds of the carrier at which mesh harmonics 1 to 5"));
     const auto json = nlohmann::json::parse(bytes_of(folder.file("m.json")));
     const auto& campbell = json["campbell"];

@@ -1,15 +1,15 @@
-// Checks options with numbers: one reader for all commands.
+// Checks options with numbers, which have one reader for all commands, and options with several
+// values after one name.
 #include <nlohmann/json.hpp>
 
 #include "mc/files/input/number_text.hpp"
 #include "tests/mc/program.hpp"
 
-namespace test_number_options {
+namespace test_options {
 
 using namespace gearpod;
 using mc::NumberForm;
-using test::Outcome;
-using test::program;
+using namespace gearpod::test;
 
 namespace {
 
@@ -77,11 +77,8 @@ TEST_CASE("Every numeric option of every command refuses what is no number, by i
             ++options;
             const std::string name = option["name"];
             for (const char* value : {"nan", "1e400"}) {
-                const Outcome outcome =
-                    program(command["name"].get<std::string>() + " " + name + "=" + value);
-                INFO(command["name"] << " " << name << "=" << value << "\n" << outcome.output);
-                CHECK(outcome.code == 2);
-                CHECK(outcome.mentions(name + ": " + value + " is "));
+                check_refused(command["name"].get<std::string>() + " " + name + "=" + value,
+                              {name + ": " + value + " is "});
             }
         }
     }
@@ -89,19 +86,15 @@ TEST_CASE("Every numeric option of every command refuses what is no number, by i
 }
 
 TEST_CASE("All refused values of a command line are printed together") {
-    const Outcome outcome =
-        program("pod none.csv --floor nan --confidence 2 --target 0 --bounds exact");
-    INFO(outcome.output);
-    CHECK(outcome.code == 2);
-    CHECK(outcome.mentions("--floor: nan is not a finite number"));
-    CHECK(outcome.mentions("--confidence: must be 0.5 to 0.9999, but is 2"));
-    CHECK(outcome.mentions("--target: must be above 0, but is 0"));
-    CHECK(outcome.mentions("--bounds: exact not in {likelihood-ratio,wald}"));
+    check_refused(
+        "pod none.csv --floor nan --confidence 2 --target 0 --bounds exact",
+        {"--floor: nan is not a finite number", "--confidence: must be 0.5 to 0.9999, but is 2",
+         "--target: must be above 0, but is 0", "--bounds: exact not in {likelihood-ratio,wald}"});
     CHECK(program("features x.csv --study s.toml --sampling-Hz 0")
               .mentions("--sampling-Hz: must be above 0 Hz, but is 0"));
     const Outcome teeth = program("new planetary --sun 1e1 --planet 3000000000 --module 2");
-    CHECK(teeth.mentions("--sun: 1e1 is not written as a whole number; write 10"));
-    CHECK(teeth.mentions("--planet: 3000000000 is beyond the range of whole numbers"));
+    check_mentions(teeth, {"--sun: 1e1 is not written as a whole number; write 10",
+                           "--planet: 3000000000 is beyond the range of whole numbers"});
 }
 
 TEST_CASE("Every key of a study refuses numbers that are not finite") {
@@ -120,25 +113,13 @@ TEST_CASE("Every key of a study refuses numbers that are not finite") {
         }
         REQUIRE(names.size() > 200);
         const Outcome outcome =
-            program("describe " + test::study("planet-crack-ideal.toml") + settings);
-        CHECK(outcome.code == 2);
+            check_refused("describe " + test::study("planet-crack-ideal.toml") + settings);
         for (const std::string& name : names) {
             INFO(name);
             CHECK(contains(outcome.output, "--set: " + name + ": must be "));
         }
     }
 }
-
-}  // namespace test_number_options
-
-// Checks options with several values after one name.
-
-namespace test_several_values {
-
-using namespace gearpod;
-using test::Folder;
-using test::Outcome;
-using test::program;
 
 TEST_CASE("`pod` takes several inspectors after one --hit, before or after the table") {
     const Folder folder;
@@ -148,10 +129,8 @@ TEST_CASE("`pod` takes several inspectors after one --hit, before or after the t
         const int a = 7 * i % 40 + i > 38, b = 11 * i % 40 + i > 42;
         text += std::to_string(0.1 * i) + "," + std::to_string(a) + "," + std::to_string(b) + "\n";
     }
-    test::write_bytes(table, text);
-    const Outcome expected = program("pod " + table + " --size x --hit A --hit B --json -");
-    INFO(expected.output);
-    REQUIRE(expected.code == 0);
+    write_bytes(table, text);
+    const Outcome expected = require_success("pod " + table + " --size x --hit A --hit B --json -");
     // Without another word that can be the table, it is the last word after an option.
     for (const std::string& words :
          {table + " --size x --hit A B", "--hit A B " + table + " --size x",
@@ -168,8 +147,7 @@ TEST_CASE("`pod` takes several inspectors after one --hit, before or after the t
     CHECK_FALSE(responses.mentions("unexpected argument"));
     const Outcome study = program("describe " + test::study("planet-crack-ideal.toml") +
                                   " --set ensemble.seed=nan ensemble.instances=nan");
-    CHECK(study.mentions("ensemble.seed: must be"));
-    CHECK(study.mentions("ensemble.instances: must be"));
+    check_mentions(study, {"ensemble.seed: must be", "ensemble.instances: must be"});
 }
 
 TEST_CASE("A word that an option cannot take is not its value") {
@@ -179,9 +157,8 @@ TEST_CASE("A word that an option cannot take is not its value") {
     for (int i = 1; i <= 40; ++i) {
         text += std::to_string(0.1 * i) + "," + std::to_string(7 * i % 40 + i > 38) + "\n";
     }
-    test::write_bytes(table, text);
-    const Outcome links = program("pod " + table + " --link logit --link probit");
-    REQUIRE(links.code == 0);
+    write_bytes(table, text);
+    const Outcome links = require_success("pod " + table + " --link logit --link probit");
     for (const std::string& words :
          {"--link logit probit " + table, "--link logit,probit " + table,
           table + " --link logit probit", "--link logit probit " + table + " --confidence 0.95"}) {
@@ -203,4 +180,4 @@ TEST_CASE("A word that an option cannot take is not its value") {
     CHECK(program("features --help").mentions("--healthy FILE "));
 }
 
-}  // namespace test_several_values
+}  // namespace test_options

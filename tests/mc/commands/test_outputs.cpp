@@ -8,11 +8,7 @@
 namespace test_outputs {
 
 using namespace gearpod;
-using test::bytes_of;
-using test::Folder;
-using test::Outcome;
-using test::program;
-using test::write_bytes;
+using namespace gearpod::test;
 namespace fs = std::filesystem;
 
 namespace {
@@ -26,9 +22,7 @@ struct Workplace {
                 signal = folder.file("x.csv");
     Workplace() {
         fs::copy_file(test::study("planet-crack-ideal.toml"), study);
-        const Outcome run = program("run " + study + kSmall + " --quiet --out " + results);
-        INFO(run.output);
-        REQUIRE(run.code == 0);
+        require_success("run " + study + kSmall + " --quiet --out " + results);
         REQUIRE(program("simulate " + study + " --instance 0 --out " + signal).code == 0);
         fs::create_symlink("s.toml", folder.file("link.toml"));
         fs::create_hard_link(study, folder.file("hard.toml"));
@@ -70,10 +64,7 @@ TEST_CASE("A command refuses to overwrite a file that it reads, under any name")
     };
     const long files = place.folder.files();
     for (const std::string& command : commands) {
-        const Outcome outcome = program(command);
-        INFO(command << "\n" << outcome.output);
-        CHECK(outcome.code == 2);
-        CHECK(outcome.mentions("would overwrite"));
+        check_refused(command, {"would overwrite"});
         CHECK(bytes_of(place.study) == study);
         CHECK(bytes_of(place.results) == results);
         CHECK(bytes_of(place.signal) == signal);
@@ -83,9 +74,7 @@ TEST_CASE("A command refuses to overwrite a file that it reads, under any name")
     for (const char* ending : {".new", ".part"}) {
         const std::string out = at("z.h5");
         fs::copy_file(place.study, out + ending);
-        const Outcome outcome = program("run " + out + ending + kSmall + " --out " + out);
-        INFO(outcome.output);
-        CHECK(outcome.code == 2);
+        check_refused("run " + out + ending + kSmall + " --out " + out);
         CHECK(bytes_of(out + ending) == study);
         fs::remove(out + ending);
     }
@@ -98,10 +87,7 @@ TEST_CASE("An empty output name is bad input") {
           "report " + place.results + " --html ''", "report " + place.results + " --pdf ''",
           "stiffness " + place.study + " --csv ''",
           "simulate " + place.study + " --instance 0 --out ''"}) {
-        const Outcome outcome = program(command);
-        INFO(command << "\n" << outcome.output);
-        CHECK(outcome.code == 2);
-        CHECK(outcome.mentions("empty"));
+        check_refused(command, {"empty"});
     }
 }
 
@@ -111,10 +97,7 @@ TEST_CASE("Results of another study and other files are overwritten with --force
     const std::string before = bytes_of(place.results);
     CHECK(program(run).code == 0);  // the same study again
     for (const std::string& other : {run + " --set operation.torque_N_m=400", run + " --seed 99"}) {
-        const Outcome refused = program(other);
-        INFO(refused.output);
-        CHECK(refused.code == 2);
-        CHECK(refused.mentions("--force"));
+        check_refused(other, {"--force"});
         CHECK(mc::read_results(place.results).status.size() == 3);
     }
     CHECK(program(run + " --seed 99 --force").code == 0);
@@ -134,11 +117,9 @@ TEST_CASE("An existing file under the temporary output name is refused and not o
     write_bytes(precious, "years of work\n");
     const auto in_the_way = [&](auto make) {
         make();
-        const Outcome outcome = test::shell("timeout 60 " + std::string(GEARPOD_PROGRAM) + " run " +
-                                            place.study + kSmall + " --quiet --out " + out);
-        INFO(outcome.output);
-        CHECK(outcome.code == 2);
-        CHECK(outcome.mentions("n.h5.new has the name of the temporary file"));
+        check_refused(shell("timeout 60 " + std::string(GEARPOD_PROGRAM) + " run " + place.study +
+                            kSmall + " --quiet --out " + out),
+                      {"n.h5.new has the name of the temporary file"});
         CHECK(bytes_of(precious) == "years of work\n");
         CHECK_FALSE(fs::exists(out));
         fs::remove_all(pending);
@@ -179,23 +160,16 @@ TEST_CASE("A file of another kind than the output is replaced with --force only"
     };
     for (const Output& output : outputs) {
         const std::string before = bytes_of(output.file);
-        const Outcome refused = program(output.command + output.file);
-        INFO(output.command << output.file << "\n" << refused.output);
-        CHECK(refused.code == 2);
-        CHECK(refused.mentions("--force"));
+        check_refused(output.command + output.file, {"--force"});
         CHECK(bytes_of(output.file) == before);
-        const Outcome forced = program(output.command + output.file + " --force");
-        INFO(forced.output);
-        CHECK(forced.code == 0);
+        require_success(output.command + output.file + " --force");
         CHECK(bytes_of(output.file) != before);
         // The next output of the same kind replaces the first one.
         CHECK(program(output.command + output.file).code == 0);
         write_bytes(output.file, before);
     }
     for (const char* option : {"--html", "--pdf"}) {
-        const Outcome refused = program("report " + place.results + " " + option + " " + other);
-        CHECK(refused.code == 2);
-        CHECK(refused.mentions("--force"));
+        check_refused("report " + place.results + " " + option + " " + other, {"--force"});
     }
     // Tables of a folder.
     const std::string folder = at("tables");
@@ -203,9 +177,7 @@ TEST_CASE("A file of another kind than the output is replaced with --force only"
     REQUIRE(program("report " + place.results + " --csv " + folder).code == 0);
     const std::string first = fs::directory_iterator(folder)->path().string();
     fs::copy_file(other, first, fs::copy_options::overwrite_existing);
-    const Outcome refused = program("report " + place.results + " --csv " + folder);
-    CHECK(refused.code == 2);
-    CHECK(refused.mentions("another kind"));
+    check_refused("report " + place.results + " --csv " + folder, {"another kind"});
     CHECK(bytes_of(first) == bytes_of(other));
     CHECK(program("report " + place.results + " --force --csv " + folder).code == 0);
     CHECK(bytes_of(first) != bytes_of(other));
@@ -228,17 +200,12 @@ TEST_CASE("An input that is a pipe or a device is refused by every command") {
           measured + place.signal + " --against " + pipe,
           "calibrate " + place.study + " --features " + csv,
           "run " + place.study + kSmall + " --resume --out " + pipe}) {
-        const Outcome outcome =
-            test::shell("timeout 60 " + std::string(GEARPOD_PROGRAM) + " " + command);
-        INFO(command << "\n" << outcome.output);
-        CHECK(outcome.code == 2);
-        CHECK(outcome.mentions("a regular file is needed"));
+        check_refused(shell("timeout 60 " + std::string(GEARPOD_PROGRAM) + " " + command),
+                      {"a regular file is needed"});
     }
     // A shell's pipe is an input like a file.
-    const Outcome piped =
-        test::shell("cat " + place.study + " | " + GEARPOD_PROGRAM + " stiffness /dev/stdin");
-    INFO(piped.output);
-    CHECK(piped.code == 0);
+    require_success(
+        shell("cat " + place.study + " | " + GEARPOD_PROGRAM + " stiffness /dev/stdin"));
 }
 
 TEST_CASE("Outputs on a full disk are bad output, not failed gearboxes") {
@@ -248,10 +215,8 @@ TEST_CASE("Outputs on a full disk are bad output, not failed gearboxes") {
          {"simulate " + place.study + " --instance 0 --out " + place.folder.file("s.h5"),
           "simulate " + place.study + " --instance 0 --out " + place.folder.file("s.csv"),
           "stiffness " + place.study + " --csv " + place.folder.file("s.csv")}) {
-        const Outcome outcome = test::shell(full + GEARPOD_PROGRAM + " " + command);
-        INFO(outcome.output);
-        CHECK(outcome.code == 2);
-        CHECK(outcome.mentions("cannot be written (File too large)"));
+        check_refused(shell(full + GEARPOD_PROGRAM + " " + command),
+                      {"cannot be written (File too large)"});
         CHECK_FALSE(fs::exists(place.folder.file("s.h5")));
         CHECK_FALSE(fs::exists(place.folder.file("s.csv")));
     }
@@ -263,9 +228,7 @@ TEST_CASE("Names of conditions that a results file cannot hold are refused befor
     write_bytes(manifest, "file,N/m,group,.,noise_weight,load\nx.csv,1,2,3,4,5\n");
     const std::string command =
         "features --manifest " + manifest + " --study " + place.study + " --quiet ";
-    const Outcome outcome = program(command + "--out " + out);
-    INFO(outcome.output);
-    CHECK(outcome.code == 2);
+    const Outcome outcome = check_refused(command + "--out " + out);
     for (const char* name : {"N/m", "group", ".", "noise_weight"}) {
         CHECK(outcome.mentions("m.csv: " + std::string(name) + ": the name of this column"));
     }

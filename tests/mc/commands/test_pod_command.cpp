@@ -27,9 +27,7 @@ std::string written(const Folder& folder, const std::string& name, const std::st
 }
 
 nlohmann::json pod_of(const std::string& arguments) {
-    const Outcome outcome = program("pod " + arguments + " --json -");
-    INFO(outcome.output);
-    REQUIRE(outcome.code == 0);
+    const Outcome outcome = require_success("pod " + arguments + " --json -");
     return nlohmann::json::parse(outcome.output);
 }
 
@@ -47,8 +45,7 @@ TEST_CASE("pod reads hits and misses with units, and states the kind of bound") 
     CHECK(pod_of(table + " --bounds likelihood-ratio")["hit_miss"]["a90"] ==
           handbook["hit_miss"]["a90"]);
     const Outcome text = program("pod " + table + " --specimen specimen");
-    CHECK(text.mentions("120 specimens and 120 repeated measurements"));
-    CHECK(text.mentions("robust covariance"));
+    check_mentions(text, {"120 specimens and 120 repeated measurements", "robust covariance"});
     CHECK_THAT(text.output, Catch::Contains("(mm)"));
 }
 
@@ -56,9 +53,9 @@ TEST_CASE("pod ends at a confidence of one half, where bounds are the estimates"
     const std::string table = kTables + "inspections_hits.csv";
     for (const std::string scale : {"", " --size-scale linear", " --specimen specimen"}) {
         INFO(scale);
-        const Outcome outcome = shell("ulimit -t 60; " + std::string(GEARPOD_PROGRAM) + " pod " +
-                                      table + scale + " --confidence 0.5 --json -");
-        REQUIRE(outcome.code == 0);
+        const Outcome outcome =
+            require_success(shell("ulimit -t 60; " + std::string(GEARPOD_PROGRAM) + " pod " +
+                                  table + scale + " --confidence 0.5 --json -"));
         const auto a90 = nlohmann::json::parse(outcome.output)["hit_miss"]["a90"];
         const double size = a90["estimate"]["size"].get<double>();
         CHECK(a90["upper"]["size"].get<double>() >= size * (1.0 - 1e-6));
@@ -115,8 +112,7 @@ TEST_CASE("pod reads tables as pandas, R and spreadsheets write them") {
 TEST_CASE("pod refuses unusable input by name, all at once") {
     const Folder folder;
     const auto refused = [](const std::string& arguments) {
-        const Outcome outcome = program("pod " + arguments);
-        CHECK(outcome.code == 2);
+        const Outcome outcome = check_refused("pod " + arguments);
         return outcome.output;
     };
     const std::string bad =
@@ -149,8 +145,7 @@ TEST_CASE("pod reports data that determine no curve") {
         text += std::to_string(i) + (i > 6 ? ",1\n" : ",0\n");
     }
     const std::string table = written(folder, "separated.csv", text);
-    const Outcome without = program("pod " + table);
-    CHECK(without.code == 0);
+    const Outcome without = require_success("pod " + table);
     CHECK_THAT(without.output, Catch::Contains("do not overlap"));
     CHECK_THAT(without.output, Catch::Contains("--firth"));
     CHECK_THAT(program("pod " + table + " --firth").output, Catch::Contains("a90"));

@@ -8,8 +8,7 @@
 namespace test_rare {
 
 using namespace gearpod;
-using test::program;
-using test::shell;
+using namespace gearpod::test;
 
 namespace {
 
@@ -18,14 +17,12 @@ std::string study() {
     return std::string(GEARPOD_SOURCE_DIR) + "/tests/bench/rare_teeth.toml";
 }
 
-std::string run_some(const test::Folder& folder, const std::string& name, const std::string& more) {
+std::string run_some(const Folder& folder, const std::string& name, const std::string& more) {
     const std::string results = folder.file(name);
-    const test::Outcome run = program("run " + study() + " --quiet --out " + results + " " + more);
-    INFO(run.output);
-    REQUIRE(run.code == 0);
+    require_success("run " + study() + " --quiet --out " + results + " " + more);
     return results;
 }
-std::string run_few(const test::Folder& folder) {
+std::string run_few(const Folder& folder) {
     return run_some(folder, "few.h5", "--instances 16 --set ensemble.threshold_instances=40");
 }
 
@@ -51,12 +48,10 @@ std::pair<double, double> count_above(const std::string& results, int group, dou
 }  // namespace
 
 TEST_CASE("Thresholds of rare false alarms agree with counted ones") {
-    const test::Folder folder;
-    const test::Outcome rare_outcome =
-        program("rare " + run_few(folder) +
-                " --feature window_ratio --rate 0.01 --gearboxes 160 --quiet --json -");
-    INFO(rare_outcome.output);
-    REQUIRE(rare_outcome.code == 0);
+    const Folder folder;
+    const Outcome rare_outcome =
+        require_success("rare " + run_few(folder) +
+                        " --feature window_ratio --rate 0.01 --gearboxes 160 --quiet --json -");
     const auto result = nlohmann::json::parse(rare_outcome.output);
     CHECK(result["kind"] == "rare-false-alarms");
     CHECK(result["gearboxes"] == 160 * (1 + 2 * 3));
@@ -75,16 +70,14 @@ TEST_CASE("Thresholds of rare false alarms agree with counted ones") {
 }
 
 TEST_CASE("Misses due to gearbox variation agree with counted ones") {
-    const test::Folder folder;
+    const Folder folder;
     const std::string results =
         run_some(folder, "found.h5",
                  "--instances 600 --set ensemble.threshold_instances=100 --set "
                  "'random.fault.depth_mm={distribution=\"levels\",values=[4]}' --set "
                  "detection.false_alarm_rate=0.3");
-    const test::Outcome rare_outcome = program(
+    const Outcome rare_outcome = require_success(
         "rare " + results + " --feature te_kurtosis --size 4 --gearboxes 100 --quiet --json -");
-    INFO(rare_outcome.output);
-    REQUIRE(rare_outcome.code == 0);
     const auto result = nlohmann::json::parse(rare_outcome.output);
     CHECK(result["kind"] == "rare-misses");
     CHECK(result["size_unit"] == "mm");
@@ -98,51 +91,44 @@ TEST_CASE("Misses due to gearbox variation agree with counted ones") {
 }
 
 TEST_CASE("Rare false alarms have the same bits for any number of threads") {
-    const test::Folder folder;
+    const Folder folder;
     const std::string rare_outcome =
         "rare " + run_few(folder) +
         " --feature window_ratio --rate 0.05 --gearboxes 40 --quiet --json -";
-    const test::Outcome one =
-        shell("OMP_NUM_THREADS=1 " + std::string(GEARPOD_PROGRAM) + " " + rare_outcome);
-    REQUIRE(one.code == 0);
+    const Outcome one = require_success(
+        shell("OMP_NUM_THREADS=1 " + std::string(GEARPOD_PROGRAM) + " " + rare_outcome));
     CHECK(shell("OMP_NUM_THREADS=3 " + std::string(GEARPOD_PROGRAM) + " " + rare_outcome).output ==
           one.output);
 }
 
 TEST_CASE("Rare false alarms have the same bits for any number of ranks", "[mpi]") {
-    const test::Folder folder;
+    const Folder folder;
     const std::string rare_outcome =
         "rare " + run_few(folder) +
         " --feature window_ratio --rate 0.05 --gearboxes 40 --quiet --json -";
-    const test::Outcome one = program(rare_outcome);
-    REQUIRE(one.code == 0);
-    CHECK(shell(test::mpirun(2) + GEARPOD_PROGRAM + " " + rare_outcome).output == one.output);
+    const Outcome one = require_success(rare_outcome);
+    CHECK(shell(mpirun(2) + GEARPOD_PROGRAM + " " + rare_outcome).output == one.output);
 }
 
 TEST_CASE("rare reports the number of gearboxes it simulated and what is unknown") {
-    const test::Folder folder;
+    const Folder folder;
     const std::string results = run_few(folder);
-    const test::Outcome known = program("rare " + results +
-                                        " --feature window_ratio --rate 0.05 --gearboxes 60 "
+    const Outcome known = require_success("rare " + results +
+                                          " --feature window_ratio --rate 0.05 --gearboxes 60 "
+                                          "--quiet");
+    check_mentions(known, {"false-alarm rate 0.05 of window_ratio at noise x 1",
+                           "gearboxes computed, 60 per level"});
+    const Outcome few = require_success("rare " + results +
+                                        " --feature window_ratio --rate 1e-3 --gearboxes 20 "
                                         "--quiet");
-    INFO(known.output);
-    CHECK(known.code == 0);
-    CHECK(known.mentions("false-alarm rate 0.05 of window_ratio at noise x 1"));
-    CHECK(known.mentions("gearboxes computed, 60 per level"));
-    const test::Outcome few = program("rare " + results +
-                                      " --feature window_ratio --rate 1e-3 --gearboxes 20 "
-                                      "--quiet");
-    INFO(few.output);
-    CHECK(few.code == 0);
     CHECK(few.mentions("unknown from 20 gearboxes per level"));
 }
 
 TEST_CASE("Invalid requests to rare are refused, every problem at once") {
-    const test::Folder folder;
+    const Folder folder;
     const std::string results = run_few(folder);
     const auto refused = [&](const std::string& options) {
-        const test::Outcome outcome = program("rare " + results + " " + options);
-        CHECK(outcome.code == 2);
+        const Outcome outcome = check_refused("rare " + results + " " + options);
         return outcome.output;
     };
     CHECK(refused("--feature nothing --rate 0.5 --gearboxes 3") ==

@@ -13,12 +13,7 @@
 namespace test_runs {
 
 using namespace gearpod;
-using test::bits;
-using test::bytes_of;
-using test::Folder;
-using test::mpirun;
-using test::Outcome;
-using test::study;
+using namespace gearpod::test;
 namespace fs = std::filesystem;
 using namespace std::chrono_literals;
 
@@ -36,7 +31,7 @@ std::string run_of(const std::string& out, int instances = 50, int healthy = 35)
 const std::vector<std::uint64_t>& reference() {
     static const std::vector<std::uint64_t> all = [] {
         const Folder folder;
-        REQUIRE(test::program(run_of(folder.file("r.h5")) + " --quiet").code == 0);
+        REQUIRE(program(run_of(folder.file("r.h5")) + " --quiet").code == 0);
         return bits(folder.file("r.h5"));
     }();
     return all;
@@ -82,9 +77,7 @@ TEST_CASE("One to four ranks, one or two threads, one lane, four or eight: the s
     for (const int ranks : {1, 2, 3, 4}) {
         const std::string threads = " --set numerics.threads=" + std::to_string(1 + ranks % 2);
         const Outcome run =
-            test::shell(mpirun(ranks) + GEARPOD_PROGRAM + " " + run_of(out) + threads);
-        INFO(ranks << " ranks" << threads << "\n" << run.output);
-        CHECK(run.code == 0);
+            require_success(shell(mpirun(ranks) + GEARPOD_PROGRAM + " " + run_of(out) + threads));
         CHECK(run.mentions("(" + std::to_string(ranks) + (ranks == 1 ? " rank," : " ranks,")));
         CHECK(bits(out) == reference());
         fs::remove(out);
@@ -92,7 +85,7 @@ TEST_CASE("One to four ranks, one or two threads, one lane, four or eight: the s
     for (const char* change :
          {" --set numerics.lanes=1", " --set numerics.lanes=4", " --set numerics.threads=2"}) {
         INFO(change);
-        CHECK(test::compared_program(run_of(out) + change).code == 0);
+        CHECK(compared_program(run_of(out) + change).code == 0);
         CHECK(bits(out) == reference());
         fs::remove(out);
     }
@@ -103,7 +96,7 @@ TEST_CASE("Killed twenty times at random moments and resumed, a run loses nothin
     const Folder folder;
     const std::string out = folder.file("r.h5"), part = out + ".part";
     const auto before = std::chrono::steady_clock::now();
-    REQUIRE(test::program(run_of(folder.file("whole.h5")) + " --quiet").code == 0);
+    REQUIRE(program(run_of(folder.file("whole.h5")) + " --quiet").code == 0);
     const std::chrono::duration<double> whole = std::chrono::steady_clock::now() - before;
     std::mt19937 engine(20);
     std::uniform_real_distribution<double> moment(0.0, 0.6 * whole.count());
@@ -125,10 +118,7 @@ TEST_CASE("Killed twenty times at random moments and resumed, a run loses nothin
         }
     }
     CHECK(killed > 5);
-    const Outcome last =
-        test::shell(mpirun(2) + GEARPOD_PROGRAM + " " + run_of(out) + " --resume --quiet");
-    INFO(last.output);
-    CHECK(last.code == 0);
+    require_success(shell(mpirun(2) + GEARPOD_PROGRAM + " " + run_of(out) + " --resume --quiet"));
     CHECK(bits(out) == reference());
     CHECK_FALSE(fs::exists(part));
     CHECK(folder.files() == 2);
@@ -148,16 +138,14 @@ TEST_CASE("Signals and the time limit end a run cleanly, save its state and exit
         CHECK(WEXITSTATUS(status) == 4);
         CHECK(fs::exists(out + ".part"));
         CHECK(mc::read_results(out).provenance_value("state").starts_with("interrupted by SIG"));
-        const Outcome report = test::program("report " + out);
-        CHECK(report.code == 0);
+        const Outcome report = require_success("report " + out);
         CHECK(report.mentions("of 5035 gearboxes (interrupted by SIG"));
     }
-    const Outcome limited = test::program(run_of(out, 5000) + " --resume --time-limit 00:00:02");
+    const Outcome limited = program(run_of(out, 5000) + " --resume --time-limit 00:00:02");
     CHECK(limited.code == 4);
-    CHECK(limited.mentions("stopped by the time limit"));
-    CHECK(limited.mentions("continue with --resume"));
-    CHECK(test::program(run_of(out, 5000)).mentions("--resume"));
-    CHECK(test::program(run_of(out, 5000) + " --resume --time-limit 2h").code == 2);
+    check_mentions(limited, {"stopped by the time limit", "continue with --resume"});
+    CHECK(program(run_of(out, 5000)).mentions("--resume"));
+    CHECK(program(run_of(out, 5000) + " --resume --time-limit 2h").code == 2);
 }
 
 // Processor time of all child processes that have ended.
@@ -175,15 +163,16 @@ TEST_CASE("Signals and the time limit stop an unfinished batch, which is discard
     const std::string slow = "run " + study("published/yang-pitch-errors.toml") +
                              " --set numerics.steps_per_mesh=2000 --quiet --out " + out;
     const double before_s = children_s();
-    CHECK(test::program(slow + " --time-limit 00:00:02").code == 4);
+    CHECK(program(slow + " --time-limit 00:00:02").code == 4);
     const pid_t child = start(slow + " --resume");
     std::this_thread::sleep_for(1500ms);
     kill(child, SIGTERM);
     const int status = status_of(child);
     REQUIRE(WIFEXITED(status));
     CHECK(WEXITSTATUS(status) == 4);
-    CHECK(test::shell(mpirun(2) + GEARPOD_PROGRAM + " " + slow + " --resume --time-limit 00:00:01")
-              .code == 4);
+    CHECK(
+        shell(mpirun(2) + GEARPOD_PROGRAM + " " + slow + " --resume --time-limit 00:00:01").code ==
+        4);
     CHECK(children_s() - before_s < 40.0);
     CHECK(mc::read_results(out).status.empty());
     fs::remove(out + ".part");
@@ -198,12 +187,12 @@ TEST_CASE("Stopped by signals inside of batches and resumed, a run keeps its bit
                "ensemble.checkpoint_s=0 --quiet --out " +
                file;
     };
-    REQUIRE(test::program(command(folder.file("whole.h5"))).code == 0);
+    REQUIRE(program(command(folder.file("whole.h5"))).code == 0);
     int stopped = 0;
     for (int i = 0; i < 30; ++i) {
         const std::string stop = "timeout -s TERM " + std::to_string(0.3 + 0.1 * (i % 7)) + " env ";
-        const Outcome part = test::shell(stop + (i % 2 == 0 ? "" : mpirun(2)) + GEARPOD_PROGRAM +
-                                         " " + command(out) + " --resume");
+        const Outcome part = shell(stop + (i % 2 == 0 ? "" : mpirun(2)) + GEARPOD_PROGRAM + " " +
+                                   command(out) + " --resume");
         INFO(part.output);
         if (part.mentions("is using it")) {
             std::this_thread::sleep_for(200ms);  // mpirun ends before its ranks do
@@ -216,46 +205,37 @@ TEST_CASE("Stopped by signals inside of batches and resumed, a run keeps its bit
         ++stopped;
     }
     CHECK(stopped > 0);
-    CHECK(test::program(command(out) + " --resume").code == 0);
+    CHECK(program(command(out) + " --resume").code == 0);
     CHECK(bits(out) == bits(folder.file("whole.h5")));
 }
 
 TEST_CASE("Rows named twice are computed once") {
     const Folder folder;
     const std::string out = folder.file("r.h5");
-    const Outcome run = test::program(run_of(out, 2) + " --quiet --signals 1,1,0 --signals 1");
-    INFO(run.output);
-    CHECK(run.code == 0);
+    require_success(run_of(out, 2) + " --quiet --signals 1,1,0 --signals 1");
     CHECK_FALSE(fs::exists(out + ".part"));
 }
 
 TEST_CASE("An extended ensemble computes only new gearboxes, with the bits of a single run") {
     const Folder folder;
     const std::string out = folder.file("r.h5");
-    REQUIRE(test::program(run_of(out, 20) + " --quiet").code == 0);
-    const Outcome grown = test::program(run_of(out) + " --resume");
-    INFO(grown.output);
-    CHECK(grown.code == 0);
+    REQUIRE(program(run_of(out, 20) + " --quiet").code == 0);
+    const Outcome grown = require_success(run_of(out) + " --resume");
     CHECK(grown.mentions("r.h5: 4 of 7 batches"));
     CHECK(bits(out) == reference());
-    const Outcome again = test::program(run_of(out) + " --resume");
+    const Outcome again = program(run_of(out) + " --resume");
     CHECK(again.mentions("r.h5: 7 of 7 batches"));
     CHECK(bits(out) == reference());
     CHECK(folder.files() == 1);
 
-    const Outcome fewer = test::program(run_of(out, 20) + " --resume");
-    CHECK(fewer.code == 2);
-    CHECK(fewer.mentions("r.h5: cannot be continued: it has 50 test gearboxes"));
-    const Outcome seed = test::program(run_of(out) + " --resume --seed 9");
-    CHECK(seed.code == 2);
-    CHECK(seed.mentions("has seed 2, this run has 9"));
-    const Outcome torque = test::program(run_of(out) + " --resume --set operation.torque_N_m=400");
-    CHECK(torque.code == 2);
-    CHECK(torque.mentions("another study"));
+    check_refused(run_of(out, 20) + " --resume",
+                  {"r.h5: cannot be continued: it has 50 test gearboxes"});
+    check_refused(run_of(out) + " --resume --seed 9", {"has seed 2, this run has 9"});
+    check_refused(run_of(out) + " --resume --set operation.torque_N_m=400", {"another study"});
     std::string damaged = bytes_of(out);
     damaged[damaged.size() / 2] = static_cast<char>(~damaged[damaged.size() / 2]);
-    test::write_bytes(out, damaged);
-    CHECK(test::program(run_of(out) + " --resume").mentions("r.h5: is damaged"));
+    write_bytes(out, damaged);
+    CHECK(program(run_of(out) + " --resume").mentions("r.h5: is damaged"));
     CHECK(folder.files() == 1);
 }
 
@@ -263,20 +243,16 @@ TEST_CASE("An extended threshold sample computes only new gearboxes, with or wit
     const Folder folder;
     const std::string out = folder.file("r.h5");
     for (const int test : {50, 20}) {
-        REQUIRE(test::program(run_of(out, test, 20) + " --quiet --force").code == 0);
-        const Outcome grown = test::program(run_of(out) + " --resume");
-        INFO(grown.output);
-        CHECK(grown.code == 0);
+        REQUIRE(program(run_of(out, test, 20) + " --quiet --force").code == 0);
+        const Outcome grown = require_success(run_of(out) + " --resume");
         // One of the old sample's two batches is full, and all or one of the four test gearboxes.
         CHECK(grown.mentions(test == 50 ? "r.h5: 5 of 7 batches" : "r.h5: 2 of 7 batches"));
         CHECK(bits(out) == reference());
     }
-    const Outcome fewer = test::program(run_of(out, 50, 20) + " --resume");
-    CHECK(fewer.code == 2);
-    CHECK(fewer.mentions("threshold_instances = 35"));
+    check_refused(run_of(out, 50, 20) + " --resume", {"threshold_instances = 35"});
     // Trend features refer to the first eight of the sample.
-    REQUIRE(test::program(run_of(out, 20, 7) + " --quiet --force").code == 0);
-    CHECK(test::program(run_of(out) + " --resume").code == 2);
+    REQUIRE(program(run_of(out, 20, 7) + " --quiet --force").code == 0);
+    CHECK(program(run_of(out) + " --resume").code == 2);
     CHECK(folder.files() == 1);
 }
 
@@ -287,10 +263,8 @@ TEST_CASE("ensemble.until stops at the same gearbox for any number of ranks") {
         " --set 'ensemble.until={half_width=0.25, feature=\"window_ratio\", size=4.28}'";
     std::vector<std::uint64_t> first;
     for (const int ranks : {1, 2, 3}) {
-        const Outcome run =
-            test::shell(mpirun(ranks) + GEARPOD_PROGRAM + " " + run_of(out, 400) + until);
-        INFO(run.output);
-        CHECK(run.code == 0);
+        const Outcome run = require_success(
+            shell(mpirun(ranks) + GEARPOD_PROGRAM + " " + run_of(out, 400) + until));
         CHECK(run.mentions("ensemble.until is reached with "));
         const mc::Results results = mc::read_results(out);
         CHECK(results.status.size() < 200);
@@ -308,12 +282,8 @@ TEST_CASE("ensemble.until stops at the same gearbox for any number of ranks") {
           std::pair{"noise_level=3", "3 is not among"}, std::pair{"feature=\"te_rsm\"", "te_rms"},
           std::pair{"half_width=0.7", "< 0.5"}, std::pair{"width=0.7", "unknown key"}}) {
         const std::string key = std::string(wrong).substr(0, std::string(wrong).find('='));
-        const Outcome run = test::program(run_of(folder.file("x.h5")) + until +
-                                          " --set 'ensemble.until." + wrong + "'");
-        INFO(run.output);
-        CHECK(run.code == 2);
-        CHECK(run.mentions("ensemble.until." + key));
-        CHECK(run.mentions(words));
+        check_refused(run_of(folder.file("x.h5")) + until + " --set 'ensemble.until." + wrong + "'",
+                      {"ensemble.until." + key, words});
     }
 }
 
@@ -323,21 +293,18 @@ TEST_CASE("Ranks with another study, or without it, end the run with one line", 
     fs::copy_file(study("planet-crack-ideal.toml"), other);
     const std::string binary = GEARPOD_PROGRAM;
     const auto with_second = [&](const std::string& arguments) {
-        return test::shell(mpirun(1) + binary + " " + run_of(out) + " : --oversubscribe -n 1 " +
-                           arguments);
+        return shell(mpirun(1) + binary + " " + run_of(out) + " : --oversubscribe -n 1 " +
+                     arguments);
     };
     const Outcome differs =
         with_second(binary + " " + run_of(out) + " --set operation.torque_N_m=400");
     CHECK(differs.code == 2);
-    CHECK(differs.mentions("rank 1 on "));
-    CHECK(differs.mentions("read another study"));
-    CHECK(differs.mentions("torque_N_m"));
+    check_mentions(differs, {"rank 1 on ", "read another study", "torque_N_m"});
     const Outcome missing = with_second(binary + " run " + folder.file("none.toml"));
     CHECK(missing.code == 2);
-    CHECK(missing.mentions("rank 1 on "));
-    CHECK(missing.mentions("none.toml"));
+    check_mentions(missing, {"rank 1 on ", "none.toml"});
     // Same program with one byte appended.
-    test::write_bytes(folder.file("gearpod"), bytes_of(binary) + "x");
+    write_bytes(folder.file("gearpod"), bytes_of(binary) + "x");
     fs::permissions(folder.file("gearpod"), fs::perms::owner_all);
     const Outcome mixed = with_second(folder.file("gearpod") + " " + run_of(out));
     CHECK(mixed.code == 2);
@@ -353,12 +320,12 @@ TEST_CASE("A rank that dies ends the run, and finished batches are kept", "[mpi]
     const std::string mortal = "sh -c '( until [ -s " + out + ".part ] && [ $(stat -c %s " + out +
                                ".part) -gt 8192 ]; do sleep 0.05; done; kill -9 $$ ) & exec " +
                                GEARPOD_PROGRAM + " " + run_of(out, 5000) + "'";
-    const Outcome run = test::shell("timeout 100 env " + mpirun(1) + GEARPOD_PROGRAM + " " +
-                                    run_of(out, 5000) + " : --oversubscribe -n 1 " + mortal);
+    const Outcome run = shell("timeout 100 env " + mpirun(1) + GEARPOD_PROGRAM + " " +
+                              run_of(out, 5000) + " : --oversubscribe -n 1 " + mortal);
     INFO(run.output);
     CHECK(run.code != 0);
     CHECK(run.code != 124);
-    const Outcome resumed = test::program(run_of(out, 5000) + " --resume --time-limit 00:00:01");
+    const Outcome resumed = program(run_of(out, 5000) + " --resume --time-limit 00:00:01");
     INFO(resumed.output);
     CHECK(resumed.code == 4);
     CHECK(resumed.mentions("continuing"));
@@ -370,14 +337,13 @@ TEST_CASE("A full disk while results are written leaves a checkpoint from which 
     const std::string out = folder.file("r.h5");
     // Limit in blocks of 512 bytes; the checkpoint fits, the results do not.
     const std::size_t blocks = 90;
-    const Outcome full = test::shell("ulimit -f " + std::to_string(blocks) + "; " +
-                                     GEARPOD_PROGRAM + " " + run_of(out) + " --quiet");
+    const Outcome full = shell("ulimit -f " + std::to_string(blocks) + "; " + GEARPOD_PROGRAM +
+                               " " + run_of(out) + " --quiet");
     INFO(full.output);
     CHECK(full.code == 4);
-    CHECK(full.mentions("cannot be written (File too large)"));
-    CHECK(full.mentions("kept in " + out + ".part"));
+    check_mentions(full, {"cannot be written (File too large)", "kept in " + out + ".part"});
     CHECK_FALSE(fs::exists(out));
-    CHECK(test::program(run_of(out) + " --quiet --resume").code == 0);
+    CHECK(program(run_of(out) + " --quiet --resume").code == 0);
     CHECK(bits(out) == reference());
     CHECK(folder.files() == 1);
 }
@@ -390,11 +356,8 @@ TEST_CASE("A folder without write permission is reported before the run") {
     // The user root ignores permissions.
     const std::string nobody =
         geteuid() == 0 ? "setpriv --reuid=65534 --regid=65534 --clear-groups " : "";
-    const Outcome run =
-        test::shell(nobody + GEARPOD_PROGRAM + " " + run_of(folder.file("locked/r.h5")));
-    INFO(run.output);
-    CHECK(run.code == 2);
-    CHECK(run.mentions("locked/r.h5: cannot be written: Permission denied"));
+    check_refused(shell(nobody + GEARPOD_PROGRAM + " " + run_of(folder.file("locked/r.h5"))),
+                  {"locked/r.h5: cannot be written: Permission denied"});
     CHECK(fs::is_empty(folder.file("locked")));
 }
 

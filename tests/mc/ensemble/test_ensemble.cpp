@@ -10,8 +10,7 @@
 namespace test_ensemble {
 
 using namespace gearpod;
-using test::bits;
-using test::shipped_study;
+using namespace gearpod::test;
 
 namespace {
 
@@ -25,18 +24,18 @@ std::vector<std::string> with(std::vector<std::string> overrides, const std::str
 }  // namespace
 
 TEST_CASE("One lane, four or eight, one thread or two, any instruction set: the same bits") {
-    const auto reference = bits(test::run(shipped_study("planet-crack-ideal.toml", kSmall)));
+    const auto reference = bits(run(shipped_study("planet-crack-ideal.toml", kSmall)));
     for (const char* change :
          {"numerics.lanes=1", "numerics.lanes=4", "numerics.threads=1", "numerics.threads=2"}) {
         INFO(change);
-        CHECK(bits(test::run(shipped_study("planet-crack-ideal.toml", with(kSmall, change)))) ==
+        CHECK(bits(run(shipped_study("planet-crack-ideal.toml", with(kSmall, change)))) ==
               reference);
     }
     using machine::InstructionSet;
     const InstructionSet best = machine::best_instruction_set();
     if (best > InstructionSet::x86_64_v3) {
         machine::use_instruction_set(InstructionSet::x86_64_v3);
-        CHECK(bits(test::run(shipped_study("planet-crack-ideal.toml", kSmall))) == reference);
+        CHECK(bits(run(shipped_study("planet-crack-ideal.toml", kSmall))) == reference);
         machine::use_instruction_set(best);
     }
 }
@@ -46,14 +45,14 @@ TEST_CASE("Single precision: the same bits for any lanes and threads, features a
         GENERATE("numerics.integrator=rk4", "numerics.integrator=central-difference");
     const auto doubles = with(kSmall, integrator);
     const auto single = with(doubles, "numerics.precision=single");
-    const auto reference = test::run(shipped_study("planet-crack-ideal.toml", single));
+    const auto reference = run(shipped_study("planet-crack-ideal.toml", single));
     CHECK(shipped_study("planet-crack-ideal.toml", single).numerics.lanes == 16);
     for (const char* change : {"numerics.lanes=8", "numerics.lanes=1", "numerics.threads=1"}) {
         INFO(change);
-        CHECK(bits(test::run(shipped_study("planet-crack-ideal.toml", with(single, change)))) ==
+        CHECK(bits(run(shipped_study("planet-crack-ideal.toml", with(single, change)))) ==
               bits(reference));
     }
-    const auto exact = test::run(shipped_study("planet-crack-ideal.toml", doubles));
+    const auto exact = run(shipped_study("planet-crack-ideal.toml", doubles));
     REQUIRE(exact.features.size() == reference.features.size());
     for (std::size_t f = 0; f < exact.features.size(); ++f) {
         INFO(exact.features[f].name);
@@ -71,9 +70,9 @@ TEST_CASE("Single precision: the same bits for any lanes and threads, features a
 }
 
 TEST_CASE("Features by central differences and Runge-Kutta agree within the error of the steps") {
-    const auto exact = test::run(shipped_study("planet-crack-ideal.toml", kSmall));
-    const auto central = test::run(shipped_study(
-        "planet-crack-ideal.toml", with(kSmall, "numerics.integrator=central-difference")));
+    const auto exact = run(shipped_study("planet-crack-ideal.toml", kSmall));
+    const auto central = run(shipped_study("planet-crack-ideal.toml",
+                                           with(kSmall, "numerics.integrator=central-difference")));
     const std::size_t levels = exact.noise_levels.size();
     for (std::size_t f = 0; f < exact.features.size(); ++f) {
         INFO(exact.features[f].name);
@@ -92,8 +91,8 @@ TEST_CASE("Features by central differences and Runge-Kutta agree within the erro
 }
 
 TEST_CASE("A larger ensemble begins with the gearboxes of the smaller one") {
-    const auto small = test::run(shipped_study("planet-crack-ideal.toml", kSmall));
-    const auto large = test::run(shipped_study(
+    const auto small = run(shipped_study("planet-crack-ideal.toml", kSmall));
+    const auto large = run(shipped_study(
         "planet-crack-ideal.toml", {"ensemble.instances=16", "ensemble.threshold_instances=6"}));
     const std::size_t levels = small.noise_levels.size();
     for (std::size_t f = 0; f < small.features.size(); ++f) {
@@ -116,9 +115,9 @@ TEST_CASE("Reused mesh periods and full integration agree to 1e-6 in every noise
     sun.random.clear();
     mc::set_fault_size(sun, 2.34e-3);
     for (mc::Study study : {planet, sun}) {
-        const auto reuse = test::run(study);
+        const auto reuse = run(study);
         study.numerics.horizon = mc::Horizon::full;
-        const auto full_integration = test::run(study);
+        const auto full_integration = run(study);
         for (std::size_t f = 0; f < reuse.features.size(); ++f) {
             INFO(reuse.features[f].name);
             for (std::size_t i = 0; i < reuse.features[f].values.size(); ++i) {
@@ -133,7 +132,7 @@ TEST_CASE("Detection rates: false alarms at size 0, more with size, never more w
     const mc::Study study = shipped_study(
         "planet-crack-ideal.toml", {"ensemble.instances=1050", "ensemble.threshold_instances=600",
                                     "sensor.noise_levels=[0.5, 1, 2, 5]"});
-    const mc::Results results = test::run(study);
+    const mc::Results results = run(study);
     const auto detection = mc::detect_all(results);
     const double alpha = study.detection.false_alarm_rate;
     for (const auto& feature : detection) {
@@ -153,7 +152,7 @@ TEST_CASE("Detection rates: false alarms at size 0, more with size, never more w
         }
     }
     // The windowing detector is monotone in size and noise up to the scatter of 150 gearboxes.
-    const auto& window = detection[test::feature_index(results, "window_ratio")];
+    const auto& window = detection[feature_index(results, "window_ratio")];
     for (std::size_t level = 0; level < window.levels.size(); ++level) {
         const auto& cells = window.levels[level].cells;
         for (std::size_t size = 1; size < cells.size(); ++size) {

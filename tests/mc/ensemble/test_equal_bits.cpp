@@ -17,15 +17,13 @@
 namespace test_equal_bits {
 
 using namespace gearpod;
-using test::Bits;
-using test::shipped_study;
-using test::TileFilling;
+using namespace gearpod::test;
 
 namespace {
 
 // Studies without teeth have modes only and are excluded.
 std::vector<std::string> studies_with_teeth() {
-    std::vector<std::string> names = test::shipped_studies();
+    std::vector<std::string> names = shipped_studies();
     std::erase_if(names, [](const std::string& name) {
         const mc::Study study = shipped_study(name);
         return !study.gearbox.has_teeth() || !study.gearbox.module_m;
@@ -86,7 +84,7 @@ class TileRows {
         const mc::BatchRows computed = worker_.compute(std::span(ids).first(gearboxes), 1, seconds);
         std::vector<Bits> rows;
         for (std::size_t row = 0; row < computed.count(); ++row) {
-            rows.push_back(test::bits_of(std::span(computed.values).subspan(row * values, values)));
+            rows.push_back(bits_of(std::span(computed.values).subspan(row * values, values)));
             rows.back().push_back(static_cast<std::uint64_t>(computed.status[row]));
         }
         return rows;
@@ -107,7 +105,7 @@ class TileRows {
 void check(const std::string& name, const std::vector<TileFilling>& fillings) {
     INFO(name);
     std::unique_ptr<TileRows> rows;
-    test::check_same_bits(fillings, [&, lanes = 0](const TileFilling& filling) mutable {
+    check_same_bits(fillings, [&, lanes = 0](const TileFilling& filling) mutable {
         if (filling.lanes != lanes) {
             lanes = filling.lanes;
             rows = std::make_unique<TileRows>(name, lanes);
@@ -130,8 +128,8 @@ void check_simulation(const std::string& name) {
     }
     const mc::Simulation simulation = mc::simulate(scene.tile(), ids.front(), 1);
     const std::size_t first = scene.ensemble().shape.value_of(0, 0);
-    CHECK((test::bits_of(simulation.features) ==
-           test::bits_of(std::span(row.values).subspan(first, simulation.features.size()))));
+    CHECK((bits_of(simulation.features) ==
+           bits_of(std::span(row.values).subspan(first, simulation.features.size()))));
 }
 
 // Kernels of few lanes for variable excitation and for coupled stages exist in a portable build

@@ -8,13 +8,13 @@
 namespace test_thread_count {
 
 using namespace gearpod;
-using test::Folder;
+using namespace gearpod::test;
 
 namespace {
 
 // Five batches.
 std::string run_of(const Folder& folder) {
-    return "run " + test::study("planet-crack-ideal.toml") +
+    return "run " + study("planet-crack-ideal.toml") +
            " --instances 48 --set ensemble.threshold_instances=32"
            " --set operation.carrier_speed_rpm=60 --set sensor.sampling_Hz=20000"
            " --set sensor.encoder_sampling_Hz=20000 --out " +
@@ -31,9 +31,8 @@ std::string with(const std::string& environment) {
 // Checks the run's message about its threads.
 void check_threads(const std::string& environment, const std::string& more, int threads) {
     const Folder folder;
-    const test::Outcome run = test::shell(with(environment) + kProgram + run_of(folder) + more);
-    INFO(environment << more << "\n" << run.output);
-    CHECK(run.code == 0);
+    const Outcome run =
+        require_success(shell(with(environment) + kProgram + run_of(folder) + more));
     CHECK(run.mentions("(1 rank, " + std::to_string(threads) + " thread" +
                        (threads == 1 ? "" : "s") + " in total"));
 }
@@ -60,15 +59,15 @@ TEST_CASE("A malformed OMP_NUM_THREADS is ignored, and OpenMP reports it") {
     check_threads("OMP_NUM_THREADS=many", "", processors);
     check_threads("OMP_NUM_THREADS=0", "", processors);
     const Folder folder;
-    CHECK(test::shell(with("OMP_NUM_THREADS=many") + kProgram + run_of(folder))
+    CHECK(shell(with("OMP_NUM_THREADS=many") + kProgram + run_of(folder))
               .mentions("OMP_NUM_THREADS"));
 }
 
 TEST_CASE("Ranks share a machine's processors, but not the OMP_NUM_THREADS of each", "[mpi]") {
     const auto in_all = [](const std::string& environment) {
         const Folder folder;
-        const test::Outcome run = test::shell(with(environment) + test::mpirun(2) +
-                                              "--bind-to none " + kProgram + run_of(folder));
+        const Outcome run =
+            shell(with(environment) + mpirun(2) + "--bind-to none " + kProgram + run_of(folder));
         INFO(run.output);
         const auto at = run.output.find("(2 ranks, ");
         REQUIRE(at != std::string::npos);
@@ -82,10 +81,10 @@ TEST_CASE("Ranks share a machine's processors, but not the OMP_NUM_THREADS of ea
 
 TEST_CASE("A forecast uses the run's number of threads") {
     for (const int threads : {1, 3}) {
-        const auto forecast = test::shell(
-            with("OMP_NUM_THREADS=" + std::to_string(threads)) + kProgram + "describe " +
-            test::study("planet-crack-ideal.toml") + " --set operation.carrier_speed_rpm=60" +
-            " --set sensor.sampling_Hz=20000 --set sensor.encoder_sampling_Hz=20000");
+        const auto forecast =
+            shell(with("OMP_NUM_THREADS=" + std::to_string(threads)) + kProgram + "describe " +
+                  study("planet-crack-ideal.toml") + " --set operation.carrier_speed_rpm=60" +
+                  " --set sensor.sampling_Hz=20000 --set sensor.encoder_sampling_Hz=20000");
         INFO(forecast.output);
         const std::string entry = "\n  threads ";
         const auto at = forecast.output.find(entry);
@@ -100,12 +99,10 @@ TEST_CASE("Only the team is bound to places: one per thread, none for the main t
         return;
     }
     const Folder folder;
-    const auto run = test::shell(
+    const auto run = require_success(shell(
         with("OMP_NUM_THREADS=2 OMP_PROC_BIND=true OMP_PLACES=threads OMP_DISPLAY_AFFINITY=TRUE "
              "OMP_AFFINITY_FORMAT='<%n of %N at %A>'") +
-        kProgram + run_of(folder) + " --quiet");
-    INFO(run.output);
-    CHECK(run.code == 0);
+        kProgram + run_of(folder) + " --quiet"));
     std::vector<std::string> places;
     for (const std::string thread : {"<0 of 2 at ", "<1 of 2 at "}) {
         const auto at = run.output.find(thread);

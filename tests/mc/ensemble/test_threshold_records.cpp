@@ -7,8 +7,7 @@
 namespace test_threshold_records {
 
 using namespace gearpod;
-using test::bits;
-using test::shipped_study;
+using namespace gearpod::test;
 
 namespace {
 
@@ -43,7 +42,7 @@ double value_of(const mc::Results& results, const std::string& feature, std::siz
 
 TEST_CASE(
     "Records of a gearbox differ in their noise alone, and the first equals a single record") {
-    const mc::Results single = test::run(study_of(1)), several = test::run(study_of(kRecords));
+    const mc::Results single = run(study_of(1)), several = run(study_of(kRecords));
     REQUIRE(several.status.size() == kGearboxes * kRecords + kGraded);
     for (std::size_t row = 0; row < several.status.size(); ++row) {
         const bool test = row >= kGearboxes * kRecords;
@@ -71,7 +70,7 @@ TEST_CASE(
 }
 
 TEST_CASE("Every record of a gearbox has a baseline of the same vibration with independent noise") {
-    const mc::Results results = test::run(
+    const mc::Results results = run(
         study_of(kRecords, "8",
                  {"features.use=[\"te_rms\",\"own_te_rms\",\"sensor_rms\",\"own_sensor_rms\"]"}));
     for (const std::string feature : {"te_rms", "sensor_rms"}) {
@@ -89,8 +88,8 @@ TEST_CASE("Every record of a gearbox has a baseline of the same vibration with i
 }
 
 TEST_CASE("Records of a gearbox have the same bits for any lanes, and when simulated alone") {
-    const mc::Results results = test::run(study_of(kRecords));
-    CHECK(bits(test::run(study_of(kRecords, "1"))) == bits(results));
+    const mc::Results results = run(study_of(kRecords));
+    CHECK(bits(run(study_of(kRecords, "1"))) == bits(results));
     const mc::Study study = study_of(kRecords);
     const mc::Scene scene(study);
     const mc::RowOrder& rows = scene.draw().rows;
@@ -112,9 +111,9 @@ TEST_CASE(
     "Exponentially tilted records are plain ones with stretches of shifted noise, and have "
     "weights") {
     constexpr int kWeightedRecords = 8;
-    const mc::Results plain = test::run(study_of(kWeightedRecords)),
+    const mc::Results plain = run(study_of(kWeightedRecords)),
                       importance_sampled =
-                          test::run(study_of(kWeightedRecords, "8", kImportanceSampling));
+                          run(study_of(kWeightedRecords, "8", kImportanceSampling));
     const std::vector<double>& weight = parameter(importance_sampled, mc::kNoiseWeight);
     REQUIRE(weight.size() == kGearboxes * kWeightedRecords + kGraded);
     double sum = 0.0;
@@ -138,8 +137,8 @@ TEST_CASE(
 
 TEST_CASE(
     "Exponentially tilted records have the same bits for any lanes, and when simulated alone") {
-    const mc::Results results = test::run(study_of(4, "8", kImportanceSampling));
-    CHECK(bits(test::run(study_of(4, "1", kImportanceSampling))) == bits(results));
+    const mc::Results results = run(study_of(4, "8", kImportanceSampling));
+    CHECK(bits(run(study_of(4, "1", kImportanceSampling))) == bits(results));
     const mc::Study study = study_of(4, "8", kImportanceSampling);
     const mc::Scene scene(study);
     const mc::Simulation alone = mc::simulate(scene.tile(), scene.draw().rows.id_of(4 * 5 + 3), 1);
@@ -152,10 +151,10 @@ TEST_CASE(
     "Few gearboxes of exponentially tilted records give a threshold for 1e-3 where noise causes "
     "alarms") {
     const mc::Results results =
-        test::run(study_of(16, "8",
-                           {"ensemble.threshold_tilt=true", "ensemble.threshold_instances=200",
-                            "sensor.noise_levels=[0,5]", "detection.false_alarm_rate=1e-3",
-                            "features.use=[\"window_ratio\"]"}));
+        run(study_of(16, "8",
+                     {"ensemble.threshold_tilt=true", "ensemble.threshold_instances=200",
+                      "sensor.noise_levels=[0,5]", "detection.false_alarm_rate=1e-3",
+                      "features.use=[\"window_ratio\"]"}));
     const analysis::FeatureDetection found = mc::detect_all(results).front();
     const analysis::LevelDetection& level = found.levels[1];
     REQUIRE(level.importance_sampled);

@@ -12,14 +12,12 @@
 namespace test_life_bits {
 
 using namespace gearpod;
-using test::Bits;
-using test::shipped_study;
-using test::TileFilling;
+using namespace gearpod::test;
 
 namespace {
 
 std::vector<std::string> studies_with_lives() {
-    std::vector<std::string> names = test::shipped_studies();
+    std::vector<std::string> names = shipped_studies();
     std::erase_if(names, [](const std::string& name) {
         return !shipped_study(name).life.interval_h.has_value();
     });
@@ -38,10 +36,10 @@ const std::vector<std::string> kShort{"life.records=12",
                                       "ensemble.instances=8"};
 
 Bits bits_of(const mc::GearboxLife& life, const mc::InterpolationErrors& errors) {
-    Bits bits = test::bits_of(std::vector{errors.first, errors.last, errors.load});
+    Bits bits = gearpod::test::bits_of(std::vector{errors.first, errors.last, errors.load});
     bits.push_back(static_cast<std::uint64_t>(life.status));
     for (const auto& feature : life.values) {
-        const Bits own = test::bits_of(feature);
+        const Bits own = gearpod::test::bits_of(feature);
         bits.insert(bits.end(), own.begin(), own.end());
     }
     return bits;
@@ -83,7 +81,7 @@ void check(const std::string& name, const std::vector<std::string>& overrides,
            const std::vector<TileFilling>& fillings) {
     INFO(name);
     std::unique_ptr<TileLives> lives;
-    test::check_same_bits(fillings, [&, lanes = 0](const TileFilling& filling) mutable {
+    check_same_bits(fillings, [&, lanes = 0](const TileFilling& filling) mutable {
         if (filling.lanes != lanes) {
             lanes = filling.lanes;
             lives = std::make_unique<TileLives>(name, overrides, lanes);

@@ -249,10 +249,7 @@ TEST_CASE("A report on lives repeats the run's text, and other commands refuse t
     CHECK(read.noise_levels[7] == 35.0);
     CHECK(read.features.back().name == "record_noise");
     // Lives of another study are not overwritten; those of the same study are.
-    const Outcome other = program(command + " --set life.interval_h=6");
-    CHECK(other.code == 2);
-    CHECK(other.mentions("interval_h = 6"));
-    CHECK(other.mentions("--force"));
+    check_refused(command + " --set life.interval_h=6", {"interval_h = 6", "--force"});
     CHECK(results_of(program(command)) == whole);
     // Additional gearboxes with cracks are appended to the existing ones.
     const auto more = results_of(program(command + " --resume --instances 5"));
@@ -262,20 +259,18 @@ TEST_CASE("A report on lives repeats the run's text, and other commands refuse t
          {"compare " + file + " " + file, "report " + file + " --csv " + folder.file("tables"),
           "report " + file + " --pdf " + folder.file("l.pdf"),
           "merge " + file + " --out " + folder.file("m.h5")}) {
-        const Outcome outcome = program(refused);
-        CHECK(outcome.code == 2);
-        CHECK(outcome.mentions("holds lives"));
+        check_refused(refused, {"holds lives"});
     }
     // Their evidence has the detectors with their numbers.
     const Outcome evidence = program("report " + file + " --evidence " + folder.file("pack"));
     INFO(evidence.output);
     CHECK(evidence.code == program("report " + file).code);
     const auto report =
-        nlohmann::json::parse(test::bytes_of(folder.file("pack/report.json")))["evidence"];
+        nlohmann::json::parse(bytes_of(folder.file("pack/report.json")))["evidence"];
     CHECK(report["sections"][0]["key"] == "scope");
     CHECK(report["sections"][1]["blocks"][0]["rows"].size() == 2);  // the study's two features
-    CHECK(test::bytes_of(folder.file("pack/evidence.pdf")).starts_with("%PDF-"));
-    const std::string table = test::bytes_of(folder.file("pack/lives.csv"));
+    CHECK(bytes_of(folder.file("pack/evidence.pdf")).starts_with("%PDF-"));
+    const std::string table = bytes_of(folder.file("pack/lives.csv"));
     CHECK(table.starts_with("feature,detector,threshold,"));
     CHECK(std::count(table.begin(), table.end(), '\n') ==
           1 + static_cast<long>(more["monitored"].size()));
@@ -314,30 +309,24 @@ TEST_CASE("Too coarse an interpolation withholds the results, and quiet runs pri
     for (const std::string& one : kLife) {
         command += " --set '" + one + "'";
     }
-    const Outcome quiet = program(command + " --quiet");
-    CHECK(quiet.code == 0);
+    const Outcome quiet = require_success(command + " --quiet");
     CHECK(quiet.output.empty());
     const Outcome loud = program(command);
-    CHECK(loud.mentions("Effect of the crack"));
-    CHECK(loud.mentions("count as false"));
+    check_mentions(loud, {"Effect of the crack", "count as false"});
     command +=
         " --set life.speed_scatter=0.02 --set life.linear_speeds=2 "
         "--set life.interpolation_tolerance=0.1";
-    const Outcome withheld = program(command + " --quiet");
-    CHECK(withheld.code == 2);
-    CHECK(withheld.mentions("No answer"));
-    CHECK(withheld.mentions("of what a crack of 2 mm changes"));
+    const Outcome withheld =
+        check_refused(command + " --quiet", {"No answer", "of what a crack of 2 mm changes"});
     CHECK(!withheld.mentions("Features and detectors"));
-    const Outcome forced = program("report " + folder.file("l.h5") + " --show-withheld");
-    CHECK(forced.code == 0);
+    const Outcome forced = require_success("report " + folder.file("l.h5") + " --show-withheld");
     CHECK(forced.mentions("between the integrated torques and speeds"));
 }
 
 TEST_CASE("Studies without possible lives are refused with the key") {
     const auto refused = [&](const std::string& more) {
         const Outcome outcome =
-            program("lives " + study("planet-crack-ideal.toml") + life_options() + more);
-        CHECK(outcome.code == 2);
+            check_refused("lives " + study("planet-crack-ideal.toml") + life_options() + more);
         return outcome;
     };
     CHECK(
@@ -346,9 +335,9 @@ TEST_CASE("Studies without possible lives are refused with the key") {
     const Outcome two = refused(
         " --set 'features.use=[\"fm4\",\"na4\"]' --set life.recordings=2"
         " --set 'sensor.noise_levels=[1,2]'");
-    CHECK(two.mentions("\"fm4\" needs the samples of one recording, but a record averages 2"));
-    CHECK(two.mentions("\"na4\" compares with the records of other healthy gearboxes"));
-    CHECK(two.mentions("one noise"));
+    check_mentions(two,
+                   {"\"fm4\" needs the samples of one recording, but a record averages 2",
+                    "\"na4\" compares with the records of other healthy gearboxes", "one noise"});
     CHECK(refused(" --set 'features.use=[\"sun_window_ratio\"]' --set life.record_turns=2")
               .mentions("\"sun_window_ratio\" needs"));
     CHECK(refused(" --set 'features.use=[\"own_te_rms\"]' --set life.record_turns=2")

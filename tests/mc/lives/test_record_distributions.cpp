@@ -164,12 +164,11 @@ TEST_CASE("Keys of inputs per record are read, written and refused by name") {
 }
 
 TEST_CASE("describe shows the law of inputs per record") {
-    const Outcome description = program("describe " + test::study("planet-crack-ideal.toml") +
-                                        life_arguments() + " --set '" + kTorque + "'");
-    INFO(description.output);
-    CHECK(description.code == 0);
-    CHECK(description.mentions("operation.torque_N_m.distribution = \"uniform\"\n"));
-    CHECK(description.mentions("times the study's value"));
+    const Outcome description =
+        require_success("describe " + test::study("planet-crack-ideal.toml") + life_arguments() +
+                        " --set '" + kTorque + "'");
+    check_mentions(description, {"operation.torque_N_m.distribution = \"uniform\"\n",
+                                 "times the study's value"});
 }
 
 }  // namespace

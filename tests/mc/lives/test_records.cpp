@@ -173,10 +173,8 @@ TEST_CASE("A crack follows the given curve at its gearbox's rate") {
 TEST_CASE("Invalid records and curves are refused with the key") {
     const auto refused = [&](const std::string& more) {
         const Outcome outcome =
-            program("lives " + study("planet-crack-ideal.toml") + life_arguments() +
-                    " --set 'features.use=[\"sensor_rms\"]' --quiet " + more);
-        INFO(outcome.output);
-        CHECK(outcome.code == 2);
+            check_refused("lives " + study("planet-crack-ideal.toml") + life_arguments() +
+                          " --set 'features.use=[\"sensor_rms\"]' --quiet " + more);
         return outcome;
     };
     CHECK(refused("--set life.record_turns=1").mentions("windows repeat every 31"));
@@ -198,19 +196,15 @@ TEST_CASE("Invalid records and curves are refused with the key") {
 }
 
 TEST_CASE("describe states which inputs vary per gearbox and which per record") {
-    const Outcome description = program("describe " + study("planet-life.toml"));
-    CHECK(description.code == 0);
-    CHECK(description.mentions("random per gearbox"));
-    CHECK(description.mentions("torque per record"));
-    CHECK(description.mentions("3 values occur, equally often, and each is integrated"));
-    CHECK(description.mentions("speed per record"));
+    const Outcome description = require_success("describe " + study("planet-life.toml"));
+    check_mentions(description,
+                   {"random per gearbox", "torque per record",
+                    "3 values occur, equally often, and each is integrated", "speed per record"});
     // Random depth from [random] applies to `run`: in a life the crack grows.
-    const Outcome drawn =
-        program("describe " + study("planet-life.toml") +
-                " --set 'random.fault.depth_mm={distribution=\"uniform\",low=1,high=3}' --set "
-                "'detection.size_edges_mm=[1,2,3]'");
-    INFO(drawn.output);
-    CHECK(drawn.code == 0);
+    const Outcome drawn = require_success(
+        "describe " + study("planet-life.toml") +
+        " --set 'random.fault.depth_mm={distribution=\"uniform\",low=1,high=3}' --set "
+        "'detection.size_edges_mm=[1,2,3]'");
     CHECK(drawn.mentions("fault.depth_mm in [random] is ignored"));
     CHECK(!drawn.mentions(", fault.depth_mm,"));
 }

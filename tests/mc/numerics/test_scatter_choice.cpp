@@ -80,11 +80,8 @@ TEST_CASE("A tighter share of the scatter takes more steps, and the choice can b
     CHECK(steps_for("0.005") > steps_for("0.3"));
     Study study = real_teeth({"numerics.scatter_tolerance=0.3"});
     study.numerics = resolve_numerics(Planner(study), study.numerics).numerics;
-    const StudyReading back = read_study_text(resolved_text(study), "resolved");
-    INFO(format(back.problems));
-    REQUIRE(back.study.has_value());
-    CHECK(*back.study == study);
-    CHECK(resolve_numerics(Planner(*back.study), back.study->numerics).numerics == study.numerics);
+    test::check_reads_back(study);
+    CHECK(resolve_numerics(Planner(study), study.numerics).numerics == study.numerics);
 }
 
 TEST_CASE("Features with mass scaling have the same bits for any lanes") {

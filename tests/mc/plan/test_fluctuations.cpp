@@ -9,6 +9,7 @@
 #include "mc/study/fluctuations.hpp"
 #include "tests/mc/scene_examples.hpp"
 #include "tests/mc/study_example.hpp"
+#include "tests/mc/study_file.hpp"
 
 namespace test_fluctuations {
 
@@ -20,10 +21,7 @@ using std::numbers::pi;
 namespace {
 
 Study study_of(const std::string& text, const std::vector<std::string>& overrides) {
-    const StudyReading reading = read_study_text(text, "example", overrides);
-    INFO((reading.problems.empty() ? "" : format(reading.problems.front())));
-    REQUIRE(reading.study);
-    return *reading.study;
+    return test::valid_study(read_study_text(text, "example", overrides));
 }
 
 GearboxTile run(const Scene& scene, std::vector<GearboxId> ids, int lanes) {

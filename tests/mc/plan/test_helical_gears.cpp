@@ -16,7 +16,7 @@ using namespace gearpod;
 using mc::Member;
 using mc::Scene;
 using mc::Study;
-using test::shipped_study;
+using namespace gearpod::test;
 
 namespace {
 
@@ -37,10 +37,10 @@ double relative_range(const mc::SceneMesh& mesh) {
 TEST_CASE("A helix angle of zero gives the bits of an omitted one") {
     std::vector<std::string> few = tests::kFast;
     few.insert(few.end(), {"ensemble.instances=4", "ensemble.threshold_instances=1"});
-    const auto reference = test::feature_bits(test::study_of_text(tests::kExampleStudy, few));
+    const auto reference = feature_bits(study_of_text(tests::kExampleStudy, few));
     std::vector<std::string> all = few;
     all.push_back("gearbox.helix_angle_deg=0");
-    CHECK(test::feature_bits(test::study_of_text(tests::kExampleStudy, all)) == reference);
+    CHECK(feature_bits(study_of_text(tests::kExampleStudy, all)) == reference);
 }
 
 TEST_CASE("Helical gears are the gears of their normal module in the transverse plane") {
@@ -85,7 +85,7 @@ TEST_CASE("Reused and integrated meshes of a cracked helical gearbox agree") {
         Study study = shipped_study("planet-crack-ideal.toml", overrides);
         study.ensemble.threshold_instances = 1;
         study.ensemble.instances = 7;
-        return test::run(study);
+        return run(study);
     };
     const mc::Results reused = features({}), full_horizon = features({"numerics.horizon=full"});
     for (std::size_t f = 0; f < reused.features.size(); ++f) {
@@ -98,7 +98,7 @@ TEST_CASE("Reused and integrated meshes of a cracked helical gearbox agree") {
         }
     }
     // The last of the sizes, each used once, is the deepest; the first row is healthy.
-    const auto& ratio = reused.features[test::feature_index(reused, "window_ratio")].values;
+    const auto& ratio = reused.features[feature_index(reused, "window_ratio")].values;
     CHECK(ratio.front() == Approx(1.0).epsilon(1e-5));
     CHECK(*std::max_element(ratio.begin(), ratio.end()) > 1.05);
 }
@@ -116,7 +116,7 @@ TEST_CASE(
         std::vector<std::string> all{"fault.kind='chip'", "fault.member='sun'", "fault.chip_mm=4",
                                      "gearbox.helix_angle_deg=20"};
         all.insert(all.end(), more.begin(), more.end());
-        const Scene scene(test::study_of_text(text, all));
+        const Scene scene(study_of_text(text, all));
         const auto mesh = scene.gearbox().fault().mesh(0, 4e-3);
         const auto& healthy = *scene.gearbox().stiffness->meshes()[0].stiffness;
         double lost = 0.0, moment = 0.0;
@@ -131,7 +131,7 @@ TEST_CASE(
         return moment / lost;
     };
     const double overlap =
-        overlap_ratio(test::study_of_text(tests::kExampleStudy, {"gearbox.helix_angle_deg=20"}));
+        overlap_ratio(study_of_text(tests::kExampleStudy, {"gearbox.helix_angle_deg=20"}));
     const double first = loss_time({}), last = loss_time({"fault.chip_end='last'"});
     CHECK(last - first == Approx(overlap * (1.0 - 4.0 / 38.1)).epsilon(0.02));
     const std::vector<std::string> reversed{"operation.fixed='sun'", "operation.input='ring'",

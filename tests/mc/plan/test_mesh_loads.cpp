@@ -10,12 +10,12 @@
 namespace test_mesh_loads {
 
 using namespace gearpod;
-using test::shipped_study;
+using namespace gearpod::test;
 
 namespace {
 
 std::vector<std::string> studies_with_gears() {
-    std::vector<std::string> names = test::shipped_studies();
+    std::vector<std::string> names = shipped_studies();
     std::erase_if(names,
                   [](const std::string& name) { return !mc::has_gears(shipped_study(name)); });
     return names;
@@ -77,20 +77,18 @@ TEST_CASE("a torque 1,000 times too large or too small is noticed in every shipp
 }
 
 TEST_CASE("describe prints tooth stresses, and describe and run warn of the torque") {
-    const test::Folder folder;
+    const Folder folder;
     const std::string few = " " + test::study("planet-crack-ideal.toml") +
                             " --set ensemble.instances=2 --set ensemble.threshold_instances=1";
-    const auto usual = test::program("describe" + few);
-    INFO(usual.output);
-    REQUIRE(usual.code == 0);
-    CHECK(usual.mentions("sun-planet load"));
-    CHECK(usual.mentions("nominal ones of ISO 6336, method B, at the nominal torque, shared"));
+    const auto usual = require_success("describe" + few);
+    check_mentions(usual, {"sun-planet load",
+                           "nominal ones of ISO 6336, method B, at the nominal torque, shared"});
     CHECK(!usual.mentions("check the torque"));
     const std::string large = " --set operation.torque_N_m=450000",
                       small = " --set operation.torque_N_m=0.45";
-    CHECK(test::program("describe" + few + large).mentions("check the unit (N m, not N mm)"));
-    CHECK(test::program("describe" + few + small).mentions("check the unit (N m, not kN m)"));
-    const auto run = test::program("run" + few + small + " --quiet --out " + folder.file("r.h5"));
+    CHECK(program("describe" + few + large).mentions("check the unit (N m, not N mm)"));
+    CHECK(program("describe" + few + small).mentions("check the unit (N m, not kN m)"));
+    const auto run = program("run" + few + small + " --quiet --out " + folder.file("r.h5"));
     INFO(run.output);
     CHECK(run.mentions("operation.torque_N_m: 0.45 N m on the sun leaves the teeth"));
 }

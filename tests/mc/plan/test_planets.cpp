@@ -15,10 +15,7 @@ using namespace gearpod::mc;
 namespace {
 
 Study study_with(const std::vector<std::string>& overrides) {
-    StudyReading reading = read_study_text(tests::kExampleStudy, "study.toml", overrides);
-    INFO(format(reading.problems));
-    REQUIRE(reading.study);
-    return *reading.study;
+    return test::valid_study(read_study_text(tests::kExampleStudy, "study.toml", overrides));
 }
 
 }  // namespace

@@ -14,6 +14,7 @@
 #include "tests/mc/plan/random_samples.hpp"
 #include "tests/mc/scene_examples.hpp"
 #include "tests/mc/study_example.hpp"
+#include "tests/mc/study_file.hpp"
 
 namespace test_sampling {
 
@@ -23,10 +24,7 @@ using namespace gearpod::tests;
 namespace {
 
 Study study_with(const std::vector<std::string>& overrides) {
-    StudyReading reading = read_study_text(kExampleStudy, "study.toml", overrides);
-    INFO(format(reading.problems));
-    REQUIRE(reading.study);
-    return *reading.study;
+    return gearpod::test::valid_study(read_study_text(kExampleStudy, "study.toml", overrides));
 }
 
 double mean_of(const std::vector<double>& values) {
@@ -301,10 +299,8 @@ TEST_CASE("A fixed-shaft gearbox's inputs are sampled like any other's") {
         "random.operation.load_torque_N_m={distribution='uniform', low=28, high=31}",
         "random.fault.chip_mm={distribution='levels', values=[0, 4, 8]}"};
     const Study study = [&] {
-        const auto reading = read_study_text(kFixedShaftStudy, "study.toml", overrides);
-        INFO(format(reading.problems));
-        REQUIRE(reading.study);
-        return *reading.study;
+        return gearpod::test::valid_study(
+            read_study_text(kFixedShaftStudy, "study.toml", overrides));
     }();
     const Sampler sampler(DrawPlan{study});
     CHECK(speed_member(study) == Member::pinion);
@@ -335,9 +331,8 @@ TEST_CASE("A fixed-shaft gearbox's discs and balanced load follow from its gears
     std::string text = replaced(kFixedShaftStudy, "pinion_inertia_kg_m2 = 4.3659e-4\n", "");
     text = replaced(replaced(text, "gear_inertia_kg_m2 = 8.3602e-3\n", ""),
                     "load_torque_N_m = 48.8\n", "");
-    const auto reading = read_study_text(text, "study.toml");
-    REQUIRE(reading.study);
-    const InstanceInputs inputs = nominal_inputs(*reading.study);
+    const Study reading = gearpod::test::valid_study(read_study_text(text, "study.toml"));
+    const InstanceInputs inputs = nominal_inputs(reading);
     CHECK(inputs.bodies[Member::pinion].inertia_kg_m2 == Approx(4.3659e-4).epsilon(5e-4));
     CHECK(inputs.bodies[Member::gear].inertia_kg_m2 == Approx(8.3602e-3).epsilon(5e-4));
     CHECK(inputs.fixed_shaft.load_torque_N_m == Approx(11.9 * 48 / 19));

@@ -12,6 +12,7 @@
 #include "mc/study/random/scrambled_sobol.hpp"
 #include "tests/mc/plan/random_samples.hpp"
 #include "tests/mc/study_example.hpp"
+#include "tests/mc/study_file.hpp"
 
 namespace test_sampling_plan {
 
@@ -24,10 +25,7 @@ constexpr double kWhole = 0x1p-32;
 
 Study sobol_study(std::vector<std::string> overrides = {}) {
     overrides.push_back("ensemble.sampling=sobol");
-    StudyReading reading = read_study_text(kExampleStudy, "study.toml", overrides);
-    INFO(format(reading.problems));
-    REQUIRE(reading.study);
-    return *reading.study;
+    return gearpod::test::valid_study(read_study_text(kExampleStudy, "study.toml", overrides));
 }
 
 // Position in its range of a gearbox's path exponent, uniform in this study.

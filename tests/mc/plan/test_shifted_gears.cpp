@@ -13,7 +13,7 @@ using namespace gearpod;
 using mc::Member;
 using mc::MeshKind;
 using mc::Scene;
-using test::shipped_study;
+using namespace gearpod::test;
 
 namespace {
 
@@ -45,7 +45,7 @@ std::vector<std::string> bell_with(const std::vector<std::string>& more) {
 TEST_CASE("Shifts of zero and the standard centre distance give the bits of omitted ones") {
     std::vector<std::string> few = tests::kFast;
     few.insert(few.end(), {"ensemble.instances=6", "ensemble.threshold_instances=1"});
-    const auto reference = test::feature_bits(test::study_of_text(tests::kExampleStudy, few));
+    const auto reference = feature_bits(study_of_text(tests::kExampleStudy, few));
     for (const std::vector<std::string>& given :
          {std::vector<std::string>{"gearbox.sun_shift=0", "gearbox.planet_shift=0",
                                    "gearbox.ring_shift=0"},
@@ -53,12 +53,12 @@ TEST_CASE("Shifts of zero and the standard centre distance give the bits of omit
           {"gearbox.centre_distance_mm=79.375"}}) {
         std::vector<std::string> all = few;
         all.insert(all.end(), given.begin(), given.end());
-        CHECK(test::feature_bits(test::study_of_text(tests::kExampleStudy, all)) == reference);
+        CHECK(feature_bits(study_of_text(tests::kExampleStudy, all)) == reference);
     }
 }
 
 TEST_CASE("A shifted gearbox works at its centre distance, its planets at assembly positions") {
-    const mc::Study study = test::study_of_text(tests::kExampleStudy, kBell);
+    const mc::Study study = study_of_text(tests::kExampleStudy, kBell);
     const Scene scene(study);
     const auto planets = gears::planet_positions(mc::planetary_train(study));
     CHECK(planets.step == std::vector<int>{0, 32, 63, 95});
@@ -101,9 +101,9 @@ TEST_CASE("A shifted gearbox works at its centre distance, its planets at assemb
 
 TEST_CASE("Standard planets that cannot be spaced equally take the nearest positions, too") {
     const auto three =
-        mc::planetary_train(test::study_of_text(tests::kExampleStudy, {"gearbox.planets=3"}));
+        mc::planetary_train(study_of_text(tests::kExampleStudy, {"gearbox.planets=3"}));
     CHECK(gears::planet_positions(three).step == std::vector<int>{0, 33, 67});
-    const auto four = mc::planetary_train(test::study_of_text(tests::kExampleStudy));
+    const auto four = mc::planetary_train(study_of_text(tests::kExampleStudy));
     CHECK(four.positions_rad.empty());
 }
 
@@ -123,7 +123,7 @@ TEST_CASE("Faults of shifted teeth weaken them, up to a size that follows their 
             }
             changes.emplace_back("random.fault.depth_mm.values=[0, 1, 2]");
             INFO(profile << " " << where);
-            const Scene scene(test::study_of_text(text, changes));
+            const Scene scene(study_of_text(text, changes));
             CHECK(scene.gearbox().fault().largest_size() > 3e-3);
             const auto& healthy =
                 *scene.gearbox()
@@ -139,10 +139,7 @@ TEST_CASE("Faults of shifted teeth weaken them, up to a size that follows their 
     const auto largest = [](const std::vector<std::string>& shifts) {
         std::vector<std::string> all{"fault.side='sun'"};
         all.insert(all.end(), shifts.begin(), shifts.end());
-        return Scene(test::study_of_text(tests::kExampleStudy, all))
-            .gearbox()
-            .fault()
-            .largest_size();
+        return Scene(study_of_text(tests::kExampleStudy, all)).gearbox().fault().largest_size();
     };
     CHECK(largest({"gearbox.planet_shift=0.2", "gearbox.sun_shift=-0.2"}) > 1.02 * largest({}));
 }
@@ -174,7 +171,7 @@ TEST_CASE("Impossible shifted gears are refused with the relevant numbers") {
 // Source: the pair 17/96 of a geometry report, shifts 0.2 and 0.5 (0.5 outwards), 14 mm, 557.089
 // mm, 21.125 degrees. The matching sun has 62 teeth.
 TEST_CASE("The shifts of planet and ring give the centre distance and the sun's shift") {
-    const mc::Study study = test::study_of_text(
+    const mc::Study study = study_of_text(
         tests::kExampleStudy,
         {"gearbox.planets=3", "gearbox.sun_teeth=62", "gearbox.planet_teeth=17",
          "gearbox.ring_teeth=96", "gearbox.module_mm=14", "gearbox.planet_shift=0.2",
@@ -208,8 +205,8 @@ TEST_CASE("A ring's shift that leaves backlash is refused with the value that le
 TEST_CASE("Real sets that standard teeth cannot form run with their windows on every gear") {
     for (const char* name : {"bell-206b.toml", "snu-rig.toml"}) {
         INFO(name);
-        const auto rows = test::run(
-            shipped_study(name, {"ensemble.instances=5", "ensemble.threshold_instances=2"}));
+        const auto rows =
+            run(shipped_study(name, {"ensemble.instances=5", "ensemble.threshold_instances=2"}));
         std::size_t windows = 0;
         for (const auto& feature : rows.features) {
             if (feature.name.find("window_ratio") == std::string::npos) {

@@ -7,8 +7,7 @@
 namespace test_yang_scenes {
 
 using namespace gearpod;
-using test::run_one;
-using test::shipped_study;
+using namespace gearpod::test;
 
 namespace {
 
@@ -66,7 +65,7 @@ std::vector<double> rig_signal(double depth_mm, bool alike) {
         study.errors.pitch_error_m = 0.0;
         study.numerics.horizon = mc::Horizon::periodic;
     }
-    return test::sensor_signal(mc::Scene(study), kRigMeshes, 0);
+    return sensor_signal(mc::Scene(study), kRigMeshes, 0);
 }
 
 struct RigLines {
@@ -78,7 +77,7 @@ RigLines rig_lines(bool alike) {
     for (std::size_t i = 0; i < change.size(); ++i) {
         change[i] -= healthy[i];
     }
-    return {test::lines(healthy), test::lines(change)};
+    return {lines(healthy), lines(change)};
 }
 
 // Change due to the crack at 2 f_mp + k f_rs, k from -6 to 6: the mean over those k where three
@@ -172,7 +171,7 @@ TEST_CASE(
         INFO(k);
         const double line = alike.healthy[main + static_cast<std::size_t>(k * kRigCarrier)];
         const double largest = alike.healthy[main + kRigCarrier];
-        CHECK(((k - 1) % 3 == 0 ? line > 1e-4 * largest : line < test::kNothing * largest));
+        CHECK(((k - 1) % 3 == 0 ? line > 1e-4 * largest : line < kNothing * largest));
     }
     // Three equal planets leave those lines 2 f_mp + k f_rs that are multiples of f_fs; different
     // ones leave all.
@@ -187,8 +186,8 @@ TEST_CASE("Pitch errors of healthy teeth have a larger effect than a crack of 2 
         mc::Study study = shipped_study("published/yang-pitch-errors.toml", overrides);
         study.ensemble.threshold_instances = 1;
         study.ensemble.instances = 3;
-        const mc::Results results = test::run(study);
-        return results.features[test::feature_index(results, "window_ratio")].values;
+        const mc::Results results = run(study);
+        return results.features[feature_index(results, "window_ratio")].values;
     };
     // One healthy gearbox for the threshold, then cracks of 0, 1 and 2 mm.
     const auto without = ratios({"gearbox.pitch_error_um=0"});
@@ -202,9 +201,9 @@ TEST_CASE("Pitch errors of healthy teeth have a larger effect than a crack of 2 
 
 TEST_CASE("Tones of the drive reduce the contrast of the cracked tooth's windows slightly") {
     const auto ratios = [](const char* name) {
-        const mc::Results results = test::run(shipped_study(name));
+        const mc::Results results = run(shipped_study(name));
         const auto values = [&](const char* feature) {
-            return results.features[test::feature_index(results, feature)].values;
+            return results.features[feature_index(results, feature)].values;
         };
         return std::pair{values("window_ratio").back(), values("sensor_rms").back()};
     };

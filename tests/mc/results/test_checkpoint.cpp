@@ -14,9 +14,7 @@ namespace test_checkpoint {
 
 using namespace gearpod;
 using namespace gearpod::mc;
-using test::bytes_of;
-using test::Folder;
-using test::write_bytes;
+using namespace gearpod::test;
 
 namespace {
 

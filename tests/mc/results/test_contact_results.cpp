@@ -13,7 +13,7 @@ namespace test_contact_results {
 
 using namespace gearpod;
 using namespace gearpod::mc;
-using test::Folder;
+using namespace gearpod::test;
 
 namespace {
 
@@ -51,7 +51,7 @@ TEST_CASE("Contact loss ratios read back as they were written, at once and in pa
     const std::string path = folder.file("r.h5");
     const Results r = example(9001);
     write_results(path, r);
-    CHECK(test::bits(read_results(path)) == test::bits(r));
+    CHECK(bits(read_results(path)) == bits(r));
     Results frame = read_frame(path);
     REQUIRE(frame.contact_loss.size() == 2);
     CHECK(frame.contact_loss[0].name == "sun-planet");
@@ -59,7 +59,7 @@ TEST_CASE("Contact loss ratios read back as they were written, at once and in pa
     CHECK(frame.contact_loss[0].values.empty());
     const FileRows rows(path, frame);
     fill_columns(frame, rows);
-    CHECK(test::bits(frame) == test::bits(r));
+    CHECK(bits(frame) == bits(r));
     REQUIRE(frame.step_error.has_value());
     CHECK(frame.step_error->sensor == 3.5e-3);
     CHECK(frame.step_error->te == 2e-4);
@@ -93,7 +93,7 @@ TEST_CASE("Results without contact loss have no value instead of zero") {
     const Results back = read_results(path);
     CHECK(back.contact_loss.empty());
     CHECK_FALSE(back.step_error.has_value());
-    CHECK(test::bits(back) == test::bits(r));
+    CHECK(bits(back) == bits(r));
 }
 
 TEST_CASE("Contact loss with a wrong number of rows is not written") {

@@ -8,10 +8,7 @@
 namespace test_edited_results {
 
 using namespace gearpod;
-using test::edit_results;
-using test::Folder;
-using test::Outcome;
-using test::replace_numbers;
+using namespace gearpod::test;
 namespace fs = std::filesystem;
 
 namespace {
@@ -21,9 +18,8 @@ const std::string& genuine() {
     static const Folder folder;
     static const std::string path = [] {
         const std::string file = folder.file("r.h5");
-        REQUIRE(test::program("run " + test::study("crack-in-sun.toml") +
-                              " --instances 5 --set ensemble.threshold_instances=3 --quiet --out " +
-                              file)
+        REQUIRE(program("run " + test::study("crack-in-sun.toml") +
+                        " --instances 5 --set ensemble.threshold_instances=3 --quiet --out " + file)
                     .code == 0);
         return file;
     }();
@@ -124,9 +120,7 @@ TEST_CASE("A results file that is unchanged, or has a new checksum only, is repo
     fs::copy_file(genuine(), path);
     edit_results(path, [](hid_t) {});
     for (const std::string& file : {genuine(), path}) {
-        const Outcome report = test::program("report " + file + " --json " + folder.file("r.json"));
-        INFO(report.output);
-        CHECK(report.code == 0);
+        require_success("report " + file + " --json " + folder.file("r.json"));
     }
 }
 
@@ -141,10 +135,7 @@ TEST_CASE("A modified results file with a valid checksum is refused with the rea
               "report " + path + " --html " + folder.file("r.html"),
               "run " + test::study("crack-in-sun.toml") +
                   " --instances 6 --set ensemble.threshold_instances=3 --resume --out " + path}) {
-            const Outcome outcome = test::program(command);
-            INFO(edit.what << "\n" << command << "\n" << outcome.output);
-            CHECK(outcome.code == 2);
-            CHECK(outcome.mentions("r.h5: "));
+            const Outcome outcome = check_refused(command, {"r.h5: "});
             if (command.starts_with("report")) {
                 CHECK(outcome.mentions(edit.words));
             }
@@ -158,8 +149,7 @@ TEST_CASE("Names that are not valid UTF-8 do not prevent a report's JSON") {
     const std::string path = folder.file("caf\xe9.h5");
     fs::copy_file(genuine(), path);
     edit_results(path, [](hid_t root) { replace_text(root, ".", "host", "caf\xe9"); });
-    const Outcome outcome = test::program("report '" + path + "' --json -");
-    CHECK(outcome.code == 0);
+    const Outcome outcome = require_success("report '" + path + "' --json -");
     CHECK(outcome.mentions("caf\xef\xbf\xbd.h5"));
 }
 

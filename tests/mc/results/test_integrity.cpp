@@ -10,11 +10,7 @@
 namespace test_integrity {
 
 using namespace gearpod;
-using test::bytes_of;
-using test::Folder;
-using test::Outcome;
-using test::program;
-using test::write_bytes;
+using namespace gearpod::test;
 namespace fs = std::filesystem;
 
 namespace {
@@ -26,7 +22,7 @@ const std::string& genuine() {
     static const Folder folder;
     static const std::string path = [] {
         const std::string file = folder.file("r.h5");
-        REQUIRE(program("run " + test::study("planet-crack-ideal.toml") +
+        REQUIRE(program("run " + study("planet-crack-ideal.toml") +
                         " --instances 2 --set ensemble.threshold_instances=1 --quiet --out " + file)
                     .code == 0);
         return file;
@@ -59,7 +55,7 @@ void write_version_2(const std::string& path) {
         mc::check(H5Adelete(file.get(), "format_version"), "format_version");
         mc::write_text(file.get(), ".", "format_version", "2");
     }
-    test::update_checksum(path);
+    update_checksum(path);
 }
 
 }  // namespace
@@ -72,13 +68,13 @@ TEST_CASE("A results file keeps its integrity when other programs open it for wr
     { const mc::Hdf5Handle file = open_for_writing(path); }
     CHECK(bytes_of(path) == before);
     CHECK(mc::check_file_checksum(path) == mc::ChecksumState::intact);
-    CHECK(test::bits(path) == test::bits(genuine()));
+    CHECK(bits(path) == bits(genuine()));
     // A program that is killed leaves HDF5's mark of an open file.
     std::string marked = before;
     marked[mc::kUserBlockBytes + 20] = 1;
     write_bytes(path, marked);
     CHECK(mc::check_file_checksum(path) == mc::ChecksumState::intact);
-    CHECK(test::bits(path) == test::bits(genuine()));
+    CHECK(bits(path) == bits(genuine()));
 }
 
 TEST_CASE("A results file that is being written, cut or changed is refused with the true reason") {
@@ -109,20 +105,16 @@ TEST_CASE("Files of version 2 are read, without their trailing hash with a note"
     const std::string path = folder.file("old.h5");
     write_version_2(path);
     CHECK(mc::check_file_checksum(path) == mc::ChecksumState::intact);
-    const Outcome whole = program("report " + path);
-    CHECK(whole.code == 0);
+    const Outcome whole = require_success("report " + path);
     CHECK_FALSE(whole.mentions("integrity hash"));
     // HDF5 cuts bytes after its own end.
     const auto size = fs::file_size(path);
     { const mc::Hdf5Handle file = open_for_writing(path); }
     CHECK(fs::file_size(path) == size - kTrailingBytes);
     CHECK(mc::check_file_checksum(path) == mc::ChecksumState::missing);
-    const Outcome cut = program("report " + path);
-    INFO(cut.output);
-    CHECK(cut.code == 0);
-    CHECK(cut.mentions("has no integrity hash"));
-    CHECK(cut.mentions("changes of its contents cannot be detected"));
-    CHECK(test::bits(path) == test::bits(genuine()));
+    const Outcome cut = require_success("report " + path);
+    check_mentions(cut, {"has no integrity hash", "changes of its contents cannot be detected"});
+    CHECK(bits(path) == bits(genuine()));
     // A damaged byte of a file with the trailing hash is detected.
     write_version_2(path);
     std::string damaged = bytes_of(path);
@@ -142,12 +134,10 @@ TEST_CASE("`repair` renews the hash of a readable file and of no other") {
         mc::write_number(file.get(), ".", "rig", 7.0);
     }
     CHECK(program("report " + path).code == 2);
-    const Outcome repaired = program("repair " + path);
-    INFO(repaired.output);
-    CHECK(repaired.code == 0);
+    const Outcome repaired = require_success("repair " + path);
     CHECK(repaired.mentions("changes of its contents before now cannot be detected"));
     CHECK(program("report " + path).code == 0);
-    CHECK(test::bits(path) == test::bits(genuine()));
+    CHECK(bits(path) == bits(genuine()));
 
     write_version_2(path);
     { const mc::Hdf5Handle file = open_for_writing(path); }
@@ -162,7 +152,7 @@ TEST_CASE("`repair` renews the hash of a readable file and of no other") {
     fs::copy_file(genuine(), path, fs::copy_options::overwrite_existing);
     {
         const mc::Hdf5Handle file = open_for_writing(path);
-        test::replace_numbers(file.get(), "noise_levels", {1}, {7.0});
+        replace_numbers(file.get(), "noise_levels", {1}, {7.0});
     }
     const std::string before = bytes_of(path);
     CHECK(program("repair " + path).code == 2);

@@ -23,9 +23,7 @@ namespace test_results_file {
 
 using namespace gearpod;
 using namespace gearpod::mc;
-using test::bytes_of;
-using test::Folder;
-using test::write_bytes;
+using namespace gearpod::test;
 namespace fs = std::filesystem;
 
 namespace {
@@ -142,13 +140,13 @@ TEST_CASE("Rows read in parts equal those of the whole file") {
     }
     const std::string path = folder.file("r.h5");
     write_results(path, large);
-    CHECK(test::bits(read_results(path)) == test::bits(large));
+    CHECK(bits(read_results(path)) == bits(large));
     Results frame = read_frame(path);
     CHECK(frame.status.empty());
     const FileRows rows(path, frame);
     CHECK(rows.rows() == 9001);
     fill_columns(frame, rows);
-    CHECK(test::bits(frame) == test::bits(large));
+    CHECK(bits(frame) == bits(large));
 }
 
 TEST_CASE("The same results give the same bytes") {
@@ -362,7 +360,7 @@ TEST_CASE("A symbolic link is kept, and its target is written") {
     CHECK(fs::is_symlink(folder.file("old")));
     CHECK(fs::is_regular_file(folder.file("far/new.h5")));
     // The content is equal to the bit; modification times in the files may differ.
-    CHECK(test::bits(folder.file("far/new.h5")) == test::bits(folder.file("far/old.h5")));
+    CHECK(bits(folder.file("far/new.h5")) == bits(folder.file("far/old.h5")));
     CHECK(fs::file_size(folder.file("far/new.h5")) == fs::file_size(folder.file("far/old.h5")));
     CHECK(std::distance(fs::directory_iterator(folder.file("far")), fs::directory_iterator{}) == 2);
 

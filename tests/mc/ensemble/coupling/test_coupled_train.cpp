@@ -17,11 +17,7 @@
 namespace test_coupled_train {
 
 using namespace gearpod;
-using test::Folder;
-using test::kSmall;
-using test::program;
-using test::stage_file;
-using test::stages;
+using namespace gearpod::test;
 
 namespace {
 
@@ -38,7 +34,7 @@ std::string shaft(double stiffness_N_m_rad) {
 mc::Scene scene_with(const std::string& path, const std::string& more,
                      std::vector<std::string> settings = {}) {
     settings.insert(settings.end(), kNumerics.begin(), kNumerics.end());
-    return mc::Scene(test::small_study(path, more, std::move(settings)));
+    return mc::Scene(small_study(path, more, std::move(settings)));
 }
 
 // Mass and stiffness of a torsional train: u = r theta of carrier, ring, sun and three planets. A
@@ -97,7 +93,7 @@ TEST_CASE("Natural frequencies of a train are those of its equations", "[coupled
     const Folder folder;
     constexpr double kStiffness_N_m_rad = 2e4;
     const std::string path = stage_file(folder, "stage.toml");
-    test::replace_in(path, "[sensor]", "[effects]\nmotion = \"torsional\"\n\n[sensor]");
+    replace_in(path, "[sensor]", "[effects]\nmotion = \"torsional\"\n\n[sensor]");
     const mc::Scene scene =
         scene_with(path, shaft(kStiffness_N_m_rad), {"effects.motion=\"torsional\""});
     const TorsionalTrain first(scene.gearbox()), second(*scene.gearbox().stages[0].gearbox);
@@ -143,11 +139,10 @@ TEST_CASE("An elastic shaft bears the same torque at both ends", "[coupled-train
 TEST_CASE("A stage whose study drives from the other side turns the other way", "[coupled-train]") {
     // Both suns are driven, so that one of the studies describes the mirrored train.
     const Folder folder;
-    const auto text =
-        program("describe " + kSmall + " " + kOptions +
-                "--set 'sensor.stages=[{name=\"a\", study=\"" + stage_file(folder, "stage.toml") +
-                "\", shaft=\"sun\", stage_shaft=\"sun\"" + shaft(2e3) + "}]'");
-    CHECK(text.code == 0);
+    const auto text = require_success(
+        "describe " + kSmall + " " + kOptions + "--set 'sensor.stages=[{name=\"a\", study=\"" +
+        stage_file(folder, "stage.toml") + "\", shaft=\"sun\", stage_shaft=\"sun\"" + shaft(2e3) +
+        "}]'");
     CHECK(text.mentions("its study is mirrored"));
 }
 
@@ -168,11 +163,10 @@ TEST_CASE("A shaft carries lines of the stage to the transmission error", "[coup
 TEST_CASE("A shaft without stiffness leaves all bits as they are", "[coupled-train]") {
     const Folder folder;
     const std::string path = stage_file(folder, "stage.toml");
-    const mc::Results none = test::run_small(folder, "none.h5", kOptions + stages(path, "")),
-                      zero = test::run_small(folder, "zero.h5", kOptions + stages(path, shaft(0)));
+    const mc::Results none = run_small(folder, "none.h5", kOptions + stages(path, "")),
+                      zero = run_small(folder, "zero.h5", kOptions + stages(path, shaft(0)));
     for (std::size_t f = 0; f < none.features.size(); ++f) {
-        CHECK(test::bits_of_values(none.features[f].values) ==
-              test::bits_of_values(zero.features[f].values));
+        CHECK(bits_of_values(none.features[f].values) == bits_of_values(zero.features[f].values));
     }
 }
 
@@ -180,15 +174,14 @@ TEST_CASE("Rows of coupled gearboxes keep their bits over threads, parts and mer
           "[coupled-train]") {
     const Folder folder;
     const std::string path = stage_file(folder, "stage.toml");
-    test::check_equal_bits_over_parts(kOptions +
-                                      stages(path, ", role=\"other_fault\"" + shaft(2e4)) +
-                                      "--set 'features.use=[\"fm4\",\"change_sensor_rms\"]' ");
+    check_equal_bits_over_parts(kOptions + stages(path, ", role=\"other_fault\"" + shaft(2e4)) +
+                                "--set 'features.use=[\"fm4\",\"change_sensor_rms\"]' ");
 }
 
 TEST_CASE("The fault of a coupled stage raises gear alarms of its own", "[coupled-train]") {
     const Folder folder;
     const std::string path = stage_file(folder, "stage.toml");
-    const mc::Results results = test::run_small(
+    const mc::Results results = run_small(
         folder, "other.h5", kOptions + stages(path, ", role=\"other_fault\"" + shaft(2e4)));
     REQUIRE(results.variants.size() == 1);
     for (std::size_t row = 0; row < 20; ++row) {
@@ -203,9 +196,9 @@ TEST_CASE("The fault of a coupled stage raises gear alarms of its own", "[couple
 TEST_CASE("Coupled stages have other positions in every record", "[coupled-train]") {
     const Folder folder;
     const mc::Results results =
-        test::run_small(folder, "r.h5",
-                        kOptions + stages(stage_file(folder, "stage.toml"), shaft(2e3)) +
-                            "--set 'features.use=[\"sensor_rms\",\"change_sensor_rms\"]' ");
+        run_small(folder, "r.h5",
+                  kOptions + stages(stage_file(folder, "stage.toml"), shaft(2e3)) +
+                      "--set 'features.use=[\"sensor_rms\",\"change_sensor_rms\"]' ");
     const auto& all = results.features[0].values;
     const auto& changes = results.features[1].values;
     for (std::size_t row = 0; row < 20; ++row) {  // healthy gearboxes
@@ -223,8 +216,7 @@ TEST_CASE("Shafts that cannot be computed are refused with what would be right",
     const Folder folder;
     const std::string path = stage_file(folder, "stage.toml");
     const auto refused = [&](const std::string& options) {
-        const auto outcome = program("describe " + kSmall + " " + options);
-        CHECK(outcome.code == 2);
+        const auto outcome = check_refused("describe " + kSmall + " " + options);
         INFO(outcome.output);
         return outcome;
     };

@@ -22,9 +22,8 @@ inline const std::string kFewGearboxes =
 inline mc::Results run_small(const Folder& folder, const std::string& name,
                              const std::string& options) {
     const std::string path = folder.file(name);
-    const auto outcome = program("run " + kSmall + kFewGearboxes + "--out " + path + " " + options);
-    INFO(outcome.output);
-    REQUIRE(outcome.code == 0);
+    gearpod::test::require_success("run " + kSmall + kFewGearboxes + "--out " + path + " " +
+                                   options);
     return mc::read_results(path);
 }
 
@@ -54,10 +53,8 @@ inline Columns columns_of(const std::string& path) {
 // Signals of gearbox 2 of the study over the 455 mesh periods that repeat.
 inline Columns signals_of_small(const Folder& folder, const std::string& options) {
     const std::string path = folder.file("s.csv");
-    const auto outcome =
-        program("simulate " + kSmall + " --instance 2 --meshes 455 --out " + path + options);
-    INFO(outcome.output);
-    REQUIRE(outcome.code == 0);
+    gearpod::test::require_success("simulate " + kSmall + " --instance 2 --meshes 455 --out " +
+                                   path + options);
     return columns_of(path);
 }
 
@@ -80,14 +77,10 @@ inline double printed_value(const Outcome& outcome, const std::string& name) {
 inline Outcome features_of_export(const Folder& folder, const std::string& sensor,
                                   const std::string& options) {
     const std::string signal = folder.file("signal.h5");
-    const auto simulated = program("simulate " + kSmall + " --instance 25 --meshes 455 --out " +
+    gearpod::test::require_success("simulate " + kSmall + " --instance 25 --meshes 455 --out " +
                                    signal + kFewGearboxes + options);
-    INFO(simulated.output);
-    REQUIRE(simulated.code == 0);
-    const auto measured =
-        program("features " + signal + " --sensor " + sensor + " --study " + kSmall);
-    INFO(measured.output);
-    REQUIRE(measured.code == 0);
+    const auto measured = gearpod::test::require_success("features " + signal + " --sensor " +
+                                                         sensor + " --study " + kSmall);
     return measured;
 }
 
@@ -98,10 +91,9 @@ inline void check_equal_bits_over_parts(const std::string& options) {
     CHECK(bits(run_small(folder, "threads.h5", options + " --set numerics.threads=3")) == whole);
     run_small(folder, "1.h5", options + " --part 1/2");
     run_small(folder, "2.h5", options + " --part 2/2");
-    const auto merged = program("merge --out " + folder.file("merged.h5") + " " +
-                                folder.file("1.h5") + " " + folder.file("2.h5"));
-    INFO(merged.output);
-    REQUIRE(merged.code == 0);
+    const auto merged =
+        gearpod::test::require_success("merge --out " + folder.file("merged.h5") + " " +
+                                       folder.file("1.h5") + " " + folder.file("2.h5"));
     CHECK(bits(folder.file("merged.h5")) == whole);
 }
 

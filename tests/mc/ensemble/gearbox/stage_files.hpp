@@ -5,6 +5,7 @@
 #include <string>
 
 #include "tests/mc/ensemble/gearbox/small_runs.hpp"
+#include "tests/mc/study_file.hpp"
 
 namespace gearpod::test {
 
@@ -40,10 +41,7 @@ inline std::string stages(const std::string& path, const std::string& more) {
 inline mc::Study small_study(const std::string& path, const std::string& more,
                              std::vector<std::string> settings = {}) {
     settings.push_back(stage_setting(path, more));
-    const auto reading = mc::read_study(kSmall, settings);
-    INFO(format(reading.problems));
-    REQUIRE(reading.study.has_value());
-    return *reading.study;
+    return valid_study(mc::read_study(kSmall, settings));
 }
 
 // Replaces a text in a file.

@@ -6,13 +6,12 @@
 #include "mc/report/sensors.hpp"
 #include "mc/results/result_rows.hpp"
 #include "tests/mc/ensemble/gearbox/small_runs.hpp"
+#include "tests/mc/study_file.hpp"
 
 namespace test_additional_sensors {
 
 using namespace gearpod;
-using test::Folder;
-using test::kSmall;
-using test::program;
+using namespace gearpod::test;
 
 namespace {
 
@@ -21,7 +20,7 @@ std::string sensors(const std::string& list) {
 }
 
 mc::Results run(const Folder& folder, const std::string& name, const std::string& options) {
-    return test::run_small(folder, name, "--set sensor.noise_levels=[0,1] " + options);
+    return run_small(folder, name, "--set sensor.noise_levels=[0,1] " + options);
 }
 
 // Values of a feature at one of the two noise levels.
@@ -49,13 +48,11 @@ TEST_CASE("A second sensor at the place of the first one differs in its noise on
     for (std::size_t f = 0; f < plain.features.size(); ++f) {
         INFO(plain.features[f].name);
         const mc::FeatureResult& own = twin.variants[0].features[f];
-        CHECK(test::bits_of_values(twin.features[f].values) ==
-              test::bits_of_values(plain.features[f].values));
-        CHECK(test::bits_of_values(at_level(own, 0)) ==
-              test::bits_of_values(at_level(plain.features[f], 0)));
+        CHECK(bits_of_values(twin.features[f].values) == bits_of_values(plain.features[f].values));
+        CHECK(bits_of_values(at_level(own, 0)) == bits_of_values(at_level(plain.features[f], 0)));
         const bool of_te = plain.features[f].name.starts_with("te_");
-        CHECK((test::bits_of_values(at_level(own, 1)) ==
-               test::bits_of_values(at_level(plain.features[f], 1))) == of_te);
+        CHECK((bits_of_values(at_level(own, 1)) ==
+               bits_of_values(at_level(plain.features[f], 1))) == of_te);
     }
 }
 
@@ -109,9 +106,8 @@ TEST_CASE("Cross-axis sensitivity adds that part of the acceleration at right an
     const Folder folder;
     const std::string options = " --set sensor.noise_levels=[0] " +
                                 sensors("{name=\"side\", angle_deg=0, direction=\"tangential\"}");
-    const auto pure = test::signals_of_small(folder, options),
-               mixed =
-                   test::signals_of_small(folder, options + "--set sensor.cross_axis_percent=5 ");
+    const auto pure = signals_of_small(folder, options),
+               mixed = signals_of_small(folder, options + "--set sensor.cross_axis_percent=5 ");
     const std::vector<double>&radial = pure.at("sensor"), &tangential = pure.at("sensor_side");
     for (std::size_t i = 0; i < radial.size(); ++i) {
         REQUIRE(mixed.at("sensor")[i] == Approx(radial[i] + 0.05 * tangential[i]).margin(1e-5));
@@ -124,17 +120,17 @@ TEST_CASE("Exported samples of an additional sensor have the features of the run
     const Folder folder;
     const std::string side = sensors("{name=\"side\", angle_deg=77, noise=3}");
     const mc::Results results = run(folder, "run.h5", side);
-    const auto measured = test::features_of_export(folder, "sensor_side_noise_1",
-                                                   "--set sensor.noise_levels=[0,1]" + side);
+    const auto measured =
+        features_of_export(folder, "sensor_side_noise_1", "--set sensor.noise_levels=[0,1]" + side);
     for (const char* name : {"sensor_rms", "window_ratio", "fm4", "crest_factor"}) {
         INFO(name);
         CHECK(at_level(named(results.variants[0].features, name), 1)[25] ==
-              Approx(test::printed_value(measured, name)).epsilon(1e-5));
+              Approx(printed_value(measured, name)).epsilon(1e-5));
     }
 }
 
 TEST_CASE("Rows of additional sensors keep their bits over threads, parts and merging") {
-    test::check_equal_bits_over_parts(sensors("{name=\"side\", angle_deg=77}"));
+    check_equal_bits_over_parts(sensors("{name=\"side\", angle_deg=77}"));
 }
 
 // Two sensors with independent normal noise: a fault that shifts each by d standard deviations
@@ -180,11 +176,10 @@ TEST_CASE("The mean of two sensors has the area under the ROC that theory gives"
 }
 
 TEST_CASE("Problems of additional sensors are all reported") {
-    const auto outcome =
-        program("describe " + kSmall +
-                sensors("{name=\"Side 1\", angle_deg=400}, {name=\"a\", angle_deg=1, gain=0}, "
-                        "{name=\"a\", angle_deg=2, direction=\"up\"}"));
-    CHECK(outcome.code == 2);
+    const auto outcome = check_refused(
+        "describe " + kSmall +
+        sensors("{name=\"Side 1\", angle_deg=400}, {name=\"a\", angle_deg=1, gain=0}, "
+                "{name=\"a\", angle_deg=2, direction=\"up\"}"));
     for (const char* text :
          {"sensor 1: name must have lower-case letters", "sensor 1: angle_deg must be",
           "sensor 2: gain must be > 0", "sensor 3: another one has the name \"a\"",
@@ -194,13 +189,10 @@ TEST_CASE("Problems of additional sensors are all reported") {
     }
     CHECK(program("describe " + kSmall + sensors("{name=\"side\", angle_deg=90}"))
               .mentions("\"side\": 90 degrees from the first one, radial"));
-    const auto reading = mc::read_study(
+    const mc::Study reading = valid_study(mc::read_study(
         kSmall, {"sensor.additional=[{name='b', angle_deg=-33.3, direction='tangential', gain=1.7, "
-                 "noise=0.3}]"});
-    REQUIRE(reading.study);
-    const auto again = mc::read_study_text(resolved_text(*reading.study), "again");
-    REQUIRE(again.study);
-    CHECK(*again.study == *reading.study);
+                 "noise=0.3}]"}));
+    check_reads_back(reading);
 }
 
 }  // namespace test_additional_sensors

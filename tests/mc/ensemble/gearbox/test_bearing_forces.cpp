@@ -10,14 +10,12 @@
 #include "tests/mc/ensemble/gearbox/small_runs.hpp"
 #include "tests/mc/ensemble/gearbox/stage_files.hpp"
 #include "tests/mc/liang_signals.hpp"
+#include "tests/mc/study_file.hpp"
 
 namespace test_bearing_forces {
 
 using namespace gearpod;
-using test::Folder;
-using test::kSmall;
-using test::program;
-using test::run_small;
+using namespace gearpod::test;
 using Complex = std::complex<double>;
 
 namespace {
@@ -43,10 +41,7 @@ mc::Study small_study(std::vector<std::string> settings) {
                                 "gearbox.sun_bearing_damping_N_s_m=2e4"}) {
         settings.emplace_back(setting);
     }
-    const auto reading = mc::read_study(kSmall, settings);
-    INFO(mc::format(reading.problems));
-    REQUIRE(reading.study);
-    return *reading.study;
+    return valid_study(mc::read_study(kSmall, settings));
 }
 
 // Signals of both sensors of the nominal gearbox over one carrier turn.
@@ -165,12 +160,12 @@ const std::vector<double>& values(const mc::Results& results, const std::string&
 
 TEST_CASE("A bearing adds the acceleration of an oscillator under the force of the motion") {
     const mc::Scene without(small_study(one_mode(0.0, 0.0, 0.0)));
-    const TwoSignals before = signals_of(without, test::run_one(without));
+    const TwoSignals before = signals_of(without, run_one(without));
     for (const int body : {dynamics::sun, dynamics::carrier}) {
         INFO(body);
         const bool sun = body == dynamics::sun;
         const mc::Scene scene(small_study(one_mode(sun ? kPerKg : 0.0, sun ? 0.0 : kPerKg, kSide)));
-        const mc::GearboxTile tile = test::run_one(scene, true);
+        const mc::GearboxTile tile = run_one(scene, true);
         const TwoSignals after = signals_of(scene, tile);
         const BearingForce force = force_of(scene, tile, body);
         const auto first =
@@ -194,8 +189,8 @@ TEST_CASE("A measured response of a bearing multiplies the force of the motion")
     both.emplace_back("sensor.carrier_response_gain=[0.01, 0.01]");
     both.emplace_back("sensor.carrier_response_phase_deg=[90, 90]");
     const mc::Scene without(small_study(housing)), scene(small_study(both));
-    const TwoSignals before = signals_of(without, test::run_one(without));
-    const mc::GearboxTile tile = test::run_one(scene, true);
+    const TwoSignals before = signals_of(without, run_one(without));
+    const mc::GearboxTile tile = run_one(scene, true);
     const TwoSignals after = signals_of(scene, tile);
     const BearingForce force = force_of(scene, tile, dynamics::carrier);
     const auto passes = [](double f) { return std::abs(f) > 20.0; };
@@ -218,21 +213,20 @@ TEST_CASE("A mode without a force in a bearing keeps the bits of the features") 
                       some = run_small(folder, "some.h5", mode + ", sun_bearing_per_kg=0.02}]'");
     for (std::size_t f = 0; f < plain.features.size(); ++f) {
         INFO(plain.features[f].name);
-        const auto bits = test::bits_of_values(plain.features[f].values);
-        CHECK(test::bits_of_values(zero.features[f].values) == bits);
+        const auto bits = bits_of_values(plain.features[f].values);
+        CHECK(bits_of_values(zero.features[f].values) == bits);
         const bool of_te = plain.features[f].name.starts_with("te_");
-        CHECK((test::bits_of_values(some.features[f].values) == bits) == of_te);
+        CHECK((bits_of_values(some.features[f].values) == bits) == of_te);
     }
 }
 
 TEST_CASE("Rows with forces in bearings keep their bits over lanes, threads, parts and merging") {
-    test::check_equal_bits_over_parts(kBearings);
+    check_equal_bits_over_parts(kBearings);
     const auto rows = [](int lanes) {
-        const auto study = mc::read_study(
+        const mc::Study study = valid_study(mc::read_study(
             kSmall, {kModesOfBearings, "ensemble.threshold_instances=5", "ensemble.instances=6",
-                     "numerics.precision=\"double\"", fmt::format("numerics.lanes={}", lanes)});
-        REQUIRE(study.study);
-        return test::bits(test::run(*study.study));
+                     "numerics.precision=\"double\"", fmt::format("numerics.lanes={}", lanes)}));
+        return test::bits(run(study));
     };
     const auto eight = rows(8);
     CHECK(rows(1) == eight);
@@ -267,7 +261,7 @@ TEST_CASE("All strategies and kinds of excitation carry the forces in bearings")
 // An elastic shaft couples the rotations, so that the forces in the bearings hardly change.
 TEST_CASE("Gearboxes coupled by an elastic shaft have forces in bearings, too") {
     const Folder folder;
-    const std::string path = test::stage_file(folder, "stage.toml");
+    const std::string path = stage_file(folder, "stage.toml");
     const auto rms = [&](const std::string& shaft) {
         const auto sensor = [&](const std::string& modes) {
             const mc::Scene scene(test::small_study(
@@ -293,22 +287,16 @@ TEST_CASE("Gearboxes coupled by an elastic shaft have forces in bearings, too") 
 }
 
 TEST_CASE("Problems of forces in bearings are all reported") {
-    const auto rigid =
-        program("describe " + kSmall + kBearings + " --set 'effects.motion=\"torsional\"'");
-    INFO(rigid.output);
-    CHECK(rigid.code == 2);
-    CHECK(rigid.mentions(
-        "mode 1: sun_bearing_per_kg needs the force in the bearing of the sun, which is rigid"));
-    CHECK(rigid.mentions(
-        "mode 2: carrier_bearing_per_kg needs the force in the bearing of the carrier"));
-    const auto loose =
-        program("describe " + kSmall + kBearings +
-                " --set gearbox.sun_bearing_stiffness_N_m=0"
-                " --set gearbox.sun_bearing_damping_N_s_m=0"
-                " --set 'sensor.additional=[{name=\"a\", angle_deg=1, sun_bearing_per_kg=[1], "
-                "carrier_response_gain=[1]}]'");
-    INFO(loose.output);
-    CHECK(loose.code == 2);
+    check_refused(
+        "describe " + kSmall + kBearings + " --set 'effects.motion=\"torsional\"'",
+        {"mode 1: sun_bearing_per_kg needs the force in the bearing of the sun, which is rigid",
+         "mode 2: carrier_bearing_per_kg needs the force in the bearing of the carrier"});
+    const auto loose = check_refused(
+        "describe " + kSmall + kBearings +
+        " --set gearbox.sun_bearing_stiffness_N_m=0"
+        " --set gearbox.sun_bearing_damping_N_s_m=0"
+        " --set 'sensor.additional=[{name=\"a\", angle_deg=1, sun_bearing_per_kg=[1], "
+        "carrier_response_gain=[1]}]'");
     CHECK(
         loose.mentions("sensor 1: sun_bearing_per_kg needs the force in the bearing of the sun, "
                        "which has neither"));
@@ -318,26 +306,19 @@ TEST_CASE("Problems of forces in bearings are all reported") {
     CHECK(
         loose.mentions("sensor 1: carrier_response_gain has 1 values, but sensor.response_Hz "
                        "has 0"));
-    const auto fixed = program("describe " + test::study_path("tip-relief.toml") + kBearings);
-    INFO(fixed.output);
-    CHECK(fixed.code == 2);
-    CHECK(fixed.mentions("mode 1: sun_bearing_per_kg needs a sun"));
-    const auto alone = program("describe " + kSmall + " --set sensor.sun_response_gain=[1]");
-    INFO(alone.output);
-    CHECK(alone.code == 2);
-    CHECK(alone.mentions("no response is given: sensor.response_Hz"));
-    const auto phase = program("describe " + kSmall +
-                               " --set sensor.response_Hz=[1,2] --set sensor.response_gain=[1,1]"
-                               " --set sensor.response_phase_deg=[0,0]"
-                               " --set sensor.sun_response_gain=[1]");
-    INFO(phase.output);
-    CHECK(phase.code == 2);
-    CHECK(phase.mentions("sensor.sun_response_gain: has 1 values, but sensor.response_Hz has 2"));
-    CHECK(phase.mentions("sensor.sun_response_phase_deg: missing"));
-    const auto described = program("describe " + kSmall + kBearings);
-    CHECK(described.code == 0);
-    CHECK(described.mentions("70 Hz: a force of 1 N in the bearing of the sun gives 0.333 m/s^2"));
-    CHECK(described.mentions("a force of 1 N in the bearing of the carrier gives 0.75 m/s^2"));
+    check_refused("describe " + study_path("tip-relief.toml") + kBearings,
+                  {"mode 1: sun_bearing_per_kg needs a sun"});
+    check_refused("describe " + kSmall + " --set sensor.sun_response_gain=[1]",
+                  {"no response is given: sensor.response_Hz"});
+    check_refused("describe " + kSmall +
+                      " --set sensor.response_Hz=[1,2] --set sensor.response_gain=[1,1]"
+                      " --set sensor.response_phase_deg=[0,0]"
+                      " --set sensor.sun_response_gain=[1]",
+                  {"sensor.sun_response_gain: has 1 values, but sensor.response_Hz has 2",
+                   "sensor.sun_response_phase_deg: missing"});
+    const auto described = require_success("describe " + kSmall + kBearings);
+    check_mentions(described, {"70 Hz: a force of 1 N in the bearing of the sun gives 0.333 m/s^2",
+                               "a force of 1 N in the bearing of the carrier gives 0.75 m/s^2"});
 }
 
 TEST_CASE("A study with forces in bearings reads back from its resolved text") {
@@ -353,12 +334,8 @@ TEST_CASE("A study with forces in bearings reads back from its resolved text") {
               "sensor.sun_response_phase_deg=[10, 20]",
               "sensor.additional=[{name='b', angle_deg=30, carrier_response_gain=[1, 2], "
               "carrier_response_phase_deg=[3, 4.5]}]"}}) {
-        const auto reading = mc::read_study(kSmall, settings);
-        INFO(mc::format(reading.problems));
-        REQUIRE(reading.study);
-        const auto again = mc::read_study_text(resolved_text(*reading.study), "again");
-        REQUIRE(again.study);
-        CHECK(*again.study == *reading.study);
+        const mc::Study reading = valid_study(mc::read_study(kSmall, settings));
+        check_reads_back(reading);
     }
 }
 

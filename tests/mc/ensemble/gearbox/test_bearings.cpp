@@ -8,14 +8,12 @@
 #include "mc/results/result_rows.hpp"
 #include "mc/study/other_sources.hpp"
 #include "tests/mc/ensemble/gearbox/small_runs.hpp"
+#include "tests/mc/study_file.hpp"
 
 namespace test_bearings {
 
 using namespace gearpod;
-using test::Folder;
-using test::kSmall;
-using test::printed_value;
-using test::program;
+using namespace gearpod::test;
 
 namespace {
 
@@ -28,12 +26,10 @@ std::string inner_ring(const std::string& role) {
 // Runs the small study with a few gearboxes; returns its results.
 mc::Results run(const Folder& folder, const std::string& name, const std::string& options) {
     const std::string path = folder.file(name);
-    const auto outcome = program("run " + kSmall +
-                                 " --set ensemble.threshold_instances=40 --set "
-                                 "ensemble.instances=20 --out " +
-                                 path + " " + options);
-    INFO(outcome.output);
-    REQUIRE(outcome.code == 0);
+    require_success("run " + kSmall +
+                    " --set ensemble.threshold_instances=40 --set "
+                    "ensemble.instances=20 --out " +
+                    path + " " + options);
     return mc::read_results(path);
 }
 
@@ -45,7 +41,7 @@ std::vector<double> healthy(const mc::Results& results, const mc::FeatureResult&
 }
 
 std::vector<double> column(const std::string& path, const std::string& name) {
-    return test::columns_of(path).at(name);
+    return columns_of(path).at(name);
 }
 
 mc::Bearing bearing_6205(mc::BearingFault fault) {
@@ -73,10 +69,9 @@ TEST_CASE("Impulses per turn are those published for a bearing 6205") {
 TEST_CASE("A bearing in the background is added to the sensor's signal") {
     const Folder folder;
     const auto simulate = [&](const std::string& name, const std::string& options) {
-        const auto outcome = program("simulate " + kSmall + " --instance 2 --meshes 455 --out " +
-                                     folder.file(name) + " " + options);
-        INFO(outcome.output);
-        REQUIRE(outcome.code == 0);
+        const auto outcome =
+            require_success("simulate " + kSmall + " --instance 2 --meshes 455 --out " +
+                            folder.file(name) + " " + options);
         return outcome;
     };
     simulate("without.csv", "");
@@ -89,7 +84,7 @@ TEST_CASE("A bearing in the background is added to the sensor's signal") {
         CHECK(printed_value(with, name) == Approx(printed_value(measured, name)).epsilon(1e-5));
     }
     simulate("quiet.csv", inner_ring("background") + "--set sensor.bearing_level=0");
-    CHECK(test::bytes_of(folder.file("without.csv")) == test::bytes_of(folder.file("quiet.csv")));
+    CHECK(bytes_of(folder.file("without.csv")) == bytes_of(folder.file("quiet.csv")));
     CHECK(column(folder.file("without.csv"), "te") == column(folder.file("with.csv"), "te"));
     CHECK(column(folder.file("without.csv"), "sensor") !=
           column(folder.file("with.csv"), "sensor"));
@@ -108,11 +103,11 @@ TEST_CASE("Another fault changes the healthy gearboxes as a background would") {
     for (std::size_t f = 0; f < plain.features.size(); ++f) {
         const std::string& name = plain.features[f].name;
         INFO(name);
-        CHECK(test::bits_of_values(healthy(other, other.features[f])) ==
-              test::bits_of_values(healthy(plain, plain.features[f])));
+        CHECK(bits_of_values(healthy(other, other.features[f])) ==
+              bits_of_values(healthy(plain, plain.features[f])));
         if (name != "na4") {
-            CHECK(test::bits_of_values(healthy(other, other.variants[0].features[f])) ==
-                  test::bits_of_values(healthy(background, background.features[f])));
+            CHECK(bits_of_values(healthy(other, other.variants[0].features[f])) ==
+                  bits_of_values(healthy(background, background.features[f])));
         }
     }
     const std::size_t rows = plain.group.size() - 20;
@@ -151,16 +146,14 @@ TEST_CASE("Alarms of another fault are counted at the thresholds of the healthy 
 }
 
 TEST_CASE("Rows with another fault keep their bits over threads, parts and merging") {
-    test::check_equal_bits_over_parts(inner_ring("other_fault"));
+    check_equal_bits_over_parts(inner_ring("other_fault"));
 }
 
 TEST_CASE("The signal of the other fault is exported on its own") {
     const Folder folder;
     const auto simulate = [&](const std::string& name, const std::string& role) {
-        const auto outcome = program("simulate " + kSmall + " --instance 2 --meshes 30 --out " +
-                                     folder.file(name) + " " + inner_ring(role));
-        INFO(outcome.output);
-        REQUIRE(outcome.code == 0);
+        require_success("simulate " + kSmall + " --instance 2 --meshes 30 --out " +
+                        folder.file(name) + " " + inner_ring(role));
     };
     simulate("other.csv", "other_fault");
     simulate("background.csv", "background");
@@ -178,23 +171,20 @@ TEST_CASE("Results whose variants were renamed are refused") {
     run(folder, "r.h5", inner_ring("other_fault"));
     const std::string script = "import h5py; f = h5py.File('" + folder.file("r.h5") +
                                "', 'r+'); f.move('variants/other_fault', 'variants/sensor_side')";
-    if (test::shell("/usr/bin/python3 -c \"" + script + "\"").code != 0) {
+    if (shell("/usr/bin/python3 -c \"" + script + "\"").code != 0) {
         WARN("h5py is not there");
         return;
     }
-    const auto repaired = program("repair " + folder.file("r.h5"));
-    CHECK(repaired.code == 2);
-    CHECK(repaired.mentions("member 1 is sensor_side, but in the study it is other_fault"));
+    check_refused("repair " + folder.file("r.h5"),
+                  {"member 1 is sensor_side, but in the study it is other_fault"});
 }
 
 TEST_CASE("A tone of a shaft has its order times the shaft's speed") {
     const Folder folder;
     const auto simulate = [&](const std::string& name, const std::string& tone) {
-        const auto outcome =
-            program("simulate " + kSmall + " --instance 2 --meshes 20 --out " + folder.file(name) +
-                    " --set 'sensor.tones=[{" + tone + ", amplitude_m_s2=0.5}]'");
-        INFO(outcome.output);
-        REQUIRE(outcome.code == 0);
+        require_success("simulate " + kSmall + " --instance 2 --meshes 20 --out " +
+                        folder.file(name) + " --set 'sensor.tones=[{" + tone +
+                        ", amplitude_m_s2=0.5}]'");
     };
     simulate("shaft.csv", "shaft=\"sun\", order=2.5");
     // The sun turns (13 + 35) / 13 times as fast as the carrier, at 1 Hz.
@@ -208,29 +198,24 @@ TEST_CASE("A tone of a shaft has its order times the shaft's speed") {
 }
 
 TEST_CASE("A study with bearings reads back to the same study") {
-    const auto reading = mc::read_study(
+    const mc::Study reading = valid_study(mc::read_study(
         kSmall,
         {"sensor.bearings=[{fault='roller', shaft_Hz=12.3, elements=11, diameter_ratio=0.17, "
          "contact_angle_deg=13.7, amplitude_m_s2=0.3, resonance_Hz=101.7, damping=0.03, "
          "slip=0.013, "
          "load_zone_deg=133.3, role='other_fault'}]",
-         "sensor.tones=[{shaft='carrier', order=7, amplitude_m_s2=0.1}]"});
-    INFO(format(reading.problems));
-    REQUIRE(reading.study);
-    const auto again = mc::read_study_text(resolved_text(*reading.study), "again");
-    REQUIRE(again.study);
-    CHECK(*again.study == *reading.study);
+         "sensor.tones=[{shaft='carrier', order=7, amplitude_m_s2=0.1}]"}));
+    check_reads_back(reading);
 }
 
 TEST_CASE("Problems of bearings and tones are all reported at once") {
-    const auto outcome = program(
+    const auto outcome = check_refused(
         "describe " + kSmall +
         " --set 'sensor.bearings=[{fault=\"outr\", shaft=\"ring\", elements=2.5, "
         "amplitude_m_s2=-1, resonance_Hz=90}, 3, {fault=\"cage\", shaft=\"sun\", shaft_Hz=3, "
         "elements=9, diameter_ratio=0.2, amplitude_m_s2=1, resonance_Hz=90, ball=4}]'"
         " --set 'sensor.tones=[{shaft=\"pinion\", order=1, amplitude_m_s2=1}, "
         "{shaft=\"sun\", frequency_Hz=3, amplitude_m_s2=1}]'");
-    CHECK(outcome.code == 2);
     for (const char* text :
          {"bearing 1: fault: unknown value \"outr\"", "bearing 1: elements must be an integer",
           "bearing 1 has no diameter_ratio", "bearing 1: amplitude_m_s2 must be > 0",
@@ -240,12 +225,11 @@ TEST_CASE("Problems of bearings and tones are all reported at once") {
         CHECK(outcome.mentions(text));
     }
     const auto shafts =
-        program("describe " + kSmall +
-                " --set 'sensor.bearings=[{fault=\"outer\", shaft=\"ring\", elements=9, "
-                "diameter_ratio=0.2, amplitude_m_s2=1, resonance_Hz=90}]'"
-                " --set 'sensor.tones=[{shaft=\"pinion\", order=1, amplitude_m_s2=1}]'"
-                " --set ensemble.threshold_records=2");
-    CHECK(shafts.code == 2);
+        check_refused("describe " + kSmall +
+                      " --set 'sensor.bearings=[{fault=\"outer\", shaft=\"ring\", elements=9, "
+                      "diameter_ratio=0.2, amplitude_m_s2=1, resonance_Hz=90}]'"
+                      " --set 'sensor.tones=[{shaft=\"pinion\", order=1, amplitude_m_s2=1}]'"
+                      " --set ensemble.threshold_records=2");
     for (const char* text : {"the ring stands still", "this kind of gearbox has no pinion",
                              "all records of a gearbox would have the same vibration"}) {
         INFO(shafts.output);

@@ -4,14 +4,12 @@
 
 #include "mc/study/study.hpp"
 #include "tests/mc/ensemble/gearbox/small_runs.hpp"
+#include "tests/mc/study_file.hpp"
 
 namespace test_housing {
 
 using namespace gearpod;
-using test::Folder;
-using test::kSmall;
-using test::program;
-using test::run_small;
+using namespace gearpod::test;
 
 namespace {
 
@@ -98,11 +96,11 @@ TEST_CASE("A sensor with the first one's participation and place has its signal"
     const mc::Results results = run_small(folder, "r.h5", kModes + sensors + quiet);
     for (std::size_t f = 0; f < results.features.size(); ++f) {
         INFO(results.features[f].name);
-        const auto first = test::bits_of_values(results.features[f].values);
-        CHECK(test::bits_of_values(results.variants[0].features[f].values) == first);
-        CHECK(test::bits_of_values(results.variants[1].features[f].values) == first);
+        const auto first = bits_of_values(results.features[f].values);
+        CHECK(bits_of_values(results.variants[0].features[f].values) == first);
+        CHECK(bits_of_values(results.variants[1].features[f].values) == first);
         const bool of_te = results.features[f].name.starts_with("te_");
-        CHECK((test::bits_of_values(results.variants[2].features[f].values) == first) == of_te);
+        CHECK((bits_of_values(results.variants[2].features[f].values) == first) == of_te);
     }
 }
 
@@ -122,23 +120,22 @@ TEST_CASE("Responses of signals recorded during integration equal those of the k
 }
 
 TEST_CASE("Rows with a housing keep their bits over threads, parts and merging") {
-    test::check_equal_bits_over_parts(kModes);
+    check_equal_bits_over_parts(kModes);
 }
 
 TEST_CASE("Exported samples with a housing have the features of the run") {
     const Folder folder;
     const mc::Results results = run_small(folder, "run.h5", kModes);
-    const auto measured = test::features_of_export(folder, "sensor_noise_1", kModes);
+    const auto measured = features_of_export(folder, "sensor_noise_1", kModes);
     for (const char* name : {"sensor_rms", "window_ratio", "fm4", "crest_factor"}) {
         INFO(name);
-        CHECK(values(results, name)[25] ==
-              Approx(test::printed_value(measured, name)).epsilon(1e-5));
+        CHECK(values(results, name)[25] == Approx(printed_value(measured, name)).epsilon(1e-5));
     }
 }
 
 TEST_CASE("A measured response is read from columns of a file, for each sensor") {
     const Folder folder;
-    test::write_bytes(folder.file("frf.csv"), "f,top,phase,side\n0,1,0,3\n50,1,0,3\n1000,1,0,3\n");
+    write_bytes(folder.file("frf.csv"), "f,top,phase,side\n0,1,0,3\n50,1,0,3\n1000,1,0,3\n");
     const auto column = [&](const std::string& name) {
         return "{file=\"" + folder.file("frf.csv") + "\", column=\"" + name + "\"}";
     };
@@ -164,11 +161,10 @@ TEST_CASE("A measured response is read from columns of a file, for each sensor")
 
 TEST_CASE("Problems of the housing are all reported") {
     const auto outcome =
-        program("describe " + kSmall +
-                " --set 'sensor.housing_modes=[{frequency_Hz=0, damping=2, participation=1}, "
-                "{frequency_Hz=90, damping=0.1, participation=\"a\", nodal_diameters=1.5}, "
-                "{damping=0.1}]'");
-    CHECK(outcome.code == 2);
+        check_refused("describe " + kSmall +
+                      " --set 'sensor.housing_modes=[{frequency_Hz=0, damping=2, participation=1}, "
+                      "{frequency_Hz=90, damping=0.1, participation=\"a\", nodal_diameters=1.5}, "
+                      "{damping=0.1}]'");
     for (const char* text :
          {"mode 1: frequency_Hz must be", "mode 1: damping must be",
           "mode 2: participation must be a number", "mode 2: nodal_diameters must be an integer",
@@ -176,22 +172,16 @@ TEST_CASE("Problems of the housing are all reported") {
         INFO(outcome.output << "\n" << text);
         CHECK(outcome.mentions(text));
     }
-    const auto counts =
-        program("describe " + kSmall + kModes +
-                " --set 'sensor.additional=[{name=\"a\", angle_deg=1, participation=[1]}]'");
-    INFO(counts.output);
-    CHECK(counts.code == 2);
-    CHECK(counts.mentions("sensor 1: participation has 1 values, but sensor.housing_modes has 2"));
-    const auto both = program("describe " + kSmall + kModes + flat(1.0));
-    CHECK(both.code == 2);
-    CHECK(both.mentions("a measured response contains the modes"));
-    const auto lengths = program("describe " + kSmall +
-                                 " --set sensor.response_Hz=[1,2] --set sensor.response_gain=[1]"
-                                 " --set sensor.response_phase_deg=[0,0,0]");
-    INFO(lengths.output);
-    CHECK(lengths.code == 2);
-    CHECK(lengths.mentions("has 1 values, but sensor.response_Hz has 2"));
-    CHECK(lengths.mentions("has 3 values, but sensor.response_Hz has 2"));
+    check_refused("describe " + kSmall + kModes +
+                      " --set 'sensor.additional=[{name=\"a\", angle_deg=1, participation=[1]}]'",
+                  {"sensor 1: participation has 1 values, but sensor.housing_modes has 2"});
+    check_refused("describe " + kSmall + kModes + flat(1.0),
+                  {"a measured response contains the modes"});
+    check_refused("describe " + kSmall +
+                      " --set sensor.response_Hz=[1,2] --set sensor.response_gain=[1]"
+                      " --set sensor.response_phase_deg=[0,0,0]",
+                  {"has 1 values, but sensor.response_Hz has 2",
+                   "has 3 values, but sensor.response_Hz has 2"});
     CHECK(program("describe " + kSmall +
                   " --set sensor.response_Hz=[5] --set sensor.response_gain=[1]"
                   " --set sensor.response_phase_deg=[0]")
@@ -201,14 +191,11 @@ TEST_CASE("Problems of the housing are all reported") {
 }
 
 TEST_CASE("A study with a housing reads back from its resolved text") {
-    const auto reading = mc::read_study(
+    const mc::Study reading = valid_study(mc::read_study(
         kSmall, {"sensor.housing_modes=[{frequency_Hz=70.5, damping=0.03, participation=-0.8}, "
                  "{frequency_Hz=90, damping=0.02, participation=0.1, nodal_diameters=2}]",
-                 "sensor.additional=[{name='b', angle_deg=30, participation=[0.1, 1e-3]}]"});
-    REQUIRE(reading.study);
-    const auto again = mc::read_study_text(resolved_text(*reading.study), "again");
-    REQUIRE(again.study);
-    CHECK(*again.study == *reading.study);
+                 "sensor.additional=[{name='b', angle_deg=30, participation=[0.1, 1e-3]}]"}));
+    check_reads_back(reading);
 }
 
 }  // namespace test_housing

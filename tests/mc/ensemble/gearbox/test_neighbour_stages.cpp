@@ -19,12 +19,7 @@
 namespace test_neighbour_stages {
 
 using namespace gearpod;
-using test::Folder;
-using test::kSmall;
-using test::program;
-using test::small_study;
-using test::stage_file;
-using test::stages;
+using namespace gearpod::test;
 
 namespace {
 
@@ -118,8 +113,7 @@ TEST_CASE("The common shaft sets the speed of a stage, and the sensor is that of
           Approx(13.0 / 48.0 * scene.gearbox().nominal.speed_rad_s).epsilon(1e-6));
     const auto text =
         program("describe " + kSmall + " " + stages(path, "") + "--set sensor.low_pass_Hz=100");
-    CHECK(text.mentions("0.9091 times as fast as in its own study"));
-    CHECK(text.mentions("meshes at 9.479 Hz"));
+    check_mentions(text, {"0.9091 times as fast as in its own study", "meshes at 9.479 Hz"});
     // A stage next to a stage: the shaft is the first one's, at its speed.
     const auto chain =
         program("describe " + kSmall + " --set 'sensor.stages=[{name=\"a\", study=\"" + path +
@@ -149,8 +143,7 @@ TEST_CASE("Another fault is that of the stage, in the same records") {
     CHECK(background.variants.empty());
     const auto& healthy = other.features[4];
     REQUIRE(healthy.name == "sensor_rms");
-    CHECK(test::bits_of_values(healthy.values) ==
-          test::bits_of_values(background.features[4].values));
+    CHECK(bits_of_values(healthy.values) == bits_of_values(background.features[4].values));
     const auto& faulty = other.variants[0].features[4];
     for (std::size_t row = 0; row < 20; ++row) {
         CHECK(faulty.values[row] != healthy.values[row]);
@@ -158,24 +151,22 @@ TEST_CASE("Another fault is that of the stage, in the same records") {
     }
     // Results hold the stage's study.
     std::filesystem::remove(path);
-    const auto report = program("report " + folder.file("other.h5"));
-    CHECK(report.code == 0);
+    const auto report = require_success("report " + folder.file("other.h5"));
     CHECK(report.mentions("a fault of the neighbouring stage \"slow\""));
 }
 
 TEST_CASE("Rows next to a stage keep their bits over threads, parts and merging") {
     const Folder folder;
     const std::string path = stage_file(folder, "stage.toml");
-    test::check_equal_bits_over_parts(stages(path, ", role=\"other_fault\"") +
-                                      "--set 'features.use=[\"fm4\",\"change_sensor_rms\"]' ");
+    check_equal_bits_over_parts(stages(path, ", role=\"other_fault\"") +
+                                "--set 'features.use=[\"fm4\",\"change_sensor_rms\"]' ");
 }
 
 TEST_CASE("Stages that do not fit are refused, all at once, with what would be right") {
     const Folder folder;
     const std::string path = stage_file(folder, "stage.toml");
     const auto refused = [&](const std::string& options) {
-        const auto outcome = program("describe " + kSmall + " " + options);
-        CHECK(outcome.code == 2);
+        const auto outcome = check_refused("describe " + kSmall + " " + options);
         INFO(outcome.output);
         return outcome;
     };
@@ -187,9 +178,8 @@ TEST_CASE("Stages that do not fit are refused, all at once, with what would be r
                               "\", shaft=\"sun\", stage_shaft=\"sun\", gain=-1},"
                               "{name=\"a\", study=\"" +
                               path + "\", shaft=\"sun\", stage_shaft=\"sun\", of=\"b\"}]'");
-    CHECK(both.mentions("stage 1: gain must be > 0"));
-    CHECK(both.mentions("stage 2: its name \"a\" occurs twice"));
-    CHECK(both.mentions("stage 2: of: no earlier stage has the name \"b\""));
+    check_mentions(both, {"stage 1: gain must be > 0", "stage 2: its name \"a\" occurs twice",
+                          "stage 2: of: no earlier stage has the name \"b\""});
     CHECK(refused("--set 'sensor.stages=[{name=\"a\", text=\"\", shaft=\"sun\", "
                   "stage_shaft=\"sun\"}]'")
               .mentions("stage 1: its study is empty"));
@@ -200,15 +190,15 @@ TEST_CASE("Stages that do not fit are refused, all at once, with what would be r
     const auto fast = refused("--set 'sensor.stages=[{name=\"a\", study=\"" + path +
                               "\", shaft=\"sun\", stage_shaft=\"carrier\"}]'");
     CHECK(fast.mentions("sensor.stages: stage \"a\": sensor.sampling_Hz"));
-    std::string text = test::bytes_of(path);
+    std::string text = bytes_of(path);
     text.replace(text.find("reduction = 0.4"), 15, "reduction = 0");
     std::ofstream(folder.file("sound.toml")) << text;
     CHECK(refused(stages(folder.file("sound.toml"), ", role=\"other_fault\""))
               .mentions("its other fault has the size 0"));
-    std::ofstream(folder.file("python.toml")) << test::bytes_of(path).replace(
-        test::bytes_of(path).find("[features]"), 10, "[features]\npython = [\"own.py\"]");
+    std::ofstream(folder.file("python.toml")) << bytes_of(path).replace(
+        bytes_of(path).find("[features]"), 10, "[features]\npython = [\"own.py\"]");
     CHECK(refused(stages(folder.file("python.toml"), "")).mentions("remove features.python there"));
-    std::ofstream(folder.file("nested.toml")) << test::bytes_of(path) << "\n[sensor.more]\n";
+    std::ofstream(folder.file("nested.toml")) << bytes_of(path) << "\n[sensor.more]\n";
     CHECK(refused(stages(folder.file("nested.toml"), "")).mentions("its study has problems"));
     CHECK(program("lives " + kSmall + " " + stages(path, "")).mentions("bearings or stages"));
 }

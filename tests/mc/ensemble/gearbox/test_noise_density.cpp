@@ -9,13 +9,12 @@
 #include "signals/spectra/order_spectrum.hpp"
 #include "tests/mc/ensemble/gearbox/small_runs.hpp"
 #include "tests/mc/study_example.hpp"
+#include "tests/mc/study_file.hpp"
 
 namespace test_noise_density {
 
 using namespace gearpod;
-using test::bits;
-using test::Folder;
-using test::program;
+using namespace gearpod::test;
 
 namespace {
 
@@ -23,12 +22,12 @@ const std::string kSmall = std::string(GEARPOD_SOURCE_DIR) + "/tests/features/re
 
 // The small study with noise by density instead.
 std::string by_density(const Folder& folder, const std::string& density) {
-    std::string text = test::bytes_of(kSmall);
+    std::string text = bytes_of(kSmall);
     const std::size_t at = text.find("noise_m_s2 =");
     REQUIRE(at != std::string::npos);
     text.replace(at, text.find('\n', at) - at, "noise_density_m_s2_per_sqrt_Hz = " + density);
     const std::string path = folder.file("density.toml");
-    test::write_bytes(path, text);
+    write_bytes(path, text);
     return path;
 }
 
@@ -39,11 +38,8 @@ struct Noise {
 
 Noise noise_of(const std::string& study, const std::string& options, const std::string& path,
                double low_pass_Hz) {
-    const auto header =
-        program("simulate " + study + " --instance 2 --meshes 455 --out " + path + options);
-    INFO(header.output);
-    REQUIRE(header.code == 0);
-    const auto columns = test::columns_of(path);
+    require_success("simulate " + study + " --instance 2 --meshes 455 --out " + path + options);
+    const auto columns = columns_of(path);
     std::vector<double> noise = columns.at("sensor_noise_1");
     const std::vector<double>& clean = columns.at("sensor");
     double sum = 0.0;
@@ -72,9 +68,8 @@ Noise noise_of(const std::string& study, const std::string& options, const std::
 // included.
 TEST_CASE("The low-pass limits noise by density; a higher sampling rate leaves it unchanged") {
     const Folder folder;
-    const auto study = mc::read_study(kSmall).study;
-    REQUIRE(study);
-    const double low_pass = study->sensor.low_pass_Hz, sampling = study->sensor.sampling_Hz;
+    const mc::Study study = valid_study(mc::read_study(kSmall));
+    const double low_pass = study.sensor.low_pass_Hz, sampling = study.sensor.sampling_Hz;
     const std::string density = by_density(folder, "0.01");
     const double expected = 0.01 * std::sqrt(low_pass * (M_PI / 8.0) / std::sin(M_PI / 8.0));
     const std::string fast = " --set sensor.sampling_Hz=" + std::to_string(4.0 * sampling) + " ";
@@ -85,7 +80,7 @@ TEST_CASE("The low-pass limits noise by density; a higher sampling rate leaves i
     }
     // White noise independent of the low-pass: the same rms over four times the band.
     const Noise white = noise_of(kSmall, fast, folder.file("w.csv"), low_pass);
-    CHECK(white.rms == Approx(study->sensor.noise_m_s2).epsilon(0.05));
+    CHECK(white.rms == Approx(study.sensor.noise_m_s2).epsilon(0.05));
     CHECK(white.below == Approx(240.0 / 560.0).epsilon(0.05));
 }
 
@@ -94,18 +89,15 @@ TEST_CASE("Features of noise by density are those of the exported signal") {
     const std::string study = by_density(folder, "0.02") + " --set fault.reduction=0.5";
     const std::string signal = folder.file("s.h5");
     const auto simulated =
-        program("simulate " + study + " --instance 2 --meshes 455 --out " + signal);
-    REQUIRE(simulated.code == 0);
+        require_success("simulate " + study + " --instance 2 --meshes 455 --out " + signal);
     const auto measured =
-        program("features " + signal + " --sensor sensor_noise_1 --study " + study);
-    INFO(measured.output);
-    REQUIRE(measured.code == 0);
+        require_success("features " + signal + " --sensor sensor_noise_1 --study " + study);
     INFO(simulated.output);
     for (const char* name : {"sensor_rms", "window_ratio", "window_z", "window_kurtosis"}) {
         INFO(name);
-        CHECK(test::printed_value(simulated, name) > 0.0);
-        CHECK(test::printed_value(simulated, name) ==
-              Approx(test::printed_value(measured, name)).epsilon(1e-5));
+        CHECK(printed_value(simulated, name) > 0.0);
+        CHECK(printed_value(simulated, name) ==
+              Approx(printed_value(measured, name)).epsilon(1e-5));
     }
 }
 
@@ -121,9 +113,8 @@ TEST_CASE("A run with noise by density has the same bits for any lanes and threa
 
 TEST_CASE("Noise by density, by rms and by quantisation adds in quadrature") {
     const Folder folder;
-    const auto study = mc::read_study(kSmall).study;
-    REQUIRE(study);
-    const double low_pass = study->sensor.low_pass_Hz, sampling = study->sensor.sampling_Hz;
+    const mc::Study study = valid_study(mc::read_study(kSmall));
+    const double low_pass = study.sensor.low_pass_Hz, sampling = study.sensor.sampling_Hz;
     // The white parts have 240 of 280 Hz below twice the low-pass, or all of them.
     const double bandwidth = low_pass * (M_PI / 8.0) / std::sin(M_PI / 8.0);
     const std::string density = by_density(folder, "0.01");
@@ -137,7 +128,7 @@ TEST_CASE("Noise by density, by rms and by quantisation adds in quadrature") {
     CHECK(rms_with(steps) == Approx(std::sqrt(filtered + rounding)).epsilon(0.05));
     CHECK(rms_with(background + steps) ==
           Approx(std::sqrt(filtered + white + rounding)).epsilon(0.05));
-    const double own = study->sensor.noise_m_s2;
+    const double own = study.sensor.noise_m_s2;
     CHECK(noise_of(kSmall, steps, folder.file("w.csv"), low_pass).rms ==
           Approx(std::sqrt(own * own + rounding)).epsilon(0.05));
     // The parts keep their spectra: only the white one lies above twice the low-pass.
@@ -193,13 +184,10 @@ TEST_CASE("A study may give its noise by rms and by density") {
 
 // Upper limit of a background of 2 m/s^2 rms in the key's unit after 800 Hz.
 TEST_CASE("A study with noise by density is calibrated by its density") {
-    const auto study =
-        mc::read_study_text(
-            tests::example_with("noise_m_s2 = 0.3", "noise_density_m_s2_per_sqrt_Hz = 0.01"),
-            "s.toml")
-            .study;
-    REQUIRE(study);
-    const auto inputs = mc::make_calibration_plan(*study, "").default_inputs(2.0);
+    const mc::Study study = valid_study(mc::read_study_text(
+        tests::example_with("noise_m_s2 = 0.3", "noise_density_m_s2_per_sqrt_Hz = 0.01"),
+        "s.toml"));
+    const auto inputs = mc::make_calibration_plan(study, "").default_inputs(2.0);
     const auto at = std::ranges::find(inputs, "sensor.noise_density_m_s2_per_sqrt_Hz",
                                       &mc::CalibratedInput::key);
     REQUIRE(at != inputs.end());
@@ -251,10 +239,7 @@ TEST_CASE("A run with a background has the same bits for any threads and parts")
 
 TEST_CASE("A background needs two frequencies and a density for each") {
     const auto refused = [](const std::string& options, const char* text) {
-        const auto outcome = program("describe " + kSmall + options);
-        INFO(outcome.output);
-        CHECK(outcome.code == 2);
-        CHECK(outcome.mentions(text));
+        check_refused("describe " + kSmall + options, {text});
     };
     refused(" --set sensor.background_Hz=[10,60]", "sensor.background_Hz is given");
     refused(" --set sensor.background_density_m_s2_per_sqrt_Hz=[1,2]", "no background is given");

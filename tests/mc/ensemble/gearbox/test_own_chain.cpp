@@ -15,16 +15,8 @@
 namespace test_own_chain {
 
 using namespace gearpod;
-using test::Folder;
-using test::kSmall;
-using test::program;
+using namespace gearpod::test;
 using Complex = std::complex<double>;
-using test::component;
-using test::kBandwidth;
-using test::kLowPass_Hz;
-using test::kSilent;
-using test::noise_rms;
-using test::side;
 
 namespace {
 
@@ -53,7 +45,7 @@ Complex chain_at(double f_Hz) {
 }
 
 // Checks that a sensor has the first one's spectrum times that response.
-void check_spectra(const test::Columns& columns) {
+void check_spectra(const Columns& columns) {
     const std::vector<double>&first = columns.at("sensor"), &own = columns.at("sensor_side");
     const double step_Hz = 1.0 / (columns.at("time")[1] * static_cast<double>(first.size()));
     double largest = 0.0;
@@ -77,12 +69,12 @@ const std::vector<double>& values(const std::vector<mc::FeatureResult>& features
 
 TEST_CASE("A measuring chain changes the spectrum of the gearbox by its response") {
     const Folder folder;
-    check_spectra(test::signals_of_small(folder, side(kChain)));
+    check_spectra(signals_of_small(folder, side(kChain)));
 }
 
 TEST_CASE("Faulty bearings pass the measuring chain, but not the housing") {
     const Folder folder;
-    check_spectra(test::signals_of_small(
+    check_spectra(signals_of_small(
         folder, kSilent + side(kChain) +
                     "--set 'sensor.bearings=[{fault=\"inner\", shaft=\"sun\", elements=9, "
                     "diameter_ratio=0.2, amplitude_m_s2=0.05, resonance_Hz=90}]'"));
@@ -91,10 +83,9 @@ TEST_CASE("Faulty bearings pass the measuring chain, but not the housing") {
 TEST_CASE("A tone has the amplitude and phase of its own frequency after the measuring chain") {
     const Folder folder;
     constexpr double kTone_Hz = 61.3;
-    const auto columns =
-        test::signals_of_small(folder, kSilent + side(kChain) +
-                                           "--set 'sensor.tones=[{frequency_Hz=61.3, "
-                                           "amplitude_m_s2=0.7}]'");
+    const auto columns = signals_of_small(folder, kSilent + side(kChain) +
+                                                      "--set 'sensor.tones=[{frequency_Hz=61.3, "
+                                                      "amplitude_m_s2=0.7}]'");
     const std::vector<double>&first = columns.at("sensor"), &own = columns.at("sensor_side"),
           &time = columns.at("time");
     // Amplitude of the first sensor's tone from two samples; the others follow from both.
@@ -111,10 +102,10 @@ TEST_CASE("A tone has the amplitude and phase of its own frequency after the mea
 
 TEST_CASE("A delay of whole samples shifts the samples") {
     const Folder folder;
-    const double sample_s = test::signals_of_small(folder, "").at("time")[1];
+    const double sample_s = signals_of_small(folder, "").at("time")[1];
     constexpr std::size_t kShift = 5;
     const auto columns =
-        test::signals_of_small(folder, side("delay_s=" + fmt::format("{}", kShift * sample_s)));
+        signals_of_small(folder, side("delay_s=" + fmt::format("{}", kShift * sample_s)));
     const std::vector<double>&first = columns.at("sensor"), &own = columns.at("sensor_side");
     for (std::size_t i = 0; i < first.size(); ++i) {
         REQUIRE(own[(i + kShift) % own.size()] == Approx(first[i]).margin(1e-9));
@@ -125,7 +116,7 @@ TEST_CASE("Noise by density passes the low-pass of each sensor") {
     const Folder folder;
     const std::string density =
         "--set sensor.noise_m_s2=0 --set sensor.noise_density_m_s2_per_sqrt_Hz=0.01";
-    const auto columns = test::signals_of_small(folder, side("low_pass_Hz=40, noise=3") + density);
+    const auto columns = signals_of_small(folder, side("low_pass_Hz=40, noise=3") + density);
     CHECK(noise_rms(columns, "sensor") ==
           Approx(0.01 * std::sqrt(kBandwidth * kLowPass_Hz)).epsilon(0.05));
     CHECK(noise_rms(columns, "sensor_side") ==
@@ -144,7 +135,7 @@ TEST_CASE("Noise by density passes the low-pass of each sensor") {
 
 TEST_CASE("A background passes the low-pass of each sensor") {
     const Folder folder;
-    const auto columns = test::signals_of_small(
+    const auto columns = signals_of_small(
         folder, side("low_pass_Hz=30") +
                     "--set sensor.noise_m_s2=0 --set sensor.background_Hz=[10,60] "
                     "--set sensor.background_density_m_s2_per_sqrt_Hz=[0.05,0.05]");
@@ -159,7 +150,7 @@ TEST_CASE("A background passes the low-pass of each sensor") {
 TEST_CASE("White noise stays white, and the converter is that of each sensor") {
     const Folder folder;
     const auto rms = [&](const std::string& fields, const std::string& options) {
-        return noise_rms(test::signals_of_small(folder, side(fields) + options), "sensor_side");
+        return noise_rms(signals_of_small(folder, side(fields) + options), "sensor_side");
     };
     const std::string white = "--set sensor.noise_m_s2=0.1 ",
                       steps = "--set sensor.quantisation_m_s2=0.5 ";
@@ -174,22 +165,19 @@ TEST_CASE("White noise stays white, and the converter is that of each sensor") {
 }
 
 TEST_CASE("The variances of all parts of a sensor's noise add") {
-    const auto study =
-        mc::read_study(
-            kSmall, {"sensor.noise_density_m_s2_per_sqrt_Hz=0.01", "sensor.background_Hz=[10, 60]",
-                     "sensor.background_density_m_s2_per_sqrt_Hz=[0.05, 0.02]",
-                     "sensor.quantisation_m_s2=0.3",
-                     "sensor.additional=[{name='a', angle_deg=0, noise=2, "
-                     "low_pass_Hz=30, quantisation_m_s2=0.1}, "
-                     "{name='b', angle_deg=0, noise=2}]"})
-            .study;
-    REQUIRE(study);
-    const auto& sensors = study->sensor.additional;
-    const mc::SensorNoise first = mc::sensor_noise(mc::noise_model(*study), {0.01, 0.4, 1.0});
-    const double background = 2.0 * mc::background_spectrum(*study).rms_m_s2(30.0),
+    const mc::Study study = valid_study(mc::read_study(
+        kSmall,
+        {"sensor.noise_density_m_s2_per_sqrt_Hz=0.01", "sensor.background_Hz=[10, 60]",
+         "sensor.background_density_m_s2_per_sqrt_Hz=[0.05, 0.02]", "sensor.quantisation_m_s2=0.3",
+         "sensor.additional=[{name='a', angle_deg=0, noise=2, "
+         "low_pass_Hz=30, quantisation_m_s2=0.1}, "
+         "{name='b', angle_deg=0, noise=2}]"}));
+    const auto& sensors = study.sensor.additional;
+    const mc::SensorNoise first = mc::sensor_noise(mc::noise_model(study), {0.01, 0.4, 1.0});
+    const double background = 2.0 * mc::background_spectrum(study).rms_m_s2(30.0),
                  white = 4.0 * 0.16 + 0.01 / 12.0;
-    const mc::SensorNoise own = mc::noise_stage(*study, &sensors[0]).of(first),
-                          twice = mc::noise_stage(*study, &sensors[1]).of(first);
+    const mc::SensorNoise own = mc::noise_stage(study, &sensors[0]).of(first),
+                          twice = mc::noise_stage(study, &sensors[1]).of(first);
     CHECK(own.background_m_s2 == Approx(background).epsilon(1e-12));
     CHECK(own.white_m_s2 == Approx(std::sqrt(white)).epsilon(1e-12));
     CHECK(own.all_m_s2 ==
@@ -206,16 +194,16 @@ TEST_CASE("The first sensor and sensors without a chain keep their bits") {
         " --set 'sensor.additional=[{name=\"twin\", angle_deg=0}, {name=\"same\", angle_deg=0, "
         "delay_s=0}, {name=\"own\", angle_deg=0, " +
         kChain + "}]'";
-    const mc::Results plain = test::run_small(
-                          folder, "p.h5",
-                          " --set 'sensor.additional=[{name=\"twin\", angle_deg=0}]'"),
-                      results = test::run_small(folder, "r.h5", twins);
+    const mc::Results plain =
+                          run_small(folder, "p.h5",
+                                    " --set 'sensor.additional=[{name=\"twin\", angle_deg=0}]'"),
+                      results = run_small(folder, "r.h5", twins);
     for (std::size_t f = 0; f < plain.features.size(); ++f) {
         INFO(plain.features[f].name);
-        CHECK(test::bits_of_values(results.features[f].values) ==
-              test::bits_of_values(plain.features[f].values));
-        CHECK(test::bits_of_values(results.variants[0].features[f].values) ==
-              test::bits_of_values(plain.variants[0].features[f].values));
+        CHECK(bits_of_values(results.features[f].values) ==
+              bits_of_values(plain.features[f].values));
+        CHECK(bits_of_values(results.variants[0].features[f].values) ==
+              bits_of_values(plain.variants[0].features[f].values));
     }
     const auto &first = values(results.features, "sensor_rms"),
                &own = values(results.variants[2].features, "sensor_rms");
@@ -225,22 +213,18 @@ TEST_CASE("The first sensor and sensors without a chain keep their bits") {
 }
 
 TEST_CASE("Rows with a measuring chain keep their bits over threads, parts and merging") {
-    test::check_equal_bits_over_parts(
-        side(kSampled) +
-        "--set sensor.noise_density_m_s2_per_sqrt_Hz=0.001 "
-        "--set 'sensor.tones=[{frequency_Hz=31, amplitude_m_s2=0.1}]' ");
+    check_equal_bits_over_parts(side(kSampled) +
+                                "--set sensor.noise_density_m_s2_per_sqrt_Hz=0.001 "
+                                "--set 'sensor.tones=[{frequency_Hz=31, amplitude_m_s2=0.1}]' ");
 }
 
 TEST_CASE("Rows with a measuring chain keep their bits over lanes") {
     const auto rows = [](int lanes) {
-        const auto study =
-            mc::read_study(kSmall,
-                           {"sensor.additional=[{name='side', angle_deg=90, " + kSampled + "}]",
-                            "ensemble.threshold_instances=5", "ensemble.instances=6",
-                            fmt::format("numerics.lanes={}", lanes)})
-                .study;
-        REQUIRE(study);
-        return test::bits(test::run(*study));
+        const mc::Study study = valid_study(mc::read_study(
+            kSmall, {"sensor.additional=[{name='side', angle_deg=90, " + kSampled + "}]",
+                     "ensemble.threshold_instances=5", "ensemble.instances=6",
+                     fmt::format("numerics.lanes={}", lanes)}));
+        return bits(run(study));
     };
     const auto eight = rows(8);
     CHECK(rows(1) == eight);
@@ -251,12 +235,12 @@ TEST_CASE("Exported samples of a measuring chain have the features of the run") 
     const Folder folder;
     const std::string options =
         side(kSampled) + "--set sensor.noise_density_m_s2_per_sqrt_Hz=0.001 ";
-    const mc::Results results = test::run_small(folder, "run.h5", options);
-    const auto measured = test::features_of_export(folder, "sensor_side_noise_1", options);
+    const mc::Results results = run_small(folder, "run.h5", options);
+    const auto measured = features_of_export(folder, "sensor_side_noise_1", options);
     for (const char* name : {"sensor_rms", "window_ratio", "fm4", "crest_factor"}) {
         INFO(name);
         CHECK(values(results.variants[0].features, name)[25] ==
-              Approx(test::printed_value(measured, name)).epsilon(1e-5));
+              Approx(printed_value(measured, name)).epsilon(1e-5));
     }
 }
 
@@ -267,9 +251,9 @@ TEST_CASE("Measuring chains of signals recorded during integration equal those o
         "--set 'features.use=[\"sensor_rms\", \"window_ratio\", \"change_window_ratio\", "
         "\"crest_factor\"]' --set features.baseline_torque_scatter=0.02"
         " --set sensor.record_s=9 --set sensor.noise_levels=[0] ";
-    const mc::Results kept = test::run_small(folder, "kept.h5", options),
-                      recorded = test::run_small(folder, "recorded.h5",
-                                                 options + "--set numerics.horizon=full");
+    const mc::Results kept = run_small(folder, "kept.h5", options),
+                      recorded =
+                          run_small(folder, "recorded.h5", options + "--set numerics.horizon=full");
     for (std::size_t f = 0; f < kept.features.size(); ++f) {
         INFO(kept.features[f].name);
         const auto &a = kept.variants[0].features[f].values,
@@ -283,10 +267,7 @@ TEST_CASE("Measuring chains of signals recorded during integration equal those o
 
 TEST_CASE("Problems of a measuring chain are reported") {
     const auto refused = [](const std::string& options, const char* text) {
-        const auto outcome = program("describe " + kSmall + options);
-        INFO(outcome.output);
-        CHECK(outcome.code == 2);
-        CHECK(outcome.mentions(text));
+        check_refused("describe " + kSmall + options, {text});
     };
     refused(side("low_pass_Hz=130"),
             "sensor 1: low_pass_Hz = 130 Hz is above sensor.low_pass_Hz, 120 Hz");
@@ -319,16 +300,13 @@ TEST_CASE("Problems of a measuring chain are reported") {
 }
 
 TEST_CASE("A study with measuring chains reads back from its resolved text") {
-    const auto reading = mc::read_study(
+    const mc::Study reading = valid_study(mc::read_study(
         kSmall,
         {"sensor.additional=[{name='b', angle_deg=30, sampling_Hz=150, low_pass_Hz=50.5, "
          "mounting_Hz=70, "
          "mounting_damping=0.1, delay_s=-1e-3, quantisation_m_s2=0, range_m_s2=20}, {name='c', "
-         "angle_deg=1, mounting_Hz=1e4}]"});
-    REQUIRE(reading.study);
-    const auto again = mc::read_study_text(resolved_text(*reading.study), "again");
-    REQUIRE(again.study);
-    CHECK(*again.study == *reading.study);
+         "angle_deg=1, mounting_Hz=1e4}]"}));
+    check_reads_back(reading);
 }
 
 }  // namespace test_own_chain

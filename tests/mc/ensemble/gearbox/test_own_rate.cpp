@@ -11,12 +11,7 @@
 namespace test_own_rate {
 
 using namespace gearpod;
-using test::component;
-using test::Folder;
-using test::kBandwidth;
-using test::kSilent;
-using test::noise_rms;
-using test::side;
+using namespace gearpod::test;
 
 namespace {
 
@@ -26,11 +21,11 @@ constexpr double kPi = std::numbers::pi;
 
 TEST_CASE("A sampling rate of its own keeps the samples that the converter takes") {
     const Folder folder;
-    const double sample_s = test::signals_of_small(folder, "").at("time")[1];
+    const double sample_s = signals_of_small(folder, "").at("time")[1];
     const auto rate = fmt::format(", low_pass_Hz=50, sampling_Hz={}", 0.5 / sample_s);
     const std::string tone = "--set 'sensor.tones=[{frequency_Hz=61.3, amplitude_m_s2=0.7}]'";
-    const auto all = test::signals_of_small(folder, side("noise=1, low_pass_Hz=50") + tone),
-               own = test::signals_of_small(folder, side("noise=1" + rate) + tone);
+    const auto all = signals_of_small(folder, side("noise=1, low_pass_Hz=50") + tone),
+               own = signals_of_small(folder, side("noise=1" + rate) + tone);
     const std::vector<double>&before = all.at("sensor_side"), &after = own.at("sensor_side");
     REQUIRE(after.size() % 2 == 0);
     double largest_change = 0.0;
@@ -43,7 +38,7 @@ TEST_CASE("A sampling rate of its own keeps the samples that the converter takes
 
 TEST_CASE("A tone above half the sampling rate of a sensor has the folded frequency") {
     const Folder folder;
-    const auto columns = test::signals_of_small(
+    const auto columns = signals_of_small(
         folder, kSilent + side("low_pass_Hz=40, sampling_Hz=100") +
                     "--set 'sensor.tones=[{frequency_Hz=61.3, amplitude_m_s2=0.7}]'");
     const std::vector<double>&own = columns.at("sensor_side"), &time = columns.at("time");
@@ -58,14 +53,14 @@ TEST_CASE("A tone above half the sampling rate of a sensor has the folded freque
     }
     const auto gain = [](double f_Hz) { return 1.0 / std::sqrt(1.0 + std::pow(f_Hz, 8.0)); };
     CHECK(std::sqrt(2.0 * square / static_cast<double>(own.size())) ==
-          Approx(0.7 * gain(61.3 / 40.0) / gain(61.3 / test::kLowPass_Hz)).epsilon(0.01));
+          Approx(0.7 * gain(61.3 / 40.0) / gain(61.3 / kLowPass_Hz)).epsilon(0.01));
 }
 
 TEST_CASE("Noise of a sensor lies below half its sampling rate, with the stated variance") {
     const Folder folder;
     const auto check = [&](const std::string& fields, const std::string& options, double rms) {
-        const auto columns = test::signals_of_small(
-            folder, side(fields + ", low_pass_Hz=40, sampling_Hz=100") + options);
+        const auto columns =
+            signals_of_small(folder, side(fields + ", low_pass_Hz=40, sampling_Hz=100") + options);
         INFO(fields << options);
         CHECK(noise_rms(columns, "sensor_side") == Approx(rms).epsilon(0.08));
         std::vector<double> noise = columns.at("sensor_side_noise_1");

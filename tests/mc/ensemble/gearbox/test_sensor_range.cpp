@@ -12,9 +12,7 @@
 namespace test_sensor_range {
 
 using namespace gearpod;
-using test::Folder;
-using test::kSmall;
-using test::program;
+using namespace gearpod::test;
 
 namespace {
 
@@ -33,8 +31,8 @@ TEST_CASE("Exported samples are clipped after the noise was added") {
     const Folder folder;
     const std::string sensor =
         "--set 'sensor.additional=[{name=\"side\", angle_deg=90, range_m_s2=0.1}]'";
-    const auto free = test::signals_of_small(folder, kNoise + sensor);
-    const auto clipped = test::signals_of_small(folder, kClipped + sensor);
+    const auto free = signals_of_small(folder, kNoise + sensor);
+    const auto clipped = signals_of_small(folder, kClipped + sensor);
     const auto check = [&](const std::string& column, double range) {
         INFO(column);
         const std::vector<double>&before = free.at(column), &after = clipped.at(column);
@@ -62,14 +60,14 @@ TEST_CASE("Features of a run are those of its clipped samples") {
     for (const std::string& noise : {kNoise, kNoise + density}) {
         const std::string options = noise + range;
         const Folder folder;
-        const mc::Results free = test::run_small(folder, "free.h5", noise),
-                          results = test::run_small(folder, "run.h5", options);
-        const auto measured = test::features_of_export(folder, "sensor_noise_1", options);
+        const mc::Results free = run_small(folder, "free.h5", noise),
+                          results = run_small(folder, "run.h5", options);
+        const auto measured = features_of_export(folder, "sensor_noise_1", options);
         for (const char* name :
              {"sensor_rms", "window_ratio", "window_kurtosis", "fm4", "crest_factor"}) {
             INFO(name);
             CHECK(values(results.features, name)[25] ==
-                  Approx(test::printed_value(measured, name)).epsilon(1e-5));
+                  Approx(printed_value(measured, name)).epsilon(1e-5));
             CHECK(std::abs(values(results.features, name)[25] / values(free.features, name)[25] -
                            1.0) > 1e-4);
         }
@@ -78,10 +76,9 @@ TEST_CASE("Features of a run are those of its clipped samples") {
 
 TEST_CASE("A range lowers the rms, and one that no sample reaches changes no feature") {
     const Folder folder;
-    const mc::Results free = test::run_small(folder, "free.h5", kNoise),
-                      wide = test::run_small(folder, "wide.h5",
-                                             kNoise + "--set sensor.range_m_s2=100"),
-                      clipped = test::run_small(folder, "clipped.h5", kClipped);
+    const mc::Results free = run_small(folder, "free.h5", kNoise),
+                      wide = run_small(folder, "wide.h5", kNoise + "--set sensor.range_m_s2=100"),
+                      clipped = run_small(folder, "clipped.h5", kClipped);
     for (std::size_t f = 0; f < free.features.size(); ++f) {
         INFO(free.features[f].name);
         for (std::size_t i = 0; i < free.features[f].values.size(); ++i) {
@@ -102,16 +99,15 @@ TEST_CASE("A range of one sensor leaves the features of the others unchanged") {
     const std::string other = "{name=\"other\", angle_deg=90}",
                       own = ", {name=\"own\", angle_deg=90, range_m_s2=0.1}";
     const auto run = [&](const std::string& name, const std::string& sensors) {
-        return test::run_small(folder, name,
-                               kNoise + "--set 'sensor.additional=[" + sensors + "]'");
+        return run_small(folder, name, kNoise + "--set 'sensor.additional=[" + sensors + "]'");
     };
     const mc::Results plain = run("plain.h5", other), results = run("own.h5", other + own);
     for (std::size_t f = 0; f < plain.features.size(); ++f) {
         INFO(plain.features[f].name);
-        CHECK(test::bits_of_values(results.features[f].values) ==
-              test::bits_of_values(plain.features[f].values));
-        CHECK(test::bits_of_values(results.variants[0].features[f].values) ==
-              test::bits_of_values(plain.variants[0].features[f].values));
+        CHECK(bits_of_values(results.features[f].values) ==
+              bits_of_values(plain.features[f].values));
+        CHECK(bits_of_values(results.variants[0].features[f].values) ==
+              bits_of_values(plain.variants[0].features[f].values));
     }
     const auto &free = values(results.variants[0].features, "sensor_rms"),
                &clipped = values(results.variants[1].features, "sensor_rms");
@@ -125,9 +121,9 @@ TEST_CASE("Clipped rows keep their bits over threads, parts, merging and lanes")
         "--set 'features.use=[\"sensor_rms\", \"own_window_ratio\", \"crest_factor\", \"na4\"]'"
         " --set features.baseline_torque_scatter=0.02 --set sensor.record_s=9 "
         "--set 'sensor.noise_levels=[0, 1, 2]' ";
-    test::check_equal_bits_over_parts(kClipped + baselines);
+    check_equal_bits_over_parts(kClipped + baselines);
     const auto rows = [](int lanes) {
-        return test::bits(
+        return bits(
             test::run(mc::read_study(
                           kSmall, {fmt::format("sensor.range_m_s2={}", kRange),
                                    "sensor.noise_m_s2=0.03", "ensemble.threshold_instances=5",
@@ -140,10 +136,7 @@ TEST_CASE("Clipped rows keep their bits over threads, parts, merging and lanes")
 TEST_CASE("What needs samples that are not clipped refuses a range") {
     const Folder folder;
     const auto refused = [](const std::string& command, const char* text) {
-        const auto outcome = program(command);
-        INFO(outcome.output);
-        CHECK(outcome.code == 2);
-        CHECK(outcome.mentions(text));
+        check_refused(command, {text});
     };
     const std::string change = " --set 'features.use=[\"sensor_rms\", \"change_window_ratio\"]'";
     refused("describe " + kSmall + kClipped + change,
@@ -155,7 +148,7 @@ TEST_CASE("What needs samples that are not clipped refuses a range") {
                 "--set ensemble.threshold_tilt=true --set ensemble.threshold_records=8",
             "needs Gaussian noise");
     refused("describe " + kSmall + " --set sensor.range_m_s2=0", "sensor.range_m_s2");
-    refused("lives " + test::study("planet-crack-ideal.toml") +
+    refused("lives " + study("planet-crack-ideal.toml") +
                 " --set life.interval_h=10 --set life.first_depth_mm=1 --set life.last_depth_mm=3"
                 " --set life.paris_factor=1e-9 --set life.paris_exponent=3"
                 " --set sensor.range_m_s2=1 --out " +
@@ -164,7 +157,7 @@ TEST_CASE("What needs samples that are not clipped refuses a range") {
     refused("calibrate " + kSmall + kClipped + "--features " + kSmall + " --out " +
                 folder.file("c.toml"),
             "sensor.range_m_s2: calibration does not clip the samples");
-    test::run_small(folder, "r.h5", kClipped);
+    run_small(folder, "r.h5", kClipped);
     refused("misses " + folder.file("r.h5") + " --feature window_ratio --size 0.4",
             "its study clips the samples");
     CHECK(program("describe " + kSmall + kClipped)

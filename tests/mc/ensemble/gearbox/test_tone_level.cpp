@@ -11,8 +11,7 @@
 namespace test_tone_level {
 
 using namespace gearpod;
-using test::Folder;
-using test::program;
+using namespace gearpod::test;
 
 namespace {
 
@@ -37,11 +36,9 @@ mc::StudyScene scene_with(const std::vector<std::string>& overrides) {
 TEST_CASE("Twice the level doubles the amplitude of every tone") {
     const Folder folder;
     const auto simulate = [&](const std::string& options, const std::string& name) {
-        const auto outcome = program("simulate " + kStudy + " --instance 2 " + options + " --out " +
-                                     folder.file(name));
-        INFO(outcome.output);
-        REQUIRE(outcome.code == 0);
-        return test::bytes_of(folder.file(name));
+        require_success("simulate " + kStudy + " --instance 2 " + options + " --out " +
+                        folder.file(name));
+        return bytes_of(folder.file(name));
     };
     const std::string quiet = simulate("--set '" + tones(2.0) + "'", "quiet.csv");
     const std::string loud = simulate("--set '" + tones(4.0) + "'", "loud.csv");
@@ -50,10 +47,8 @@ TEST_CASE("Twice the level doubles the amplitude of every tone") {
 }
 
 TEST_CASE("A level requires tones") {
-    const auto outcome = program("describe " + kStudy + " --set sensor.tone_level=2");
-    CHECK(outcome.code == 2);
-    CHECK(outcome.mentions("sensor.tone_level"));
-    CHECK(outcome.mentions("no tones are given: sensor.tones"));
+    check_refused("describe " + kStudy + " --set sensor.tone_level=2",
+                  {"sensor.tone_level", "no tones are given: sensor.tones"});
 }
 
 // Each background that shares an integration has its own level.

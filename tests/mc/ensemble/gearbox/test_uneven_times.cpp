@@ -9,18 +9,15 @@
 namespace test_uneven_times {
 
 using namespace gearpod;
-using test::Folder;
-using test::program;
+using namespace gearpod::test;
 
 TEST_CASE("simulate writes uneven times where the speed fluctuates") {
     const Folder folder;
     const std::string path = folder.file("signals.csv");
-    const auto outcome =
-        program("simulate " + test::study_path("uneven-speed.toml") +
-                " --instance 1 --meshes 31 --set operation.speed_fluctuation=0.04 --out " + path);
-    INFO(outcome.output);
-    REQUIRE(outcome.code == 0);
-    const std::vector<double> time = test::columns_of(path).at("time");
+    require_success("simulate " + study_path("uneven-speed.toml") +
+                    " --instance 1 --meshes 31 --set operation.speed_fluctuation=0.04 --out " +
+                    path);
+    const std::vector<double> time = columns_of(path).at("time");
     REQUIRE(time.size() > 100);
     double shortest = time[1] - time[0], longest = shortest;
     for (std::size_t i = 1; i < time.size(); ++i) {

@@ -20,7 +20,7 @@ namespace test_accuracy {
 
 using namespace gearpod;
 using namespace gearpod::mc;
-using test::shipped_study;
+using namespace gearpod::test;
 
 namespace {
 
@@ -140,11 +140,8 @@ static Study resolved(Study study) {
 
 TEST_CASE("a study with its choice written out leads to the same choice", "[accuracy]") {
     const Study study = resolved(tian({"numerics.tolerance=1e-3"}));
-    const StudyReading back = read_study_text(resolved_text(study), "resolved");
-    INFO(format(back.problems));
-    REQUIRE(back.study.has_value());
-    CHECK(*back.study == study);
-    CHECK(resolved(*back.study) == study);
+    check_reads_back(study);
+    CHECK(resolved(study) == study);
 }
 
 TEST_CASE("A study in single precision is compared with double precision too", "[accuracy]") {
@@ -219,7 +216,7 @@ TEST_CASE("the share of decisions that the numerical error could change is count
     r.numerical->largest = {0.1};
     CHECK(numerical_contributions(r, ColumnRows(r), std::nullopt)[0].numerical_dominates);
 
-    const test::Folder folder;
+    const Folder folder;
     write_results(folder.file("r.h5"), r);
     const Results back = read_results(folder.file("r.h5"));
     REQUIRE(back.numerical.has_value());
@@ -243,18 +240,18 @@ std::string sets() {
 
 TEST_CASE("accuracy lists every solver setting, marks the frontier and reports what is refused",
           "[accuracy]") {
-    const test::Folder folder;
-    test::write_bytes(
+    const Folder folder;
+    write_bytes(
         folder.file("peers.csv"),
         "name,command,integration_s,mesh_s,sensor,te,te_rms\nother,\"a, b\",1,0.5,0.1,0.2,0.3\n");
-    const test::Outcome run = test::program(
+    const Outcome run = program(
         "accuracy " + test::study("published/tian-fig-4-9.toml") + sets() +
         " --quiet --repeats 1 --gearboxes 0 --seconds 0 --peers " + folder.file("peers.csv") +
         " --json " + folder.file("accuracy.json") + " --html " + folder.file("accuracy.html"));
     INFO(run.output);
     REQUIRE(run.code == kDone);
     CHECK(run.mentions("not possible: the explicit method would need"));
-    const auto json = nlohmann::json::parse(test::bytes_of(folder.file("accuracy.json")));
+    const auto json = nlohmann::json::parse(bytes_of(folder.file("accuracy.json")));
     CHECK(json["reference"]["agreement"]["sensor"].get<double>() < 1e-7);
     CHECK(json["explicit_limit"]["refused"].get<bool>());
     CHECK(json["explicit_limit"]["steps"].get<double>() > 8e5);
@@ -286,7 +283,7 @@ TEST_CASE("accuracy lists every solver setting, marks the frontier and reports w
     const std::string headline = json["headline"];
     CHECK(headline.find("The study's own setting, auto") == 0);
     CHECK(run.mentions(headline));
-    const std::string page = test::bytes_of(folder.file("accuracy.html"));
+    const std::string page = bytes_of(folder.file("accuracy.html"));
     for (const char* shown : {"Figure 1. Error of the worst feature against time", "te_rms",
                               "rk4 at its stability limit, refused", "Detection rates were not"}) {
         INFO(shown);
@@ -394,16 +391,13 @@ TEST_CASE("accuracy omits what it has no time for, and reports this", "[accuracy
 }
 
 TEST_CASE("accuracy reports what it cannot do", "[accuracy]") {
-    const test::Outcome still =
-        test::program("accuracy " + test::study("published/park-fig-13.toml"));
+    const Outcome still = program("accuracy " + test::study("published/park-fig-13.toml"));
     CHECK(still.code == kBadInput);
     CHECK(still.mentions("effects.motion"));
-    const test::Folder folder;
-    test::write_bytes(folder.file("bad.csv"),
-                      "name,command,march_s,mesh_s,sensor,te\nx,y,1,2,z,3\n");
-    const test::Outcome bad =
-        test::program("accuracy " + test::study("published/tian-fig-4-9.toml") +
-                      " --quiet --peers " + folder.file("bad.csv"));
+    const Folder folder;
+    write_bytes(folder.file("bad.csv"), "name,command,march_s,mesh_s,sensor,te\nx,y,1,2,z,3\n");
+    const Outcome bad = program("accuracy " + test::study("published/tian-fig-4-9.toml") +
+                                " --quiet --peers " + folder.file("bad.csv"));
     CHECK(bad.code == kBadInput);
     CHECK(bad.mentions("bad.csv:2: sensor: \"z\" is not a number >= 0"));
 }

@@ -7,8 +7,7 @@
 namespace test_bounds {
 
 using namespace gearpod;
-using test::Folder;
-using test::Outcome;
+using namespace gearpod::test;
 
 namespace {
 
@@ -22,8 +21,7 @@ std::string levels(int count) {
 
 // Runs the program in 2 GB; fails on an exit code of a shell or of a signal.
 Outcome bounded(const std::string& arguments, int kilobytes = 2000000) {
-    return test::shell(test::within_memory(kilobytes) + "timeout 60 " + GEARPOD_PROGRAM + " " +
-                       arguments);
+    return shell(within_memory(kilobytes) + "timeout 60 " + GEARPOD_PROGRAM + " " + arguments);
 }
 
 // Processor time of all programs that have ended.
@@ -83,8 +81,7 @@ TEST_CASE("A run that exceeds the memory reports this before it begins") {
     const Outcome refused = bounded(run, 1500000);
     INFO(refused.output);
     CHECK(refused.code == 2);
-    CHECK(refused.mentions("the run needs at least"));
-    CHECK(refused.mentions("--force"));
+    check_mentions(refused, {"the run needs at least", "--force"});
     CHECK(folder.empty());
     // A forced run ends with a message and keeps its results.
     const Outcome forced = bounded(run + " --force --quiet --time-limit 00:00:05", 1500000);

@@ -1,4 +1,5 @@
-// Checks the output of describe about members, fault sizes, omitted damping and rigid bodies.
+// Checks the output of describe about members, fault sizes, omitted damping, rigid bodies and tooth
+// contact.
 #include <sstream>
 
 #include "tests/mc/program.hpp"
@@ -6,7 +7,7 @@
 namespace test_describe_gearbox {
 
 using namespace gearpod;
-using test::program;
+using namespace gearpod::test;
 
 namespace {
 
@@ -18,25 +19,19 @@ const std::string kDescribe =
 // 13/11/35 teeth of 4 mm, 200 N m on the sun, carrier at 60 rpm. Expected: 60 (1 + 35/13) and 60 (1
 // - 35/11) rpm (Willis), 200 times 35/13 and 48/13 (balance of torques), three pins at 48 mm.
 TEST_CASE("describe shows torque and speed of every member") {
-    const auto description = program(kDescribe);
-    INFO(description.output);
-    REQUIRE(description.code == 0);
-    CHECK(description.mentions("221.538 rpm, 200 N m (input)"));
-    CHECK(description.mentions(
-        "-130.909 rpm, -190.909 rpm relative to the carrier, 5.128 kN on each pin"));
-    CHECK(description.mentions("stationary, 538.462 N m (fixed)"));
-    CHECK(description.mentions("60 rpm, 738.462 N m (output)"));
+    const auto description = require_success(kDescribe);
+    check_mentions(description,
+                   {"221.538 rpm, 200 N m (input)",
+                    "-130.909 rpm, -190.909 rpm relative to the carrier, 5.128 kN on each pin",
+                    "stationary, 538.462 N m (fixed)", "60 rpm, 738.462 N m (output)"});
     CHECK(!description.mentions("\n  damping "));
 }
 
 TEST_CASE("The description of a study fits 80 columns") {
-    for (const std::string& study : {std::string("planet-life.toml"), std::string("gusts.toml"),
-                                     std::string("planet-crack.toml")}) {
-        const auto description = program("describe " + test::study(study) +
-                                         " --set ensemble.instances=8 --set "
-                                         "ensemble.threshold_instances=20");
-        INFO(description.output);
-        REQUIRE(description.code == 0);
+    for (const char* name : {"planet-life.toml", "gusts.toml", "planet-crack.toml"}) {
+        const auto description = require_success("describe " + study(name) +
+                                                 " --set ensemble.instances=8 --set "
+                                                 "ensemble.threshold_instances=20");
         // The resolved study before this text is TOML, whose inline tables cannot be broken.
         const std::size_t begin = description.output.find("\nfalse alarms\n");
         REQUIRE(begin != std::string::npos);
@@ -49,29 +44,23 @@ TEST_CASE("The description of a study fits 80 columns") {
 }
 
 TEST_CASE("describe shows the graded steps of a study and the error of their pilot") {
-    const auto description = program("describe " + test::study("published/tian-fig-4-9.toml") +
-                                     " --set numerics.grid='\"graded\"'");
-    INFO(description.output);
-    CHECK(description.code == 0);
-    CHECK(description.mentions("signal error "));
-    CHECK(description.mentions(" after a transition, "));
+    const auto description = require_success("describe " + study("published/tian-fig-4-9.toml") +
+                                             " --set numerics.grid='\"graded\"'");
+    check_mentions(description, {"signal error ", " after a transition, "});
 }
 
 TEST_CASE("describe states which damping is omitted") {
-    const auto description = program(kDescribe +
-                                     "--set gearbox.support_damping_N_s_m=0 --set "
-                                     "gearbox.sun_bearing_damping_N_s_m=0 --set "
-                                     "gearbox.ring_bearing_damping_N_s_m=0");
-    INFO(description.output);
-    REQUIRE(description.code == 0);
+    const auto description = require_success(kDescribe +
+                                             "--set gearbox.support_damping_N_s_m=0 --set "
+                                             "gearbox.sun_bearing_damping_N_s_m=0 --set "
+                                             "gearbox.ring_bearing_damping_N_s_m=0");
     CHECK(description.mentions("0 for bearings of sun and ring, support of the ring"));
     // Random damping counts as damping.
-    const auto drawn = program(kDescribe +
-                               "--set gearbox.support_damping_N_s_m=0 --set "
-                               "'random.gearbox.support_damping_N_s_m={distribution=\"uniform\","
-                               "low=1e3,high=2e3}'");
-    INFO(drawn.output);
-    REQUIRE(drawn.code == 0);
+    const auto drawn =
+        require_success(kDescribe +
+                        "--set gearbox.support_damping_N_s_m=0 --set "
+                        "'random.gearbox.support_damping_N_s_m={distribution=\"uniform\","
+                        "low=1e3,high=2e3}'");
     CHECK(!drawn.mentions("\n  damping "));
 }
 
@@ -79,50 +68,29 @@ TEST_CASE("describe states which damping is omitted") {
 // which 4.3 mm are half (with a module of 3.2 mm; 3.175 here).
 TEST_CASE("describe shows fault sizes in the file's unit and as shares of the largest") {
     const auto description =
-        program("describe " + test::study("planet-crack-ideal.toml") +
-                " --set ensemble.instances=7 --set ensemble.threshold_instances=1");
-    INFO(description.output);
-    REQUIRE(description.code == 0);
+        require_success("describe " + study("planet-crack-ideal.toml") +
+                        " --set ensemble.instances=7 --set ensemble.threshold_instances=1");
     CHECK(description.mentions("0.5, 1, 1.5, 2, 3, 4.28 mm; 5.83, 11.7, 17.5, 23.3, 35, 49.9 %"));
 }
 
 // Teeth of 19/31/81 on rigid bodies. Elastic bodies have no such line.
 TEST_CASE("describe states how much stiffer rigid gear bodies make the meshes than ISO 6336-1") {
     const auto description =
-        program("describe " + test::study("planet-crack-ideal.toml") +
-                " --set ensemble.instances=7 --set ensemble.threshold_instances=1");
-    INFO(description.output);
-    REQUIRE(description.code == 0);
+        require_success("describe " + study("planet-crack-ideal.toml") +
+                        " --set ensemble.instances=7 --set ensemble.threshold_instances=1");
     CHECK(description.mentions("sun-planet 2.29, ring-planet 2.26 times the mean of ISO 6336-1"));
     const auto elastic =
-        program("describe " + test::study("bell-206b.toml") +
-                " --set ensemble.instances=5 --set ensemble.threshold_instances=1");
-    INFO(elastic.output);
-    REQUIRE(elastic.code == 0);
+        require_success("describe " + study("bell-206b.toml") +
+                        " --set ensemble.instances=5 --set ensemble.threshold_instances=1");
     CHECK(!elastic.mentions("rigid gear bodies"));
 }
 
-}  // namespace test_describe_gearbox
-
-// Checks tooth contact in the text of describe.
-
-namespace test_describe_contact {
-
-using namespace gearpod;
-using test::program;
-
-namespace {
-
-const std::string kFew = " --set ensemble.instances=8 --set ensemble.threshold_instances=8";
-
-}  // namespace
-
 TEST_CASE("describe shows no share of time out of contact where teeth cannot separate") {
-    const auto description = program("describe " + test::study("planet-crack-ideal.toml") + kFew);
-    INFO(description.output);
-    REQUIRE(description.code == 0);
+    const auto description =
+        require_success("describe " + study("planet-crack-ideal.toml") +
+                        " --set ensemble.instances=8 --set ensemble.threshold_instances=8");
     CHECK(!description.mentions("out of contact"));
     CHECK(!description.mentions("time step error"));
 }
 
-}  // namespace test_describe_contact
+}  // namespace test_describe_gearbox

@@ -7,11 +7,7 @@
 namespace test_sweep_command {
 
 using namespace gearpod;
-using test::bits;
-using test::bytes_of;
-using test::Folder;
-using test::Outcome;
-using test::program;
+using namespace gearpod::test;
 namespace fs = std::filesystem;
 
 namespace {
@@ -31,9 +27,7 @@ std::string sweep(const Folder& folder, const std::string& rest, int instances =
 TEST_CASE("A sweep's points are runs with the same gearboxes, and are computed once") {
     const Folder folder;
     const std::string vary = "--vary sensor.noise_m_s2=[1,3] ";
-    const Outcome first = program(sweep(folder, vary + "--json " + folder.file("s.json")));
-    INFO(first.output);
-    REQUIRE(first.code == 0);
+    const Outcome first = require_success(sweep(folder, vary + "--json " + folder.file("s.json")));
     CHECK(first.mentions("2 of 2, noise_m_s2=3: started"));
     const std::string one = folder.file("s/noise_m_s2=1.h5"),
                       three = folder.file("s/noise_m_s2=3.h5");
@@ -44,8 +38,7 @@ TEST_CASE("A sweep's points are runs with the same gearboxes, and are computed o
         CHECK(bits(file) == bits(folder.file("run.h5")));
     }
     // Paired as in `compare`: the same seed, gearboxes and fault sizes.
-    CHECK(
-        program("compare " + one + " " + three).mentions("22 test gearboxes that are the same"));
+    CHECK(program("compare " + one + " " + three).mentions("22 test gearboxes that are the same"));
 
     const auto json = nlohmann::json::parse(bytes_of(folder.file("s.json")));
     REQUIRE(json["points"].size() == 2);
@@ -68,12 +61,9 @@ TEST_CASE("A sweep's points are runs with the same gearboxes, and are computed o
     CHECK(found == 35);  // seven features at five noise levels
 
     const std::string before = bytes_of(one);
-    const Outcome again = program(sweep(folder, "--vary sensor.noise_m_s2=[1,2,3] "));
-    INFO(again.output);
-    REQUIRE(again.code == 0);
-    CHECK(again.mentions("1 of 3, noise_m_s2=1: finished before"));
-    CHECK(again.mentions("2 of 3, noise_m_s2=2: started"));
-    CHECK(again.mentions("3 of 3, noise_m_s2=3: finished before"));
+    const Outcome again = require_success(sweep(folder, "--vary sensor.noise_m_s2=[1,2,3] "));
+    check_mentions(again, {"1 of 3, noise_m_s2=1: finished before", "2 of 3, noise_m_s2=2: started",
+                           "3 of 3, noise_m_s2=3: finished before"});
     CHECK(bytes_of(one) == before);
     CHECK(fs::exists(folder.file("s/noise_m_s2=2.h5")));
 }
@@ -87,16 +77,11 @@ TEST_CASE("A stopped sweep resumes, and can be extended by gearboxes") {
         "run " + kStudy + " --quiet --set sensor.gain=2 --out " + folder.file("s/gain=2.h5");
     fs::remove(folder.file("s/gain=2.h5"));
     CHECK(program(part + " --time-limit 00:00:00").code == 4);
-    const Outcome on = program(sweep(folder, vary));
-    INFO(on.output);
-    CHECK(on.code == 0);
-    CHECK(on.mentions("1 of 2, gain=1: finished before"));
-    CHECK(on.mentions("2 of 2, gain=2: continued"));
+    const Outcome on = require_success(sweep(folder, vary));
+    check_mentions(on, {"1 of 2, gain=1: finished before", "2 of 2, gain=2: continued"});
     CHECK(bits(folder.file("s/gain=2.h5")) == whole);
 
-    const Outcome more = program(sweep(folder, vary, 33));
-    INFO(more.output);
-    CHECK(more.code == 0);
+    const Outcome more = require_success(sweep(folder, vary, 33));
     CHECK(more.mentions("1 of 2, gain=1: continued"));
     CHECK(mc::read_results(folder.file("s/gain=1.h5")).status.size() == 53);
 }
@@ -104,11 +89,8 @@ TEST_CASE("A stopped sweep resumes, and can be extended by gearboxes") {
 TEST_CASE("A sweep reports every problem once before it starts") {
     const Folder folder;
     const Outcome bad =
-        program(sweep(folder, "--vary sensor.nois=[1,2,3] --vary sensor.gain=[1,-2]"));
-    INFO(bad.output);
-    CHECK(bad.code == 2);
-    CHECK(bad.mentions("--vary: sensor.nois: unknown key"));
-    CHECK(bad.mentions("--vary: sensor.gain: must be > 0"));
+        check_refused(sweep(folder, "--vary sensor.nois=[1,2,3] --vary sensor.gain=[1,-2]"),
+                      {"--vary: sensor.nois: unknown key", "--vary: sensor.gain: must be > 0"});
     CHECK(std::count(bad.output.begin(), bad.output.end(), '\n') == 2);
     CHECK(folder.empty());
     CHECK(program(sweep(folder, "--vary sensor.gain=2")).code == 2);
@@ -119,10 +101,8 @@ TEST_CASE("A sweep refuses a study without a valid scene, even if its results ex
     const Folder folder;
     const std::string vary = "--quiet --vary sensor.gain=[1,2] ";
     REQUIRE(program(sweep(folder, vary)).code == 0);
-    const Outcome refused = program(sweep(folder, vary + "--set numerics.steps_per_mesh=1"));
-    INFO(refused.output);
-    CHECK(refused.code == 2);
-    CHECK(refused.mentions("numerics.steps_per_mesh: 1 steps are too few"));
+    check_refused(sweep(folder, vary + "--set numerics.steps_per_mesh=1"),
+                  {"numerics.steps_per_mesh: 1 steps are too few"});
 }
 
 TEST_CASE("A sweep does not overwrite another study's results") {
@@ -130,9 +110,7 @@ TEST_CASE("A sweep does not overwrite another study's results") {
     const std::string vary = "--quiet --vary sensor.gain=[1,2] ";
     REQUIRE(program(sweep(folder, vary)).code == 0);
     const std::string before = bytes_of(folder.file("s/gain=1.h5"));
-    const Outcome other = program(sweep(folder, vary + "--set operation.torque_N_m=300"));
-    INFO(other.output);
-    CHECK(other.code == 2);
+    check_refused(sweep(folder, vary + "--set operation.torque_N_m=300"));
     CHECK(bytes_of(folder.file("s/gain=1.h5")) == before);
     CHECK(program(sweep(folder, vary + "--set operation.torque_N_m=300 --force")).code == 0);
     CHECK(bytes_of(folder.file("s/gain=1.h5")) != before);
@@ -141,7 +119,7 @@ TEST_CASE("A sweep does not overwrite another study's results") {
 TEST_CASE("A sweep of lives has the lives of the command, and resumes") {
     const Folder folder;
     std::string study = test::study("planet-crack-ideal.toml");
-    for (const std::string& one : test::kLife) {
+    for (const std::string& one : kLife) {
         study += " --set '" + one + "'";
     }
     study +=
@@ -160,9 +138,8 @@ TEST_CASE("A sweep of lives has the lives of the command, and resumes") {
     for (const auto& point : json["points"]) {
         const std::string hours = point["values"]["life.interval_h"];
         const Outcome alone =
-            program("lives " + study + "--quiet --force --set life.interval_h=" + hours +
-                    " --out " + folder.file("l.h5") + " --json -");
-        REQUIRE(alone.code == 0);
+            require_success("lives " + study + "--quiet --force --set life.interval_h=" + hours +
+                            " --out " + folder.file("l.h5") + " --json -");
         CHECK(bits(point["results"]) == bits(folder.file("l.h5")));
         auto monitored = nlohmann::json::parse(alone.output)["monitored"];
         for (auto& one : monitored) {
@@ -176,24 +153,20 @@ TEST_CASE("A sweep of lives has the lives of the command, and resumes") {
                ten = mc::read_results(folder.file("s/interval_h=10.h5"));
     CHECK(five.features[0].values[0] == ten.features[0].values[0]);
     const Outcome more = swept("[5,10,20]");
-    CHECK(more.mentions("1 of 3, interval_h=5: finished before"));
-    CHECK(more.mentions("3 of 3, interval_h=20: started"));
+    check_mentions(more,
+                   {"1 of 3, interval_h=5: finished before", "3 of 3, interval_h=20: started"});
 
-    const Outcome text = program("sweep --lives " + study + "--quiet --out " + folder.file("s") +
-                                 " --vary life.interval_h=[5,10]");
-    CHECK(text.code == 0);
+    const Outcome text = require_success("sweep --lives " + study + "--quiet --out " +
+                                         folder.file("s") + " --vary life.interval_h=[5,10]");
     // Ten false alarms in 1000 h find three cracks by chance.
     CHECK(text.mentions("At no point does a detector find more cracks than chance"));
 }
 
 TEST_CASE("Keys without effect on a sweep of runs, or of lives, are refused") {
     const Folder folder;
-    const Outcome runs = program(sweep(folder, "--vary life.interval_h=[1,2]"));
-    CHECK(runs.code == 2);
-    CHECK(runs.mentions("--vary: life.interval_h: is only used by `lives`, not by `run`"));
-    const Outcome lives = program(sweep(folder, "--lives --vary sensor.gain=[1,2]"));
-    CHECK(lives.code == 2);
-    CHECK(lives.mentions("life.interval_h: missing"));
+    check_refused(sweep(folder, "--vary life.interval_h=[1,2]"),
+                  {"--vary: life.interval_h: is only used by `lives`, not by `run`"});
+    check_refused(sweep(folder, "--lives --vary sensor.gain=[1,2]"), {"life.interval_h: missing"});
     CHECK(folder.empty());
 }
 
