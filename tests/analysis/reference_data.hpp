@@ -1,10 +1,8 @@
 // Data sets that tests share with the reference programs (reference/make_reference.*).
 #pragma once
 
-#include <string>
-#include <vector>
-
 #include "tests/reference_tables.hpp"
+#include "tests/test.hpp"
 
 namespace gearpod::analysis {
 

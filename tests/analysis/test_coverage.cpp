@@ -1,19 +1,11 @@
 // Checks bounds over synthetic studies with known truth: 95 % bounds must hold in 95 % of them. The
 // tag is [.coverage]; ctest runs it as analysis-coverage of -C long.
-#include <catch2/catch.hpp>
-#include <cmath>
-#include <random>
-
 #include "analysis/pod/hit_miss_pod.hpp"
 #include "analysis/pod/pod_bounds.hpp"
 #include "analysis/pod/signal_response_pod.hpp"
+#include "tests/test.hpp"
 
-namespace test_coverage {
-
-using namespace gearpod;
-using namespace gearpod::analysis;
-
-namespace {
+namespace gearpod::analysis::test_coverage {
 
 using Where = SizeEstimate::Where;
 constexpr int kStudies = 2000;
@@ -162,6 +154,4 @@ TEST_CASE("Bounds of a POD from a line with normal scatter cover the truth", "[.
     CHECK(lower / studies == Approx(0.95).margin(kMargin));
 }
 
-}  // namespace
-
-}  // namespace test_coverage
+}  // namespace gearpod::analysis::test_coverage

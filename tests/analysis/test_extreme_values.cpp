@@ -1,23 +1,12 @@
 // Checks that the analysis of any finite values ends with numbers or with a reason.
-#include <catch2/catch.hpp>
-#include <cmath>
-#include <functional>
-#include <limits>
-#include <random>
-#include <utility>
-
 #include "analysis/detection/false_alarm_rate.hpp"
 #include "analysis/reliability.hpp"
 #include "analysis/statistics/distributions.hpp"
 #include "analysis/statistics/interval.hpp"
 #include "analysis/statistics/link.hpp"
+#include "tests/test.hpp"
 
-namespace test_extreme_values {
-
-using namespace gearpod;
-using namespace gearpod::analysis;
-
-namespace {
+namespace gearpod::analysis::test_extreme_values {
 
 const double kNan = std::numeric_limits<double>::quiet_NaN();
 const double kLargest = std::numeric_limits<double>::max();
@@ -202,6 +191,4 @@ TEST_CASE("tails and quantiles have values at the limits of the number range") {
     }
 }
 
-}  // namespace
-
-}  // namespace test_extreme_values
+}  // namespace gearpod::analysis::test_extreme_values

@@ -1,21 +1,13 @@
 // Checks a90 and cost over the false-alarm rate where both are known: a normal feature whose mean
 // grows with the size.
-#include <array>
 #include <boost/math/distributions/normal.hpp>
-#include <catch2/catch.hpp>
-#include <cmath>
-#include <random>
 
 #include "analysis/detection/false_alarm_rate.hpp"
 #include "analysis/detection/threshold.hpp"
 #include "analysis/false_alarm_curve.hpp"
+#include "tests/test.hpp"
 
-namespace test_false_alarm_curve {
-
-using namespace gearpod;
-using namespace gearpod::analysis;
-
-namespace {
+namespace gearpod::analysis::test_false_alarm_curve {
 
 const boost::math::normal kNormal;
 
@@ -189,6 +181,4 @@ TEST_CASE("A threshold of least cost has the bounds of the method that determine
     CHECK(counted > 0);
 }
 
-}  // namespace
-
-}  // namespace test_false_alarm_curve
+}  // namespace gearpod::analysis::test_false_alarm_curve

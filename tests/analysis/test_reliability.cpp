@@ -1,23 +1,12 @@
-#include <algorithm>
-#include <catch2/catch.hpp>
-#include <cmath>
-#include <limits>
 #include <nlohmann/json.hpp>
-#include <random>
-#include <sstream>
-#include <tuple>
 
 #include "analysis/reliability.hpp"
 #include "analysis/report/findings/findings.hpp"
 #include "analysis/report/reliability_json.hpp"
 #include "analysis/report/report.hpp"
+#include "tests/test.hpp"
 
-namespace test_reliability {
-
-using namespace gearpod;
-using namespace gearpod::analysis;
-
-namespace {
+namespace gearpod::analysis::test_reliability {
 
 const double kNan = std::numeric_limits<double>::quiet_NaN();
 
@@ -231,6 +220,4 @@ TEST_CASE("Studies without healthy or without faulty gearboxes are reported, not
     }
 }
 
-}  // namespace
-
-}  // namespace test_reliability
+}  // namespace gearpod::analysis::test_reliability

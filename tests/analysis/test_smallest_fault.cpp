@@ -1,19 +1,10 @@
 // Checks the summary's order of smallest faults on random results, and its fallback bound.
-#include <algorithm>
-#include <catch2/catch.hpp>
-#include <cmath>
-#include <random>
-
 #include "analysis/detection/detection.hpp"
 #include "analysis/pod/hit_miss_pod.hpp"
 #include "analysis/reliability.hpp"
+#include "tests/test.hpp"
 
-namespace test_smallest_fault {
-
-using namespace gearpod;
-using namespace gearpod::analysis;
-
-namespace {
+namespace gearpod::analysis::test_smallest_fault {
 
 using Engine = std::mt19937_64;
 
@@ -216,6 +207,4 @@ TEST_CASE("Sizes beyond the misses: 29 in a row, and the confidence holds") {
     CHECK(below < 0.05 * kStudies);
 }
 
-}  // namespace
-
-}  // namespace test_smallest_fault
+}  // namespace gearpod::analysis::test_smallest_fault

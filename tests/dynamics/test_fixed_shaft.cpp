@@ -1,18 +1,11 @@
 // Checks the fixed-shaft gearbox of Tian (2004): its matrices, its lockstep accelerations and its
 // statics.
-#include <catch2/catch.hpp>
-#include <random>
-#include <vector>
-
 #include "dynamics/fixed_shaft_motion.hpp"
 #include "dynamics/gearbox.hpp"
 #include "dynamics/gearbox_matrices.hpp"
+#include "tests/test.hpp"
 
-namespace test_fixed_shaft {
-
-using namespace gearpod::dynamics;
-
-namespace {
+namespace gearpod::dynamics::test_fixed_shaft {
 
 FixedShaftLayout layout_of(MeshDamping damping) {
     FixedShaftLayout layout;
@@ -67,8 +60,6 @@ Eigen::VectorXd printed_equations(const FixedShaftLayout& layout, const FixedSha
         (output - in.load_torque_N_m) / in.load_inertia_kg_m2;
     return a;
 }
-
-}  // namespace
 
 TEST_CASE(
     "The fixed-shaft matrices and lanes are Tian's equations minus the acceleration of the whole "
@@ -203,4 +194,4 @@ TEST_CASE("Unbalanced torques load the mesh with the inertia force of the driven
     CHECK(std::abs(m.force.dot(rigid_rotation(layout))) < 1e-12 * m.force.norm());
 }
 
-}  // namespace test_fixed_shaft
+}  // namespace gearpod::dynamics::test_fixed_shaft

@@ -9,17 +9,12 @@
 // x points from the central gear's axis to the planet's, z along the axes. phi is the pressure
 // angle in the normal plane, omega the helix angle; radii are those of the pitch circles.
 #include <Eigen/Dense>
-#include <catch2/catch.hpp>
-#include <cmath>
 
 #include "dynamics/helical_pair.hpp"
 #include "dynamics/planetary.hpp"
+#include "tests/test.hpp"
 
-namespace test_helical_pair {
-
-using namespace gearpod::dynamics;
-
-namespace {
+namespace gearpod::dynamics::test_helical_pair {
 
 using PairVector = Eigen::Matrix<double, 12, 1>;
 using PairMatrix = Eigen::Matrix<double, 12, 12>;
@@ -95,8 +90,6 @@ PairVector rigid(const Eigen::Vector3d& t, const Eigen::Vector3d& w, double a, b
     q << (planet_first ? planet : centre), (planet_first ? centre : planet);
     return q;
 }
-
-}  // namespace
 
 TEST_CASE("The sun-planet matrix has the printed rows of (A1)") {
     const PairMatrix k = pair_matrix(sun_planet_deflection(kPair, kSun, kPlanet), 1.0);
@@ -199,4 +192,4 @@ TEST_CASE("In the plane the pair equals the planetary model's spur pair at the t
     CHECK(transverse_stiffness_factor(kPhi, 0.0) == 1.0);
 }
 
-}  // namespace test_helical_pair
+}  // namespace gearpod::dynamics::test_helical_pair

@@ -6,18 +6,11 @@
 // A floating sun on three planets moves so that all carry the same load. On four planets a quarter
 // of the pin error's effect remains on every planet, with alternating signs. A fixed sun leaves all
 // of it except the mean.
-#include <catch2/catch.hpp>
-#include <cmath>
-#include <numbers>
-
 #include "dynamics/gearbox_matrices.hpp"
 #include "dynamics/planetary.hpp"
+#include "tests/test.hpp"
 
-namespace test_load_sharing {
-
-using namespace gearpod::dynamics;
-
-namespace {
+namespace gearpod::dynamics::test_load_sharing {
 
 constexpr double kAngle = 20 * std::numbers::pi / 180;
 constexpr double kSunMesh = 4e8, kRingMesh = 6e8, kRigid = 1e16;
@@ -61,8 +54,6 @@ double path_stiffness(double planet_bearing) {
     return 1.0 / (1.0 / kSunMesh + 1.0 / kRingMesh +
                   4.0 * std::cos(kAngle) * std::cos(kAngle) / planet_bearing);
 }
-
-}  // namespace
 
 TEST_CASE("A floating sun on three planets equalizes the load for any pin position") {
     for (const double bearing : {1e8, 1e12}) {
@@ -112,4 +103,4 @@ TEST_CASE("A radial pin error transfers no load between planets") {
     }
 }
 
-}  // namespace test_load_sharing
+}  // namespace gearpod::dynamics::test_load_sharing

@@ -1,15 +1,9 @@
 // Checks the laws of mesh damping by their formulas and by the modes of a pair of gears.
-#include <catch2/catch.hpp>
-#include <cmath>
-
 #include "dynamics/gearbox.hpp"
 #include "dynamics/gearbox_matrices.hpp"
+#include "tests/test.hpp"
 
-namespace test_mesh_damping {
-
-using namespace gearpod::dynamics;
-
-namespace {
+namespace gearpod::dynamics::test_mesh_damping {
 
 constexpr double kPinion_kg = 1.2, kGear_kg = 3.6, kEquivalent_kg = 0.9;
 constexpr double kStiffness_N_m = 4e8;
@@ -48,8 +42,6 @@ double modal_damping_ratio(MeshDamping law, const DampingParameters& parameters)
     return ratio;
 }
 
-}  // namespace
-
 TEST_CASE("Every law of mesh damping has the value of its formula") {
     CHECK(damping(MeshDamping::ratio, {0.05}) ==
           Approx(2.0 * 0.05 * std::sqrt(kStiffness_N_m * kEquivalent_kg)));
@@ -67,4 +59,4 @@ TEST_CASE("The damping ratio of two gears that vibrate against one another is th
           Approx(900.0 / (2.0 * w) + 4e-6 * w / 2.0));
 }
 
-}  // namespace test_mesh_damping
+}  // namespace gearpod::dynamics::test_mesh_damping

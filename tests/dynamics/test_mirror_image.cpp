@@ -1,19 +1,12 @@
 // Checks a train whose carrier drives, so that the other flanks are in contact. The model computes
 // its mirror image (gears/planetary.hpp). This test assembles the real train, with springs along
 // the other flanks' line of action.
-#include <catch2/catch.hpp>
-#include <cmath>
-#include <numbers>
-
 #include "dynamics/gearbox_matrices.hpp"
 #include "dynamics/planetary.hpp"
 #include "tests/dynamics/lin_parker.hpp"
+#include "tests/test.hpp"
 
-namespace test_mirror_image {
-
-using namespace gearpod::dynamics;
-
-namespace {
+namespace gearpod::dynamics::test_mirror_image {
 
 constexpr double kAlpha = 0.43;
 const std::vector<double> kPositions{0, 2.2, 4.0};
@@ -73,8 +66,6 @@ Coast coast_flanks(const PlanetaryInputs& in) {
     return model;
 }
 
-}  // namespace
-
 TEST_CASE("The carrier-driven train on its real flanks is the model's mirror image") {
     PlanetaryLayout layout;
     layout.planets = 3;
@@ -109,4 +100,4 @@ TEST_CASE("The carrier-driven train on its real flanks is the model's mirror ima
     }
 }
 
-}  // namespace test_mirror_image
+}  // namespace gearpod::dynamics::test_mirror_image

@@ -1,21 +1,13 @@
 // Checks natural frequencies of Lin and Parker's planetary gears, published in their Table 2 and by
 // Liang (2016), Tables 4.2 and 4.3.
-#include <algorithm>
-#include <catch2/catch.hpp>
-#include <cmath>
-#include <map>
-#include <numbers>
-
 #include "dynamics/gearbox_matrices.hpp"
 #include "dynamics/planetary.hpp"
 #include "tests/dynamics/lin_parker.hpp"
+#include "tests/test.hpp"
 
-namespace test_modes {
+namespace gearpod::dynamics::test_modes {
 
-using namespace gearpod::dynamics;
 using test_gearbox::lin_parker_inputs;
-
-namespace {
 
 PlanetaryLayout lin_parker_layout(int planets) {
     PlanetaryLayout layout;
@@ -28,8 +20,6 @@ std::vector<double> frequencies(const PlanetaryLayout& layout, const PlanetaryIn
     const std::vector<double> k(static_cast<std::size_t>(layout.pairs()), 5e8);
     return natural_frequencies_Hz(assemble(layout, in, k));
 }
-
-}  // namespace
 
 TEST_CASE(
     "Lin and Parker's natural frequencies are reproduced within 0.4 Hz, with their "
@@ -80,13 +70,11 @@ TEST_CASE("Rigid planet bearings reduce the full model's rotations to the torsio
     }
 }
 
-}  // namespace test_modes
+}  // namespace gearpod::dynamics::test_modes
 
 // Checks natural frequencies in a turning frame against closed forms.
 
-namespace test_rotating_modes {
-
-using namespace gearpod::dynamics;
+namespace gearpod::dynamics::test_rotating_modes {
 
 constexpr double kPi = std::numbers::pi;
 
@@ -121,4 +109,4 @@ TEST_CASE("At rest the frequencies are those of the symmetric eigenvalue problem
     }
 }
 
-}  // namespace test_rotating_modes
+}  // namespace gearpod::dynamics::test_rotating_modes

@@ -1,19 +1,10 @@
 // Checks the lockstep kernels' accelerations against M q'' = f - (C + G) q' - (K + K_c) q assembled
 // from spring rows, and the statics of a loaded train.
-#include <catch2/catch.hpp>
-#include <cmath>
-#include <numbers>
-#include <random>
-#include <vector>
-
 #include "dynamics/gearbox_matrices.hpp"
 #include "dynamics/planetary_motion.hpp"
+#include "tests/test.hpp"
 
-namespace test_motion_kernels {
-
-using namespace gearpod::dynamics;
-
-namespace {
+namespace gearpod::dynamics::test_motion_kernels {
 
 PlanetaryInputs random_inputs(std::mt19937& engine) {
     std::uniform_real_distribution<double> uniform(0.5, 1.5);
@@ -112,8 +103,6 @@ PlanetaryLayout shifted(PlanetaryLayout layout) {
     return layout;
 }
 
-}  // namespace
-
 TEST_CASE("Lockstep accelerations equal the assembled equations of motion for 2 to 8 planets") {
     for (int n = 2; n <= 8; ++n) {
         for (const auto damping :
@@ -205,4 +194,4 @@ TEST_CASE("A free train rotates past its fixed member without deflecting a sprin
     }
 }
 
-}  // namespace test_motion_kernels
+}  // namespace gearpod::dynamics::test_motion_kernels

@@ -1,16 +1,11 @@
 // Checks Park's transmission errors over the models' degrees of freedom: rigid rotation of the
 // train gives none.
-#include <catch2/catch.hpp>
-#include <cmath>
-
 #include "dynamics/gearbox_matrices.hpp"
 #include "dynamics/planetary.hpp"
 #include "gears/planetary.hpp"
+#include "tests/test.hpp"
 
-namespace test_rigid_transmission_error {
-
-using namespace gearpod;
-using namespace gearpod::dynamics;
+namespace gearpod::dynamics::test_rigid_transmission_error {
 
 TEST_CASE("The free rotation of the model gives no transmission error in any working condition") {
     const gears::PlanetaryTrain train{16, 26, 68, 3, {}};
@@ -40,4 +35,4 @@ TEST_CASE("The free rotation of the model gives no transmission error in any wor
     }
 }
 
-}  // namespace test_rigid_transmission_error
+}  // namespace gearpod::dynamics::test_rigid_transmission_error

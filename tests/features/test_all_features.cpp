@@ -1,18 +1,8 @@
 // Checks the table of features: its entries, and the signals that follow from their parameters.
-#include <catch2/catch.hpp>
-#include <cmath>
-#include <set>
-#include <string>
-#include <vector>
-
 #include "features/feature.hpp"
+#include "tests/test.hpp"
 
-namespace test_all_features {
-
-using namespace gearpod;
-using namespace gearpod::features;
-
-namespace {
+namespace gearpod::features::test_all_features {
 
 TEST_CASE("Every feature is registered once, with its unit, alarm side and definition") {
     int basic = 0;
@@ -108,6 +98,4 @@ TEST_CASE("Features compare a record with its baseline and with the change since
     CHECK(!find_feature("change_window_ratio")->basic());
 }
 
-}  // namespace
-
-}  // namespace test_all_features
+}  // namespace gearpod::features::test_all_features

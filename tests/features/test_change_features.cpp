@@ -1,18 +1,9 @@
 // Checks features of the change since the baseline record against closed forms. Their numpy
 // counterparts: tests/features/reference.
-#include <catch2/catch.hpp>
-#include <cmath>
-#include <numbers>
-#include <vector>
-
 #include "features/feature.hpp"
+#include "tests/test.hpp"
 
-namespace test_change_features {
-
-using namespace gearpod;
-using namespace gearpod::features;
-
-namespace {
+namespace gearpod::features::test_change_features {
 
 std::vector<double> cosine(int cycles, int points, double amplitude, double mean) {
     std::vector<double> values;
@@ -74,6 +65,4 @@ TEST_CASE("The correlation needs the turns of the record and of its change") {
     CHECK(!correlation.basic());
 }
 
-}  // namespace
-
-}  // namespace test_change_features
+}  // namespace gearpod::features::test_change_features

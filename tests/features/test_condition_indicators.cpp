@@ -1,23 +1,13 @@
 // Checks the condition indicators against closed forms.
-#include <catch2/catch.hpp>
-#include <cmath>
-#include <numbers>
-#include <random>
-#include <vector>
-
 #include "features/healthy_comparison.hpp"
 #include "features/modulation_indicators.hpp"
 #include "features/residual_indicators.hpp"
 #include "features/statistics/signal_statistics.hpp"
 #include "features/tooth_windows.hpp"
 #include "features/vibration_statistics.hpp"
+#include "tests/test.hpp"
 
-namespace test_condition_indicators {
-
-using namespace gearpod;
-using namespace gearpod::features;
-
-namespace {
+namespace gearpod::features::test_condition_indicators {
 
 std::vector<double> normal_sample(std::size_t count) {
     std::mt19937_64 engine(8);
@@ -134,6 +124,4 @@ TEST_CASE("Statistics of tooth windows compare the largest value with the median
     CHECK(frms(FilteredSensor{0.25}) == 0.25);
 }
 
-}  // namespace
-
-}  // namespace test_condition_indicators
+}  // namespace gearpod::features::test_condition_indicators

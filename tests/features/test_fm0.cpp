@@ -1,19 +1,10 @@
 // Checks FM0 of known mesh lines.
-#include <catch2/catch.hpp>
-#include <cmath>
-#include <numbers>
-#include <vector>
-
 #include "features/feature.hpp"
 #include "features/vibration_statistics.hpp"
 #include "signals/spectra/order_spectrum.hpp"
+#include "tests/test.hpp"
 
-namespace test_fm0 {
-
-using namespace gearpod;
-using namespace gearpod::features;
-
-namespace {
+namespace gearpod::features::test_fm0 {
 
 constexpr int kTeeth = 31, kPerMesh = 16, kPoints = kTeeth * kPerMesh;
 
@@ -53,6 +44,4 @@ TEST_CASE("Signals without mesh lines have no FM0") {
     CHECK(!find_feature("fm0")->basic());
 }
 
-}  // namespace
-
-}  // namespace test_fm0
+}  // namespace gearpod::features::test_fm0

@@ -1,19 +1,9 @@
 // Checks the peak of the kurtogram of a record against closed forms of modulated noise.
-#include <catch2/catch.hpp>
-#include <cmath>
-#include <numbers>
-#include <random>
-#include <vector>
-
 #include "features/feature.hpp"
 #include "features/kurtogram_peak.hpp"
+#include "tests/test.hpp"
 
-namespace test_kurtogram_peak {
-
-using namespace gearpod;
-using namespace gearpod::features;
-
-namespace {
+namespace gearpod::features::test_kurtogram_peak {
 
 constexpr std::size_t kTeeth = 31, kTurns = 80;
 
@@ -61,6 +51,4 @@ TEST_CASE("A record without a signal has no kurtogram") {
     }
 }
 
-}  // namespace
-
-}  // namespace test_kurtogram_peak
+}  // namespace gearpod::features::test_kurtogram_peak

@@ -1,19 +1,10 @@
 // Checks features of the speed error against closed forms of sines and modulated sines.
-#include <catch2/catch.hpp>
-#include <cmath>
-#include <numbers>
-#include <vector>
-
 #include "features/feature.hpp"
 #include "features/speed_features.hpp"
 #include "signals/spectra/order_spectrum.hpp"
+#include "tests/test.hpp"
 
-namespace test_speed_features {
-
-using namespace gearpod;
-using namespace gearpod::features;
-
-namespace {
+namespace gearpod::features::test_speed_features {
 
 constexpr int kTeeth = 31, kPerMesh = 8, kPoints = kTeeth * kPerMesh;
 
@@ -102,6 +93,4 @@ TEST_CASE("Features of the speed need no sensor and are not default features") {
     }
 }
 
-}  // namespace
-
-}  // namespace test_speed_features
+}  // namespace gearpod::features::test_speed_features

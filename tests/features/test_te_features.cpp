@@ -1,17 +1,7 @@
-#include <catch2/catch.hpp>
-#include <cmath>
-#include <numbers>
-#include <random>
-#include <vector>
-
 #include "features/te_features.hpp"
+#include "tests/test.hpp"
 
-namespace test_te_features {
-
-using namespace gearpod;
-using namespace gearpod::features;
-
-namespace {
+namespace gearpod::features::test_te_features {
 
 constexpr double kPi = std::numbers::pi;
 
@@ -84,6 +74,4 @@ TEST_CASE("Features of an exactly constant signal have no value") {
     CHECK(te_rms(te_input(zero)) == 0.0);
 }
 
-}  // namespace
-
-}  // namespace test_te_features
+}  // namespace gearpod::features::test_te_features

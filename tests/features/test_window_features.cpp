@@ -1,18 +1,9 @@
-#include <catch2/catch.hpp>
-#include <cmath>
-#include <random>
-#include <vector>
-
 #include "features/statistics/signal_statistics.hpp"
 #include "features/tooth_windows.hpp"
 #include "features/vibration_statistics.hpp"
+#include "tests/test.hpp"
 
-namespace test_window_features {
-
-using namespace gearpod;
-using namespace gearpod::features;
-
-namespace {
+namespace gearpod::features::test_window_features {
 
 ToothRms<gears::Member::planet> teeth(const std::vector<double>& rms) {
     return {rms};
@@ -65,6 +56,4 @@ TEST_CASE("The sensor's rms is the root of its mean square") {
     CHECK(sensor_rms({6.25}) == 2.5);
 }
 
-}  // namespace
-
-}  // namespace test_window_features
+}  // namespace gearpod::features::test_window_features

@@ -1,20 +1,12 @@
 // Checks the gap outside the path of contact against involutes that are rotated into each other
 // point by point.
-#include <catch2/catch.hpp>
-#include <cmath>
-#include <complex>
-#include <numbers>
-#include <utility>
-
 #include "gears/flank_gaps.hpp"
 #include "gears/gear.hpp"
+#include "tests/test.hpp"
 
-namespace test_corner_contact {
+namespace gearpod::gears::test_corner_contact {
 
-using namespace gearpod::gears;
 using std::numbers::pi;
-
-namespace {
 
 Gear gear(int teeth, bool internal = false, double shift = 0) {
     Gear g;
@@ -70,8 +62,6 @@ class TurnedFlanks {
     const MeshGeometry& mesh_;
     double angle_, sense_, centre_;
 };
-
-}  // namespace
 
 TEST_CASE("corner gap is zero on the path and continuous at its ends") {
     for (const MeshGeometry& mesh :
@@ -132,16 +122,13 @@ TEST_CASE("reach is the distance at which the corner gap has a given size") {
     }
 }
 
-}  // namespace test_corner_contact
+}  // namespace gearpod::gears::test_corner_contact
 
 // Checks the wear of flanks against sliding speeds of circles that roll on each other.
 
-namespace test_flank_wear {
+namespace gearpod::gears::test_flank_wear {
 
-using namespace gearpod::gears;
 using std::numbers::pi;
-
-namespace {
 
 constexpr double kModule = 3.175e-3, kAngle = 20 * pi / 180;
 
@@ -196,8 +183,6 @@ class RollingCircles {
     double pitch_, centre_2_, speed_2_, begin_ = 0, end_ = 0;
 };
 
-}  // namespace
-
 TEST_CASE("flanks wear in proportion to the specific sliding of rolling circles") {
     for (const auto& [teeth_1, teeth_2, internal] :
          {std::tuple{19, 31, false}, {31, 81, true}, {24, 20, false}, {27, 27, false}}) {
@@ -238,4 +223,4 @@ TEST_CASE("equal gears wear symmetrically, most at their roots") {
     CHECK(first.shape(ratio) < 0.6);
 }
 
-}  // namespace test_flank_wear
+}  // namespace gearpod::gears::test_flank_wear

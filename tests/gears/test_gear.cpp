@@ -1,13 +1,7 @@
-#include <catch2/catch.hpp>
-#include <numbers>
-
 #include "gears/gear.hpp"
+#include "tests/test.hpp"
 
-namespace test_gear {
-
-using namespace gearpod::gears;
-
-namespace {
+namespace gearpod::gears::test_gear {
 
 constexpr double kPressureAngle = 20 * std::numbers::pi / 180;
 constexpr double kModule = 3.175e-3;  // 8 teeth per inch of diameter
@@ -18,8 +12,6 @@ Gear external(int teeth) {
 Gear internal(int teeth) {
     return {teeth, true, kModule, kPressureAngle};
 }
-
-}  // namespace
 
 TEST_CASE("Liang's radii follow from module 3.175 mm, not from the 3.2 mm of his tables") {
     // Source: Liang (2016), Table 3.1, in mm with one decimal.
@@ -58,4 +50,4 @@ TEST_CASE("impossible gears are named with every problem at once") {
     CHECK(gear_problems({19, false, kModule, kPressureAngle, 1.8, 2.0}).size() == 1);  // pointed
 }
 
-}  // namespace test_gear
+}  // namespace gearpod::gears::test_gear

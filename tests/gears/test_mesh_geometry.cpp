@@ -1,15 +1,7 @@
-#include <catch2/catch.hpp>
-#include <cmath>
-#include <numbers>
-#include <stdexcept>
-
 #include "gears/mesh_geometry.hpp"
+#include "tests/test.hpp"
 
-namespace test_mesh_geometry {
-
-using namespace gearpod::gears;
-
-namespace {
+namespace gearpod::gears::test_mesh_geometry {
 
 constexpr double kPi = std::numbers::pi;
 constexpr double kPressureAngle = 20 * kPi / 180;
@@ -31,8 +23,6 @@ double printed_start_angle(double n1, double n2, int side) {
     return std::acos(n1 * cosine /
                      std::sqrt(tip * tip + centre * centre - 2 * tip * centre * std::cos(angle)));
 }
-
-}  // namespace
 
 TEST_CASE(
     "Tian's pair of 19 and 48 teeth has contact ratio 1.6456 and spans of 12.232 and 6.715 "
@@ -116,4 +106,4 @@ TEST_CASE("pairs with contact below a base circle are refused") {
     CHECK(mesh_problems(external(19), other).size() == 1);
 }
 
-}  // namespace test_mesh_geometry
+}  // namespace gearpod::gears::test_mesh_geometry

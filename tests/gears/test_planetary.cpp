@@ -1,22 +1,12 @@
-#include <catch2/catch.hpp>
-#include <cmath>
-#include <numbers>
-#include <stdexcept>
-
 #include "gears/planetary.hpp"
+#include "tests/test.hpp"
 
-namespace test_planetary {
-
-using namespace gearpod::gears;
-
-namespace {
+namespace gearpod::gears::test_planetary {
 
 constexpr PlanetaryTrain kLiang{19, 31, 81, 4};
 constexpr PlanetaryTrain kPark{16, 26, 68, 3};
 constexpr PlanetaryTrain kYang{28, 34, 96, 4};
 constexpr PlanetaryTrain kYangRig{32, 40, 112, 3};
-
-}  // namespace
 
 TEST_CASE("mesh phases of 19/31/81 with four planets are Liang's Table 2.2") {
     const double sun[] = {0, 0.75, 0.5, 0.25};
@@ -126,15 +116,11 @@ TEST_CASE("the published trains can be assembled, and invalid ones give the reas
     CHECK(assembly_problems({0, 31, 81, 4}).size() == 1);
 }
 
-}  // namespace test_planetary
+}  // namespace gearpod::gears::test_planetary
 
 // Checks planets at given positions: assembly, mesh phases and shared teeth.
 
-namespace test_planet_positions {
-
-using namespace gearpod::gears;
-
-namespace {
+namespace gearpod::gears::test_planet_positions {
 
 constexpr double kTurn = 2 * std::numbers::pi;
 
@@ -148,8 +134,6 @@ PlanetaryTrain park_at(std::vector<double> degrees) {
 bool contains(const std::vector<std::string>& problems, const std::string& part) {
     return problems.size() == 1 && problems[0].find(part) != std::string::npos;
 }
-
-}  // namespace
 
 TEST_CASE("Explicit equal positions give the same phases as default positions") {
     const PlanetaryTrain given = park_at({0, 120, 240});
@@ -210,15 +194,11 @@ TEST_CASE("A planet meshes with sun and ring only at the allowed positions") {
     CHECK(contains(assembly_problems(two), "2 planet positions are given for 3 planets"));
 }
 
-}  // namespace test_planet_positions
+}  // namespace gearpod::gears::test_planet_positions
 
 // Checks Park's six working conditions: directions, balanced torques and transmission errors.
 
-namespace test_power_flow {
-
-using namespace gearpod::gears;
-
-namespace {
+namespace gearpod::gears::test_power_flow {
 
 const PlanetaryTrain kPark{16, 26, 68, 3};
 const PowerFlow kConditions[] = {
@@ -237,8 +217,6 @@ double of(const Speeds& s, Member m) {
 double of(const CentralMembers& v, Member m) {
     return m == Member::sun ? v.sun : m == Member::ring ? v.ring : v.carrier;
 }
-
-}  // namespace
 
 TEST_CASE("Speed decreases or increases, along or against the input, as in Park's Table I") {
     const bool decreases[] = {true, false, true, false, true, false};
@@ -338,4 +316,4 @@ TEST_CASE("A fixed member accepts no speed") {
                     std::invalid_argument);
 }
 
-}  // namespace test_power_flow
+}  // namespace gearpod::gears::test_power_flow

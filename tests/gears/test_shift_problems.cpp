@@ -1,18 +1,9 @@
 // Checks gears that do not mesh, and standard teeth.
-#include <catch2/catch.hpp>
-#include <cmath>
-#include <numbers>
-#include <optional>
-#include <string>
-
 #include "gears/mesh_geometry.hpp"
 #include "gears/planetary.hpp"
+#include "tests/test.hpp"
 
-namespace test_shift_problems {
-
-using namespace gearpod::gears;
-
-namespace {
+namespace gearpod::gears::test_shift_problems {
 
 constexpr double kDegree = std::numbers::pi / 180;
 
@@ -33,8 +24,6 @@ bool contains(const std::vector<std::string>& problems, const std::string& text)
         }
     return false;
 }
-
-}  // namespace
 
 TEST_CASE("the inverse of the involute function inverts it") {
     for (const double degrees : {0.01, 1.0, 15.0, 20.0, 45.0, 80.0}) {
@@ -231,4 +220,4 @@ TEST_CASE("the phase of the ring mesh relative to the sun mesh follows from the 
           ring_to_sun_phase(train));
 }
 
-}  // namespace test_shift_problems
+}  // namespace gearpod::gears::test_shift_problems

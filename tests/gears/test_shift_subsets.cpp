@@ -1,17 +1,9 @@
 // Checks that every subset of sun, planet and ring shift and centre distance is completed without
 // backlash, for random planetary sets.
-#include <catch2/catch.hpp>
-#include <cmath>
-#include <numbers>
-#include <random>
-
 #include "gears/mesh_geometry.hpp"
+#include "tests/test.hpp"
 
-namespace test_shift_subsets {
-
-using namespace gearpod::gears;
-
-namespace {
+namespace gearpod::gears::test_shift_subsets {
 
 Gear gear(int teeth, bool internal, double shift = 0) {
     Gear result;
@@ -47,8 +39,6 @@ Set random_set(std::mt19937& random) {
     set.x_ring = tight_shift_sum(set.planet, set.ring, set.distance) - set.x_planet;
     return set;
 }
-
-}  // namespace
 
 TEST_CASE("every subset of shifts and centre distance is completed without backlash") {
     std::mt19937 random(47);
@@ -106,4 +96,4 @@ TEST_CASE("every subset of shifts and centre distance is completed without backl
     }
 }
 
-}  // namespace test_shift_subsets
+}  // namespace gearpod::gears::test_shift_subsets

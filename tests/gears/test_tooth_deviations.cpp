@@ -1,17 +1,8 @@
 // Checks tolerances of ISO 1328, and the rate at which random gears meet them.
-#include <algorithm>
-#include <catch2/catch.hpp>
-#include <cmath>
-#include <numbers>
-#include <random>
-
 #include "gears/tooth_deviations.hpp"
+#include "tests/test.hpp"
 
-namespace test_tooth_deviations {
-
-using namespace gearpod::gears;
-
-namespace {
+namespace gearpod::gears::test_tooth_deviations {
 
 constexpr double kAngle = 20 * std::numbers::pi / 180;
 
@@ -31,8 +22,6 @@ class RandomGears {
     std::mt19937 engine_{20261122};
     std::normal_distribution<double> normal_;
 };
-
-}  // namespace
 
 TEST_CASE("The formulas reproduce the standard's tables at the means of its ranges") {
     // Diameters of 50 to 125 mm, modules of 2 to 3.5 mm, in um. Sources: ISO 1328-1:1995, Tables 1
@@ -137,4 +126,4 @@ TEST_CASE("Nine gears in ten meet each tolerance of their grade") {
     }
 }
 
-}  // namespace test_tooth_deviations
+}  // namespace gearpod::gears::test_tooth_deviations

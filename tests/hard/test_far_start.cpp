@@ -1,20 +1,14 @@
 // Checks a start far from equilibrium: a linear train has one periodic orbit, to which every start
 // converges.
-#include <catch2/catch.hpp>
-
 #include "dynamics/gearbox_matrices.hpp"
 #include "lockstep/integrators/facts.hpp"
 #include "lockstep/integrators/sensor_filter.hpp"
 #include "lockstep/tile/tile_integrators.hpp"
 #include "tests/lockstep/liang_train.hpp"
 #include "tests/lockstep/tian_gearbox.hpp"
+#include "tests/test.hpp"
 
-namespace test_far_start {
-
-using namespace gearpod;
-using namespace gearpod::lockstep;
-
-namespace {
+namespace gearpod::lockstep::test_far_start {
 
 // Record of the mesh period that follows `meshes` others, from displacements `q` and velocities
 // `v`, without velocity of the rigid rotation.
@@ -58,8 +52,6 @@ void check_same(const machine::AlignedVector& a, const machine::AlignedVector& b
     CHECK(difference <= tolerance * size);
 }
 
-}  // namespace
-
 TEST_CASE(
     "From a tenth of a millimetre away, Liang's train converges to the tile's periodic orbit") {
     const auto& train = test::LiangTrain::instance();
@@ -101,4 +93,4 @@ TEST_CASE("Tian's stiff gearbox converges from a far start with an L-stable meth
     check_same(tile.records[0].motion, record.motion, 1e-6);
 }
 
-}  // namespace test_far_start
+}  // namespace gearpod::lockstep::test_far_start

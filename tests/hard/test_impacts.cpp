@@ -1,17 +1,11 @@
 // Checks light load near the resonance of the mesh: teeth lose contact and collide every few
 // periods.
-#include <catch2/catch.hpp>
-#include <numbers>
-
 #include "tests/lockstep/pair_of_masses.hpp"
+#include "tests/test.hpp"
 
-namespace test_impacts {
+namespace gearpod::lockstep::test_impacts {
 
-using namespace gearpod;
-using namespace gearpod::lockstep;
 using test::PairOfMasses;
-
-namespace {
 
 // Load over stiffness is 0.1 um; the flanks' error has an amplitude of 0.5 um close to resonance.
 constexpr double kRest_m = 1e-7, kError_m = 5e-7;
@@ -35,8 +29,6 @@ PairOfMasses rattling(Integrator integrator, double of_resonance, int steps) {
     masses.plan.te_weight = {0.0, 0.0, 1.0, 1.0};
     return masses;
 }
-
-}  // namespace
 
 TEST_CASE("For any sequence of impacts the mean contact force carries the load") {
     const auto integrator = GENERATE(Integrator::rk4, Integrator::newmark, Integrator::sdirk3,
@@ -77,4 +69,4 @@ TEST_CASE("For any sequence of impacts the mean contact force carries the load")
     }
 }
 
-}  // namespace test_impacts
+}  // namespace gearpod::lockstep::test_impacts

@@ -1,22 +1,15 @@
 // Checks a million mesh periods without damping: amplitude and phase follow each method's
 // amplification factor R, z_n = R(i w h)^n z_0.
-#include <catch2/catch.hpp>
-#include <complex>
-#include <numbers>
-
 #include "lockstep/integrators/facts.hpp"
 #include "lockstep/integrators/sdirk3.hpp"
 #include "lockstep/steps/stability.hpp"
 #include "tests/lockstep/pair_of_masses.hpp"
+#include "tests/test.hpp"
 
-namespace test_long_integration {
+namespace gearpod::lockstep::test_long_integration {
 
-using namespace gearpod;
-using namespace gearpod::lockstep;
 using test::PairOfMasses;
 using Complex = std::complex<double>;
-
-namespace {
 
 // Amplification factor R(z) of the methods.
 Complex amplification(Integrator integrator, Complex z) {
@@ -57,8 +50,6 @@ void integrate_meshes(PairOfMasses& masses, long meshes) {
         (*mesh_integrator)({}, masses.state, record);
     }
 }
-
-}  // namespace
 
 TEST_CASE("After a million undamped mesh periods the motion follows the method's theory") {
     const auto [integrator, meshes] =
@@ -110,4 +101,4 @@ TEST_CASE("A million mesh periods of changing stiffness neither add nor remove e
     CHECK(size < 1.2e-6);
 }
 
-}  // namespace test_long_integration
+}  // namespace gearpod::lockstep::test_long_integration

@@ -1,23 +1,18 @@
 // Checks parametric resonance: periodic mesh stiffness makes a motion grow. Floquet multipliers
 // decide this; they are computed here independently of the program's time integration.
-#include <catch2/catch.hpp>
-#include <numbers>
 #include <unsupported/Eigen/MatrixFunctions>
 
 #include "dynamics/gearbox_matrices.hpp"
 #include "lockstep/steps/stability.hpp"
 #include "tests/lockstep/liang_train.hpp"
 #include "tests/lockstep/pair_of_masses.hpp"
+#include "tests/test.hpp"
 
-namespace test_parametric_resonance {
+namespace gearpod::lockstep::test_parametric_resonance {
 
-using namespace gearpod;
-using namespace gearpod::lockstep;
 using std::numbers::pi;
 using test::LiangTrain;
 using test::PairOfMasses;
-
-namespace {
 
 // Meissner's equation: d'' + 2 beta d' + w(t)^2 d = 0 with two stiffnesses, half a period each.
 // With d = exp(-beta t) y the halves are rotations, and the multipliers follow from their trace.
@@ -140,8 +135,6 @@ class LiangRotations {
     Vector mass_;
 };
 
-}  // namespace
-
 TEST_CASE("A pair grows or decays by the multiplier of Meissner's equation") {
     const auto integrator = GENERATE(Integrator::rk4, Integrator::newmark, Integrator::sdirk3,
                                      Integrator::central_difference);
@@ -214,4 +207,4 @@ TEST_CASE(
     CHECK(unstable > 0);
 }
 
-}  // namespace test_parametric_resonance
+}  // namespace gearpod::lockstep::test_parametric_resonance

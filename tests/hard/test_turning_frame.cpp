@@ -1,18 +1,12 @@
 // Checks speeds just above and just below the critical speed of the rotating carrier frame.
-#include <catch2/catch.hpp>
-#include <numbers>
-
 #include "dynamics/gearbox_matrices.hpp"
 #include "lockstep/steps/stability.hpp"
 #include "tests/lockstep/liang_train.hpp"
+#include "tests/test.hpp"
 
-namespace test_turning_frame {
+namespace gearpod::lockstep::test_turning_frame {
 
-using namespace gearpod;
-using namespace gearpod::lockstep;
 using test::LiangTrain;
-
-namespace {
 
 constexpr Eigen::Index kDegrees = 21;
 
@@ -60,8 +54,6 @@ double critical_speed_rad_s(const IntegrationPlan& plan, double low, double high
     }
     return low;
 }
-
-}  // namespace
 
 TEST_CASE("Below its critical speed a train converges, above it is reported as unstable") {
     const auto& train = LiangTrain::instance();
@@ -119,4 +111,4 @@ TEST_CASE(
     CHECK(outwards / (4.0 * static_cast<double>(samples)) == Approx(expected).epsilon(0.02));
 }
 
-}  // namespace test_turning_frame
+}  // namespace gearpod::lockstep::test_turning_frame

@@ -1,22 +1,16 @@
 // Checks hard cases from a user's view: whole studies, their status counts, messages and exit
 // codes.
-#include <catch2/catch.hpp>
-#include <cmath>
-
 #include "tests/hard/floating_point_traps.hpp"
 #include "tests/mc/program.hpp"
 #include "tests/mc/scene_examples.hpp"
 #include "tests/mc/study_file.hpp"
 
-namespace test_whole_studies {
+namespace gearpod::test_whole_studies {
 
-using namespace gearpod;
 using mc::Status;
 using test::Folder;
 using test::Outcome;
 using test::program;
-
-namespace {
 
 using Overrides = std::vector<std::string>;
 
@@ -62,8 +56,6 @@ double value_of(const mc::Results& r, const std::string& feature, std::size_t ro
                 std::size_t level) {
     return r.features[test::feature_index(r, feature)].values[row * r.noise_levels.size() + level];
 }
-
-}  // namespace
 
 TEST_CASE("Tails of distributions: bearings a hundred times as stiff, no torque, no noise") {
     const mc::Results plain = results(fast_train());
@@ -265,4 +257,4 @@ TEST_CASE(
     }
 }
 
-}  // namespace test_whole_studies
+}  // namespace gearpod::test_whole_studies

@@ -1,16 +1,12 @@
 // Liang's planetary gearbox (2016, Table 4.1) as input of a tile; module 3.175 mm.
 #pragma once
 
-#include <cmath>
-#include <memory>
-#include <numbers>
-#include <vector>
-
 #include "gears/mesh_geometry.hpp"
 #include "gears/planetary.hpp"
 #include "lockstep/strategies/solution.hpp"
 #include "stiffness/additive_mesh.hpp"
 #include "stiffness/faults/tooth_crack.hpp"
+#include "tests/test.hpp"
 
 namespace gearpod::test {
 

@@ -3,12 +3,10 @@
 // Equations: d = u_s + u_p, d'' = g - mesh force / m, 1/m = 1/m_s + 1/m_p, g = F / m_s.
 #pragma once
 
-#include <cmath>
-#include <utility>
-
 #include "lockstep/integrators/facts.hpp"
 #include "lockstep/integrators/sensor_filter.hpp"
 #include "lockstep/tile/tile_integrators.hpp"
+#include "tests/test.hpp"
 
 namespace gearpod::test {
 

@@ -1,13 +1,11 @@
 // Tian's one-stage gearbox (2004, Table 4.1) as input of a tile.
 #pragma once
 
-#include <numbers>
-#include <vector>
-
 #include "gears/mesh_geometry.hpp"
 #include "lockstep/integrators/facts.hpp"
 #include "lockstep/strategies/solution.hpp"
 #include "stiffness/additive_mesh.hpp"
+#include "tests/test.hpp"
 
 namespace gearpod::test {
 

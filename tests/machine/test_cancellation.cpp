@@ -1,15 +1,10 @@
 // Checks that computations end early if and only if cancellation is requested.
 #include <atomic>
-#include <catch2/catch.hpp>
 
 #include "machine/team.hpp"
+#include "tests/test.hpp"
 
-namespace test_cancellation {
-
-using namespace gearpod;
-using namespace gearpod::machine;
-
-namespace {
+namespace gearpod::machine::test_cancellation {
 
 struct Switch final : CancellationSource {
     std::atomic<bool> on{false};
@@ -40,6 +35,4 @@ TEST_CASE("A team stops between its tasks on request") {
     CHECK(done == 4);
 }
 
-}  // namespace
-
-}  // namespace test_cancellation
+}  // namespace gearpod::machine::test_cancellation

@@ -1,13 +1,9 @@
-#include <catch2/catch.hpp>
-#include <vector>
-
 #include "machine/contracts.hpp"
+#include "tests/test.hpp"
 
-namespace test_contracts {
+namespace gearpod::test_contracts {
 
-using gearpod::machine::ContractViolation;
-
-namespace {
+using machine::ContractViolation;
 
 int halved(int value) {
     GEARPOD_CHECK_CONTRACT("precondition", value % 2 == 0);
@@ -39,5 +35,4 @@ TEST_CASE("Contracts are checked only in builds that ask for it", "[contracts]")
 #endif
 }
 
-}  // namespace
-}  // namespace test_contracts
+}  // namespace gearpod::test_contracts

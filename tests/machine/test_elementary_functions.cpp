@@ -1,16 +1,8 @@
 // Checks the lanes' elementary functions against extended precision.
-#include <algorithm>
-#include <catch2/catch.hpp>
-#include <limits>
-#include <random>
-
 #include "machine/elementary_functions.hpp"
+#include "tests/test.hpp"
 
-namespace test_lane_math {
-
-using namespace gearpod::machine;
-
-namespace {
+namespace gearpod::machine::test_lane_math {
 
 // Largest error of `function` on numbers uniform in a range, relative to `scale` of the exact
 // value.
@@ -31,8 +23,6 @@ double worst_error(double low, double high, Function function, Exact exact, Scal
 constexpr auto kRelative = [](long double right) { return right; };
 constexpr auto kAbsolute = [](long double) { return 1.0L; };
 constexpr double kQuarterPi = 0.785398163397448309616;
-
-}  // namespace
 
 TEST_CASE("The lanes' exponential agrees with an extended-precision one") {
     for (const double range : {0.5, 10.0, 700.0}) {
@@ -93,4 +83,4 @@ TEST_CASE("Sine and cosine along a flank agree with extended-precision ones") {
               -2.0, 2.0, cosine, [](long double x) { return std::cos(x); }, kAbsolute) < 3e-16);
 }
 
-}  // namespace test_lane_math
+}  // namespace gearpod::machine::test_lane_math

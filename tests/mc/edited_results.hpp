@@ -4,14 +4,10 @@
 #include <fcntl.h>
 #include <unistd.h>
 
-#include <functional>
-#include <stdexcept>
-#include <string>
-#include <vector>
-
 #include "mc/files/file_descriptor.hpp"
 #include "mc/files/hdf5_data.hpp"
 #include "mc/results/file_checksum.hpp"
+#include "tests/test.hpp"
 
 namespace gearpod::test {
 

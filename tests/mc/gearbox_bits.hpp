@@ -1,12 +1,7 @@
 // Compares gearboxes bit by bit between tiles of different lanes and numbers of gearboxes.
 #pragma once
 
-#include <bit>
-#include <catch2/catch.hpp>
-#include <cstdint>
-#include <span>
-#include <string>
-#include <vector>
+#include "tests/test.hpp"
 
 namespace gearpod::test {
 

@@ -1,14 +1,11 @@
 // Signals and spectra of one gearbox of a study, for the tests of Liang's published results.
 #pragma once
 
-#include <algorithm>
-#include <cmath>
-#include <complex>
 #include <kissfft/kissfft.hh>
-#include <vector>
 
 #include "signals/sensor/sensor_signal.hpp"
 #include "study_file.hpp"
+#include "tests/test.hpp"
 
 namespace gearpod::test {
 

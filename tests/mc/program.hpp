@@ -4,21 +4,9 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include <algorithm>
-#include <array>
-#include <bit>
-#include <catch2/catch.hpp>
-#include <cstdint>
-#include <cstdio>
-#include <cstdlib>
-#include <filesystem>
-#include <fstream>
-#include <iterator>
-#include <string>
-#include <vector>
-
 #include "mc/results/results_file.hpp"
 #include "tests/shipped_studies.hpp"
+#include "tests/test.hpp"
 
 namespace gearpod::test {
 

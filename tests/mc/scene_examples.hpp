@@ -2,9 +2,8 @@
 // tests.
 #pragma once
 
-#include <string>
-
 #include "tests/mc/study_example.hpp"
+#include "tests/test.hpp"
 
 namespace gearpod::tests {
 

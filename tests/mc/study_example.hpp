@@ -1,8 +1,7 @@
 // A complete planetary study for variation in tests.
 #pragma once
 
-#include <string>
-#include <vector>
+#include "tests/test.hpp"
 
 namespace gearpod::tests {
 

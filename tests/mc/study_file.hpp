@@ -1,17 +1,12 @@
 // Reads shipped studies for tests.
 #pragma once
 
-#include <bit>
-#include <catch2/catch.hpp>
-#include <cstdint>
-#include <string>
-#include <vector>
-
 #include "mc/ensemble/ensemble.hpp"
 #include "mc/ensemble/gearbox/gearbox_tile.hpp"
 #include "mc/ensemble/gearbox/realization_features.hpp"
 #include "mc/plan/scene.hpp"
 #include "tests/shipped_studies.hpp"
+#include "tests/test.hpp"
 
 namespace gearpod::test {
 

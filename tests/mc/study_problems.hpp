@@ -1,11 +1,8 @@
 // Functions for tests of the problems of studies.
 #pragma once
 
-#include <algorithm>
-#include <cstddef>
-#include <string>
-
 #include "mc/files/input/problems.hpp"
+#include "tests/test.hpp"
 
 namespace gearpod::tests {
 

@@ -4,12 +4,9 @@
 // the phase index within it.
 #pragma once
 
-#include <cmath>
-#include <numbers>
-#include <vector>
-
 #include "signals/path/transmission_path.hpp"
 #include "signals/tile_signals.hpp"
+#include "tests/test.hpp"
 
 namespace gearpod::signals {
 

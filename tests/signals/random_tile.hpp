@@ -1,11 +1,8 @@
 // A tile of random mesh periods, for tests of the signal chain.
 #pragma once
 
-#include <algorithm>
-#include <random>
-#include <vector>
-
 #include "signals/tile_signals.hpp"
+#include "tests/test.hpp"
 
 namespace gearpod::signals {
 

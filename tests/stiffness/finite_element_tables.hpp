@@ -1,14 +1,8 @@
 // Tables of tests/peers/fem-gear-pairs; their contents are described in that folder's README.md.
 #pragma once
 
-#include <catch2/catch.hpp>
-#include <cmath>
-#include <map>
-#include <memory>
-#include <string>
-#include <vector>
-
 #include "tests/reference_tables.hpp"
+#include "tests/test.hpp"
 
 namespace finite_elements {
 

@@ -1,13 +1,10 @@
 // The gear pairs of the sources and a few that cover the other branches of the geometry.
 #pragma once
 
-#include <numbers>
-#include <string>
-#include <vector>
-
 #include "gears/mesh_geometry.hpp"
 #include "stiffness/teeth/material.hpp"
 #include "stiffness/teeth/tooth_profile.hpp"
+#include "tests/test.hpp"
 
 namespace test_pairs {
 

@@ -1,12 +1,10 @@
 #include "tests/stiffness/mesh_level_pairs.hpp"
 
-#include <cmath>
-#include <numbers>
-
 #include "gears/mesh_geometry.hpp"
 #include "stiffness/coupled_mesh.hpp"
 #include "tests/stiffness/finite_element_tables.hpp"
 #include "tests/stiffness/gear_pairs.hpp"
+#include "tests/test.hpp"
 
 using namespace gearpod;
 using namespace gearpod::stiffness;

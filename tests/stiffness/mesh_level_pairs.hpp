@@ -2,16 +2,13 @@
 // docs/validation/mesh-stiffness-level.md.
 #pragma once
 
-#include <memory>
-#include <string>
-#include <vector>
-
 #include "gears/mesh_geometry.hpp"
 #include "stiffness/contact/load_sharing.hpp"
 #include "stiffness/foundation/fillet_foundation.hpp"
 #include "stiffness/mesh_stiffness.hpp"
 #include "stiffness/teeth/material.hpp"
 #include "stiffness/teeth/tooth_profile.hpp"
+#include "tests/test.hpp"
 
 namespace mesh_level {
 

@@ -4,10 +4,9 @@
 
 #include <boost/math/quadrature/tanh_sinh.hpp>
 #include <boost/math/tools/roots.hpp>
-#include <cmath>
-#include <numbers>
 
 #include "stiffness/teeth/tooth_compliance.hpp"
+#include "tests/test.hpp"
 
 namespace printed {
 

@@ -1,16 +1,11 @@
-#include <catch2/catch.hpp>
-
 #include "stiffness/additive_mesh.hpp"
 #include "stiffness/teeth/tooth_compliance.hpp"
 #include "tests/stiffness/gear_pairs.hpp"
+#include "tests/test.hpp"
 
-namespace test_additive_mesh {
+namespace gearpod::stiffness::test_additive_mesh {
 
-using namespace gearpod;
-using namespace gearpod::stiffness;
 using namespace test_pairs;
-
-namespace {
 
 // Change of the mesh stiffness from base circle to root circle, averaged over [from, to] of a mesh
 // period.
@@ -26,8 +21,6 @@ double root_circle_change(const gears::MeshGeometry& mesh, double from, double t
     }
     return sum_root / sum_base - 1;
 }
-
-}  // namespace
 
 TEST_CASE("Tian's mean mesh stiffness is 8.854e8 N/m and its damping coefficient 3.99e-6 s") {
     const AdditiveMesh pair(gears::MeshGeometry(external(19), external(48)), kTianSteel,
@@ -148,4 +141,4 @@ TEST_CASE("each pair carries the load in proportion to its stiffness") {
     CHECK(first[0] == 0);
 }
 
-}  // namespace test_additive_mesh
+}  // namespace gearpod::stiffness::test_additive_mesh

@@ -1,18 +1,12 @@
-#include <catch2/catch.hpp>
-#include <cmath>
-
 #include "stiffness/additive_mesh.hpp"
 #include "stiffness/faults/breakage.hpp"
 #include "stiffness/teeth/tooth_compliance.hpp"
 #include "tests/stiffness/gear_pairs.hpp"
+#include "tests/test.hpp"
 
-namespace test_breakage {
+namespace gearpod::stiffness::test_breakage {
 
-using namespace gearpod;
-using namespace gearpod::stiffness;
 using namespace test_pairs;
-
-namespace {
 
 const gears::MeshGeometry kTianMesh(external(19), external(48));
 constexpr double kFace = kTianSteel.face_width_m, kWidth = 0.3 * kFace, kHeight = 2e-3;
@@ -50,8 +44,6 @@ double compliance_above_plane(double tau) {
     }
     return sum;
 }
-
-}  // namespace
 
 TEST_CASE("a tooth broken along its whole flank is as compliant as a narrower tooth") {
     const AdditiveMesh mesh(kTianMesh, kTianSteel, Profile::base_circle);
@@ -140,4 +132,4 @@ TEST_CASE("a breakage larger than its tooth is reported as such") {
     CHECK(high.problems(1.1 * kFace).size() == 2);
 }
 
-}  // namespace test_breakage
+}  // namespace gearpod::stiffness::test_breakage

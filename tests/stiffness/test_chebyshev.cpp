@@ -1,12 +1,7 @@
-#include <catch2/catch.hpp>
-#include <cmath>
-#include <vector>
-
 #include "stiffness/teeth/chebyshev.hpp"
+#include "tests/test.hpp"
 
-namespace test_chebyshev {
-
-using namespace gearpod::stiffness;
+namespace gearpod::stiffness::test_chebyshev {
 
 TEST_CASE("a Chebyshev series reproduces polynomials exactly and an exponential to rounding") {
     const ChebyshevSeries cubic([](double t) { return t * t * t - 2 * t + 5; }, -1, 3, 12, 1e-14);
@@ -38,4 +33,4 @@ TEST_CASE("values are raised to a given minimum") {
     CHECK(values == std::vector<double>{0, 0, 0.5});
 }
 
-}  // namespace test_chebyshev
+}  // namespace gearpod::stiffness::test_chebyshev

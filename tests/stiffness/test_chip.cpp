@@ -1,18 +1,12 @@
-#include <catch2/catch.hpp>
-#include <cmath>
-
 #include "stiffness/additive_mesh.hpp"
 #include "stiffness/faults/chip.hpp"
 #include "stiffness/teeth/tooth_compliance.hpp"
 #include "tests/stiffness/gear_pairs.hpp"
+#include "tests/test.hpp"
 
-namespace test_chip {
+namespace gearpod::stiffness::test_chip {
 
-using namespace gearpod;
-using namespace gearpod::stiffness;
 using namespace test_pairs;
-
-namespace {
 
 const gears::MeshGeometry kTianMesh(external(19), external(48));
 constexpr double kFace = kTianSteel.face_width_m;
@@ -25,8 +19,6 @@ double distance(double tau) {
     const double half = kTianMesh.gear(1).half_base_angle();
     return base * ((a + half) * std::sin(a) + std::cos(a) - std::cos(half));
 }
-
-}  // namespace
 
 TEST_CASE("contact with Tian's chip of 8 mm begins when the pinion has turned 22.4 degrees") {
     const ToothChip family(kTianMesh, kFace, 1);
@@ -106,4 +98,4 @@ TEST_CASE("a chip larger than its tooth is reported as such") {
     CHECK(family.at(kFace)->contact_width(end) == Approx(0).margin(1e-12));
 }
 
-}  // namespace test_chip
+}  // namespace gearpod::stiffness::test_chip

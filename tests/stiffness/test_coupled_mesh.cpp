@@ -1,20 +1,13 @@
-#include <catch2/catch.hpp>
-#include <cmath>
-#include <stdexcept>
-
 #include "stiffness/additive_mesh.hpp"
 #include "stiffness/faults/losses.hpp"
 #include "stiffness/faults/tooth_crack.hpp"
 #include "stiffness/teeth/crack.hpp"
 #include "tests/stiffness/yang_gears.hpp"
+#include "tests/test.hpp"
 
-namespace test_coupled_mesh {
+namespace gearpod::stiffness::test_coupled_mesh {
 
-using namespace gearpod;
-using namespace gearpod::stiffness;
 using namespace yang_gears;
-
-namespace {
 
 double share_at(const MeshStiffness& mesh, double tau) {
     double share = 0;
@@ -33,8 +26,6 @@ gears::MeshGeometry tall() {
 CoupledMeshOptions tall_options(FoundationModel foundation, Contact contact) {
     return {foundation, contact, 20e-3, 20e-3, force()};
 }
-
-}  // namespace
 
 TEST_CASE("without foundation and with linear contacts the tooth pairs are springs in parallel") {
     for (const Profile profile : {Profile::base_circle, Profile::root_circle, Profile::fillet})
@@ -196,4 +187,4 @@ TEST_CASE("Coupled tooth pairs with a fault: a broken one carries no load, the o
     }
 }
 
-}  // namespace test_coupled_mesh
+}  // namespace gearpod::stiffness::test_coupled_mesh

@@ -1,14 +1,5 @@
 // Checks the loss of mesh stiffness by a crack, by fracture mechanics, against finite elements of
 // whole gears. Table and its computation: tests/peers/fem-gear-pairs/README.md.
-#include <algorithm>
-#include <catch2/catch.hpp>
-#include <cmath>
-#include <cstdio>
-#include <memory>
-#include <numbers>
-#include <string>
-#include <vector>
-
 #include "gears/mesh_geometry.hpp"
 #include "stiffness/coupled_mesh.hpp"
 #include "stiffness/faults/spatial_crack.hpp"
@@ -17,16 +8,13 @@
 #include "stiffness/teeth/tooth_compliance.hpp"
 #include "tests/stiffness/finite_element_tables.hpp"
 #include "tests/stiffness/gear_pairs.hpp"
+#include "tests/test.hpp"
 
-namespace test_cracked_gears {
+namespace gearpod::stiffness::test_cracked_gears {
 
-using namespace gearpod;
-using namespace gearpod::stiffness;
 using finite_elements::Row;
 using test_pairs::kCrackAngle;
 using test_pairs::kLiangSteel;
-
-namespace {
 
 // A gear pair with the cracked gear, and the radii at which the bodies are fixed.
 struct Gears {
@@ -180,8 +168,6 @@ double margin_of(double elements, double relative = 0.15) {
 
 const char* const kTeeth[] = {"sun", "planet-sun", "planet-ring", "ring"};
 constexpr Profile kProfiles[] = {Profile::fillet, Profile::root_circle};
-
-}  // namespace
 
 TEST_CASE("a crack reduces the mesh stiffness as in finite elements, within 15 %", "[crack]") {
     int rows = 0;
@@ -362,4 +348,4 @@ TEST_CASE("largest loss of the ring mesh in planet-crack.toml by law and profile
                     largest(Profile::fillet, CrackLaw::fracture_mechanics, depth_m));
 }
 
-}  // namespace test_cracked_gears
+}  // namespace gearpod::stiffness::test_cracked_gears

@@ -1,20 +1,15 @@
 // Checks faults of the tooth pair and of the mesh, on independent tooth pairs and on a square wave.
-#include <catch2/catch.hpp>
-
 #include "stiffness/additive_mesh.hpp"
 #include "stiffness/faults/chip.hpp"
 #include "stiffness/faults/losses.hpp"
 #include "stiffness/faults/tooth_crack.hpp"
 #include "stiffness/square_wave_mesh.hpp"
 #include "tests/stiffness/gear_pairs.hpp"
+#include "tests/test.hpp"
 
-namespace test_faulty_mesh {
+namespace gearpod::stiffness::test_faulty_mesh {
 
-using namespace gearpod;
-using namespace gearpod::stiffness;
 using namespace test_pairs;
-
-namespace {
 
 double faulty_at(const MeshStiffness& mesh, const ToothFault& fault, double tau) {
     return total_at(*mesh.with_fault(fault), mesh.transitions(), tau);
@@ -22,8 +17,6 @@ double faulty_at(const MeshStiffness& mesh, const ToothFault& fault, double tau)
 
 // Source: Park et al. (2016), section V-A, sun-planet mesh. The contact ratio is not given there.
 const SquareWaveMesh kPark(2.7e9, 4.2e9, 1.6);
-
-}  // namespace
 
 TEST_CASE("a broken tooth leaves its neighbour in the double-pair zone, and nothing elsewhere") {
     const gears::MeshGeometry tian(external(19), external(48));
@@ -128,4 +121,4 @@ TEST_CASE("a crack on gear 1 or 2 weakens the pair according to the curve of its
     }
 }
 
-}  // namespace test_faulty_mesh
+}  // namespace gearpod::stiffness::test_faulty_mesh

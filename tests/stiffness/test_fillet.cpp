@@ -1,18 +1,12 @@
-#include <catch2/catch.hpp>
-#include <cmath>
-
 #include "stiffness/teeth/crack.hpp"
 #include "stiffness/teeth/tooth_compliance.hpp"
 #include "tests/stiffness/gear_pairs.hpp"
 #include "tests/stiffness/yang_forms.hpp"
+#include "tests/test.hpp"
 
-namespace test_fillet {
+namespace gearpod::stiffness::test_fillet {
 
-using namespace gearpod;
-using namespace gearpod::stiffness;
 using namespace test_pairs;
-
-namespace {
 
 constexpr Material kSteel{2.06e11, 0.3, 0.018};
 
@@ -35,8 +29,6 @@ double slope(const ToothProfile& profile, double u, double step) {
     const ToothSection a = profile.section(u), b = profile.section(u + step);
     return std::atan2(b.half_thickness - a.half_thickness, b.axial - a.axial);
 }
-
-}  // namespace
 
 TEST_CASE("the fillet's arc solves Yang's equations 10 to 15") {
     for (const int teeth : {30, 34, 60, 120}) {
@@ -181,4 +173,4 @@ TEST_CASE("a tooth breaks where the crack reaches the other flank") {
             }
 }
 
-}  // namespace test_fillet
+}  // namespace gearpod::stiffness::test_fillet

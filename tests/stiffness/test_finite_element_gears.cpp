@@ -1,15 +1,5 @@
 // Checks shifted, internal, cracked and helical pairs against finite elements of whole gears.
 // Tables and their computation: tests/peers/fem-gear-pairs/README.md.
-#include <algorithm>
-#include <catch2/catch.hpp>
-#include <cmath>
-#include <cstdio>
-#include <map>
-#include <memory>
-#include <numbers>
-#include <string>
-#include <vector>
-
 #include "gears/mesh_geometry.hpp"
 #include "stiffness/additive_mesh.hpp"
 #include "stiffness/coupled_mesh.hpp"
@@ -20,14 +10,11 @@
 #include "tests/stiffness/finite_element_tables.hpp"
 #include "tests/stiffness/gear_pairs.hpp"
 #include "tests/stiffness/mesh_level_pairs.hpp"
+#include "tests/test.hpp"
 
-namespace test_finite_element_gears {
+namespace gearpod::stiffness::test_finite_element_gears {
 
-using namespace gearpod;
-using namespace gearpod::stiffness;
 using finite_elements::Row;
-
-namespace {
 
 gears::Gear shifted(int teeth, bool internal, double shift, double shortening = 0) {
     gears::Gear gear{teeth, internal, test_pairs::kModule, test_pairs::kPressureAngle};
@@ -199,8 +186,6 @@ Helical helical_named(const std::string& name) {
     };
     return {mesh(leaning), mesh(plain), overlap};
 }
-
-}  // namespace
 
 TEST_CASE("the finite elements' outlines are in contact where the program's gears are") {
     const std::vector<mesh_level::LevelPair> levels = mesh_level::all_pairs();
@@ -398,4 +383,4 @@ TEST_CASE("helical mesh stiffness over the solids'", "[.fem]") {
     }
 }
 
-}  // namespace test_finite_element_gears
+}  // namespace gearpod::stiffness::test_finite_element_gears

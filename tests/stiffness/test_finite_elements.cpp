@@ -1,19 +1,13 @@
 // Checks Liang (2016), section 3.7: 23/23 aluminium gears, healthy and with a crack of 4.7 mm,
 // against finite elements. Table and its computation: tests/peers/fem-liang-table-3-5/README.md.
-#include <catch2/catch.hpp>
-
 #include "stiffness/additive_mesh.hpp"
 #include "stiffness/coupled_mesh.hpp"
 #include "stiffness/faults/tooth_crack.hpp"
 #include "tests/reference_tables.hpp"
 #include "tests/stiffness/gear_pairs.hpp"
+#include "tests/test.hpp"
 
-namespace test_finite_elements {
-
-using namespace gearpod;
-using namespace gearpod::stiffness;
-
-namespace {
+namespace gearpod::stiffness::test_finite_elements {
 
 struct Row {
     double phase = 0;
@@ -73,8 +67,6 @@ struct AluminiumPair : TestGears {
     double crack_entering(const Row& row) const { return at.crack_entering(row); }
     double crack_leaving(const Row& row) const { return at.crack_leaving(row); }
 };
-
-}  // namespace
 
 TEST_CASE("Liang's test gears have the published contact ratio and angle of meshing") {
     const AluminiumPair pair;
@@ -180,4 +172,4 @@ TEST_CASE("A load-dependent contact is 12 % softer than the finite elements") {
     }
 }
 
-}  // namespace test_finite_elements
+}  // namespace gearpod::stiffness::test_finite_elements

@@ -1,15 +1,10 @@
-#include <catch2/catch.hpp>
-#include <cmath>
-#include <stdexcept>
-
 #include "stiffness/foundation/elastic_ring.hpp"
 #include "stiffness/foundation/foundation_models.hpp"
 #include "tests/stiffness/yang_gears.hpp"
+#include "tests/test.hpp"
 
-namespace test_foundation {
+namespace gearpod::stiffness::test_foundation {
 
-using namespace gearpod;
-using namespace gearpod::stiffness;
 using namespace yang_gears;
 
 TEST_CASE(
@@ -153,4 +148,4 @@ TEST_CASE("a foundation out of range is reported, an impossible one is refused")
                           kRingOuter) == nullptr);
 }
 
-}  // namespace test_foundation
+}  // namespace gearpod::stiffness::test_foundation

@@ -1,8 +1,4 @@
 // Checks tooth pairs with gaps: relief, crowning and contact beyond the nominal path.
-#include <algorithm>
-#include <catch2/catch.hpp>
-#include <cmath>
-
 #include "gears/flank_gaps.hpp"
 #include "stiffness/additive_mesh.hpp"
 #include "stiffness/coupled_mesh.hpp"
@@ -11,14 +7,11 @@
 #include "stiffness/helical_mesh.hpp"
 #include "stiffness/loaded_mesh.hpp"
 #include "tests/stiffness/gear_pairs.hpp"
+#include "tests/test.hpp"
 
-namespace test_gapped_mesh {
+namespace gearpod::stiffness::test_gapped_mesh {
 
-using namespace gearpod;
-using namespace gearpod::stiffness;
 using namespace test_pairs;
-
-namespace {
 
 const gears::MeshGeometry kSunPlanet(external(19), external(31));
 const gears::MeshGeometry kRingPlanet(external(31), internal(81));
@@ -55,8 +48,6 @@ double secant(const MeshStiffness& mesh, double tau) {
     mesh.total({&tau, 1}, tau, {&k, 1});
     return k;
 }
-
-}  // namespace
 
 TEST_CASE("without gaps each tooth pair keeps its stiffness") {
     for (const bool bodies : {false, true}) {
@@ -380,4 +371,4 @@ TEST_CASE("a fault softens its own tooth pair over the whole extended contact") 
     }
 }
 
-}  // namespace test_gapped_mesh
+}  // namespace gearpod::stiffness::test_gapped_mesh

@@ -1,9 +1,5 @@
 // Checks helical pairs as thin slices of the spur pair against sums of separate slices, and
 // properties that hold for any slices.
-#include <catch2/catch.hpp>
-#include <cmath>
-#include <memory>
-
 #include "stiffness/additive_mesh.hpp"
 #include "stiffness/coupled_mesh.hpp"
 #include "stiffness/faults/chip.hpp"
@@ -13,14 +9,11 @@
 #include "stiffness/helical_mesh.hpp"
 #include "stiffness/teeth/tooth_compliance.hpp"
 #include "tests/stiffness/gear_pairs.hpp"
+#include "tests/test.hpp"
 
-namespace test_helical_mesh {
+namespace gearpod::stiffness::test_helical_mesh {
 
-using namespace gearpod;
-using namespace gearpod::stiffness;
 using namespace test_pairs;
-
-namespace {
 
 const gears::MeshGeometry kPlanetRing(external(31), internal(81));
 
@@ -58,8 +51,6 @@ double faulty_total(const FaultyMesh& faulty, const MeshStiffness& mesh, double 
     return tau < 0 || tau > faulty.duration() ? total_at(mesh, tau)
                                               : total_at(faulty, mesh.transitions(), tau);
 }
-
-}  // namespace
 
 TEST_CASE("a helical pair is the sum of its slices, each a spur pair that engages later") {
     for (const auto& make : {additive, coupled}) {
@@ -264,4 +255,4 @@ TEST_CASE("an overlap ratio must be positive") {
     CHECK_THROWS_WITH(HelicalMesh(additive(), 0), Catch::Contains("must be positive"));
 }
 
-}  // namespace test_helical_mesh
+}  // namespace gearpod::stiffness::test_helical_mesh

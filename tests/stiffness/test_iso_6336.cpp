@@ -1,24 +1,13 @@
 // Checks the mean mesh stiffness against ISO 6336-1:2006, method B (c_gamma_alpha), for steel gears
 // with and without profile shift and helix.
-#include <algorithm>
-#include <catch2/catch.hpp>
-#include <cmath>
-#include <cstdio>
-#include <numbers>
-#include <vector>
-
 #include "gears/mesh_geometry.hpp"
 #include "stiffness/additive_mesh.hpp"
 #include "stiffness/coupled_mesh.hpp"
 #include "stiffness/iso_6336.hpp"
 #include "tests/stiffness/mesh_level_pairs.hpp"
+#include "tests/test.hpp"
 
-namespace test_iso_6336 {
-
-using namespace gearpod;
-using namespace gearpod::stiffness;
-
-namespace {
+namespace gearpod::stiffness::test_iso_6336 {
 
 struct Pair {
     int z_1, z_2;
@@ -97,8 +86,6 @@ Ratios ratios(const Pair& p) {
             with_bodies(mesh, steel(p), FoundationModel::sainsot, Profile::fillet) / iso};
 }
 
-}  // namespace
-
 // Source: KISSsoft's reports on the stages of the NREL 5 MW gearbox (tests/gears), c' and
 // c_gamma_alpha rounded to three decimals. The gear blank factor is that of a web of a quarter of
 // the face width.
@@ -166,17 +153,12 @@ TEST_CASE("mean mesh stiffness compared with ISO 6336-1", "[.table]") {
     }
 }
 
-}  // namespace test_iso_6336
+}  // namespace gearpod::stiffness::test_iso_6336
 
 // Checks the nominal tooth stresses by ISO 6336 against printed values of another program and
 // against Hertz' line contact.
 
-namespace test_iso_6336_stress {
-
-using namespace gearpod;
-using namespace gearpod::stiffness;
-
-namespace {
+namespace gearpod::stiffness::test_iso_6336_stress {
 
 constexpr double kPaPerMPa = 1e6;
 
@@ -188,8 +170,6 @@ gears::Gear standard_gear(int teeth, bool internal = false) {
     gear.pressure_angle_rad = 20.0 * std::numbers::pi / 180.0;
     return gear;
 }
-
-}  // namespace
 
 // Source: KISSsoft 03/2017, ISO 6336:2006 method B, reports on stages 2 and 3 of the NREL 5 MW
 // gearbox (docs/validation/mesh-stiffness-level.md), sigma_H0 and sigma_F0. The ring of the report
@@ -250,13 +230,13 @@ TEST_CASE("contact stress grows with the root of the force, root stress with the
     CHECK(one.root_1_Pa > one.root_2_Pa);
 }
 
-}  // namespace test_iso_6336_stress
+}  // namespace gearpod::stiffness::test_iso_6336_stress
 
 // Checks the gear blank factor of ISO 6336-1 against hand calculation and the standard's limits.
 
-namespace test_gear_blank {
+namespace gearpod::test_gear_blank {
 
-using gearpod::stiffness::gear_blank_factor;
+using stiffness::gear_blank_factor;
 
 // A wheel of module 4 mm, 20 mm wide, on a web of 6 mm, its rim 8 mm thick: ln 0.3 = -1.2039728,
 // 5 exp(0.4) = 7.4591235.
@@ -287,4 +267,4 @@ TEST_CASE("Thicker webs and rims are stiffer") {
         }
 }
 
-}  // namespace test_gear_blank
+}  // namespace gearpod::test_gear_blank

@@ -1,20 +1,12 @@
 // Checks quasi-static contact under load, without and with relief.
-#include <catch2/catch.hpp>
-#include <cmath>
-#include <numbers>
-
 #include "gears/flank_gaps.hpp"
 #include "stiffness/additive_mesh.hpp"
 #include "stiffness/gapped_mesh.hpp"
 #include "stiffness/loaded_mesh.hpp"
 #include "stiffness/square_wave_mesh.hpp"
+#include "tests/test.hpp"
 
-namespace test_loaded_mesh {
-
-using namespace gearpod;
-using namespace gearpod::stiffness;
-
-namespace {
+namespace gearpod::stiffness::test_loaded_mesh {
 
 // Two equally stiff pairs, one at a time or both.
 const SquareWaveMesh kAlike(1e9, 2e9, 1.6);
@@ -59,8 +51,6 @@ gears::MeshGeometry spur(int one, int two) {
     mate.teeth = two;
     return {gear, mate};
 }
-
-}  // namespace
 
 TEST_CASE("the approach of perfect flanks is the force over the stiffness") {
     const LoadedMesh mesh(kAlike, kForce);
@@ -131,4 +121,4 @@ TEST_CASE("on involute teeth the best long relief is near one pair's deflection"
     CHECK(best == Approx(1).margin(0.15));
 }
 
-}  // namespace test_loaded_mesh
+}  // namespace gearpod::stiffness::test_loaded_mesh

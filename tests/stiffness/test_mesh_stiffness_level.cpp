@@ -1,20 +1,12 @@
 // Checks the level of the mesh stiffness by every model of the gear bodies against ISO 6336-1 and
 // finite elements: docs/validation/mesh-stiffness-level.md.
-#include <catch2/catch.hpp>
-#include <cstdio>
-#include <string>
-#include <vector>
-
 #include "stiffness/iso_6336.hpp"
 #include "tests/stiffness/mesh_level_pairs.hpp"
+#include "tests/test.hpp"
 
-namespace test_mesh_stiffness_level {
+namespace gearpod::stiffness::test_mesh_stiffness_level {
 
-using namespace gearpod;
-using namespace gearpod::stiffness;
 using mesh_level::LevelPair;
-
-namespace {
 
 // Means over a mesh period, N/(mm um); 0 without finite elements.
 struct Level {
@@ -45,8 +37,6 @@ Level level_of(const LevelPair& p) {
 bool within(double ratio, double low, double high) {
     return ratio > low && ratio < high;
 }
-
-}  // namespace
 
 TEST_CASE("of all models, elastic rings with linear contacts agree with finite elements") {
     int pairs = 0;
@@ -114,4 +104,4 @@ TEST_CASE("mesh stiffness by every model of the bodies", "[.level]") {
                     l.untwisted_ring / l.iso);
 }
 
-}  // namespace test_mesh_stiffness_level
+}  // namespace gearpod::stiffness::test_mesh_stiffness_level

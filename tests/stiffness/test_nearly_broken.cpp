@@ -1,20 +1,12 @@
 // Checks cracks just short of breaking the tooth: the sections vanish there, and rounding
 // dominates.
-#include <catch2/catch.hpp>
-#include <cmath>
-#include <numbers>
-
 #include "stiffness/additive_mesh.hpp"
 #include "stiffness/faults/spatial_crack.hpp"
 #include "stiffness/faults/tooth_crack.hpp"
 #include "stiffness/teeth/crack.hpp"
+#include "tests/test.hpp"
 
-namespace test_nearly_broken {
-
-using namespace gearpod;
-using namespace gearpod::stiffness;
-
-namespace {
+namespace gearpod::stiffness::test_nearly_broken {
 
 constexpr double kDegree = std::numbers::pi / 180;
 const Material kSteel{2.06e11, 0.3, 0.018};
@@ -33,8 +25,6 @@ void check_range(const AdditiveMesh& mesh, const ToothFault& fault) {
         CHECK(k <= mesh.tooth_pair(tau) * (1 + 1e-6));
     }
 }
-
-}  // namespace
 
 TEST_CASE("a crack just short of breaking the tooth leaves a stiffness between zero and healthy") {
     for (const Profile profile : {Profile::base_circle, Profile::root_circle, Profile::fillet}) {
@@ -69,4 +59,4 @@ TEST_CASE("a crack that starts above the root may exit the tooth below its start
     }
 }
 
-}  // namespace test_nearly_broken
+}  // namespace gearpod::stiffness::test_nearly_broken

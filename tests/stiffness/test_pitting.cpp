@@ -1,18 +1,12 @@
-#include <catch2/catch.hpp>
-#include <cmath>
-
 #include "stiffness/additive_mesh.hpp"
 #include "stiffness/faults/pitting.hpp"
 #include "stiffness/teeth/tooth_compliance.hpp"
 #include "tests/stiffness/gear_pairs.hpp"
+#include "tests/test.hpp"
 
-namespace test_pitting {
+namespace gearpod::stiffness::test_pitting {
 
-using namespace gearpod;
-using namespace gearpod::stiffness;
 using namespace test_pairs;
-
-namespace {
 
 const gears::MeshGeometry kMesh(external(19), external(31));
 const double kFace = kLiangSteel.face_width_m;
@@ -67,8 +61,6 @@ double extra_compliance(double tau, double width, double depth) {
     }
     return sum;
 }
-
-}  // namespace
 
 TEST_CASE("pits reduce the contact width along their length of the profile") {
     const ToothPitting family(kMesh, kLiangSteel, Profile::root_circle, 1, band_of(0));
@@ -164,4 +156,4 @@ TEST_CASE("pits that do not fit on the flank are reported as such") {
     CHECK(problems({kMesh.gear(1).pitch_radius(), 0, 0, 1}, 10e-3).size() == 1);
 }
 
-}  // namespace test_pitting
+}  // namespace gearpod::stiffness::test_pitting

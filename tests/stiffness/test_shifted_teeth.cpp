@@ -1,19 +1,11 @@
 // Checks teeth of shifted gears: the beam's compliance from points of the flank alone, and the
 // contact positions of a pair.
-#include <catch2/catch.hpp>
-#include <cmath>
-#include <numbers>
-
 #include "gears/mesh_geometry.hpp"
 #include "stiffness/additive_mesh.hpp"
 #include "stiffness/teeth/tooth_compliance.hpp"
+#include "tests/test.hpp"
 
-namespace test_shifted_teeth {
-
-using namespace gearpod;
-using namespace gearpod::stiffness;
-
-namespace {
+namespace gearpod::stiffness::test_shifted_teeth {
 
 constexpr double kAngle = 20 * std::numbers::pi / 180;
 const Material kSteel{2.06e11, 0.3, 0.02, true};
@@ -70,8 +62,6 @@ double compliance_of_points(const gears::Gear& gear, double contact_radius, doub
     }
     return sum;
 }
-
-}  // namespace
 
 TEST_CASE("the compliance of a shifted tooth is that of the slices between its flanks") {
     const auto set = bell();
@@ -139,4 +129,4 @@ TEST_CASE("thicker roots stiffen a pinion, and explicit zero shifts change no bi
     }
 }
 
-}  // namespace test_shifted_teeth
+}  // namespace gearpod::stiffness::test_shifted_teeth

@@ -1,20 +1,13 @@
-#include <catch2/catch.hpp>
-#include <cmath>
-#include <stdexcept>
-
 #include "stiffness/additive_mesh.hpp"
 #include "stiffness/faults/spatial_crack.hpp"
 #include "stiffness/faults/tooth_crack.hpp"
 #include "stiffness/teeth/tooth_compliance.hpp"
 #include "tests/stiffness/yang_gears.hpp"
+#include "tests/test.hpp"
 
-namespace test_spatial_crack {
+namespace gearpod::stiffness::test_spatial_crack {
 
-using namespace gearpod;
-using namespace gearpod::stiffness;
 using namespace yang_gears;
-
-namespace {
 
 std::vector<double> positions(double contact_ratio, int count) {
     std::vector<double> tau(count);
@@ -56,8 +49,6 @@ double uniform_slices(const gears::MeshGeometry& mesh, int which, const CrackSur
 CrackGrowth single(double q1, double q2, double L_c, double l1, double l2, double g1, double g2) {
     return {{q1}, {q2}, {L_c}, {l1}, {l2}, g1, g2};
 }
-
-}  // namespace
 
 TEST_CASE("the crack's surface has the limits of Yang's equations 61 to 66") {
     const double L = 0.018;
@@ -266,4 +257,4 @@ TEST_CASE("an invalid crack is refused with all reasons") {
                     std::invalid_argument);
 }
 
-}  // namespace test_spatial_crack
+}  // namespace gearpod::stiffness::test_spatial_crack

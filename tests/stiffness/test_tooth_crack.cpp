@@ -1,21 +1,13 @@
-#include <catch2/catch.hpp>
-#include <cmath>
-#include <random>
-#include <stdexcept>
-
 #include "machine/instruction_sets.hpp"
 #include "stiffness/additive_mesh.hpp"
 #include "stiffness/faults/tooth_crack.hpp"
 #include "stiffness/teeth/tooth_compliance.hpp"
 #include "tests/stiffness/gear_pairs.hpp"
+#include "tests/test.hpp"
 
-namespace test_tooth_crack {
+namespace gearpod::stiffness::test_tooth_crack {
 
-using namespace gearpod;
-using namespace gearpod::stiffness;
 using namespace test_pairs;
-
-namespace {
 
 // A cracked pair of teeth for all depths.
 struct CrackedPair {
@@ -59,8 +51,6 @@ std::vector<double> random_depths(std::mt19937_64& engine, int count) {
     }
     return depths;
 }
-
-}  // namespace
 
 TEST_CASE(
     "curves of a cracked pair agree with quadrature to 1e-8 of the healthy stiffness at every "
@@ -174,4 +164,4 @@ TEST_CASE("an invalid crack is refused") {
                     std::invalid_argument);
 }
 
-}  // namespace test_tooth_crack
+}  // namespace gearpod::stiffness::test_tooth_crack

@@ -6,10 +6,9 @@
 // code. Compliances in m/N.
 #pragma once
 
-#include <array>
-
 #include "gears/gear.hpp"
 #include "tests/stiffness/printed_forms.hpp"
+#include "tests/test.hpp"
 
 namespace yang {
 

@@ -1,17 +1,9 @@
-#include <catch2/catch.hpp>
-#include <cmath>
-#include <random>
-
 #include "analysis/comparison/comparison.hpp"
 #include "analysis/statistics/interval.hpp"
 #include "analysis/statistics/link.hpp"
+#include "tests/test.hpp"
 
-namespace test_comparison {
-
-using namespace gearpod;
-using namespace gearpod::analysis;
-
-namespace {
+namespace gearpod::analysis::test_comparison {
 
 // Noise of the two sensors; the gearbox-to-gearbox part is 0.5.
 constexpr double kNoiseA = 0.7, kNoiseB = 0.35;
@@ -190,6 +182,4 @@ TEST_CASE("Intervals of differences over many studies", "[.rare-coverage]") {
     check_coverage(false, 2000, 400);
 }
 
-}  // namespace
-
-}  // namespace test_comparison
+}  // namespace gearpod::analysis::test_comparison

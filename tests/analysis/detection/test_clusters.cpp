@@ -1,21 +1,13 @@
 // Checks false-alarm rates of thresholds set from several recordings of each gearbox.
-#include <algorithm>
 #include <boost/math/distributions/normal.hpp>
-#include <catch2/catch.hpp>
-#include <cmath>
-#include <random>
 
 #include "analysis/detection/detection.hpp"
 #include "analysis/detection/false_alarm_rate.hpp"
 #include "analysis/detection/healthy_thresholds.hpp"
 #include "analysis/detection/threshold.hpp"
+#include "tests/test.hpp"
 
-namespace test_clusters {
-
-using namespace gearpod;
-using namespace gearpod::analysis;
-
-namespace {
+namespace gearpod::analysis::test_clusters {
 
 // Normal features of variance 1, of which a given share is between gearboxes. The rate beyond any
 // threshold is therefore known.
@@ -199,6 +191,4 @@ TEST_CASE("Equal records of one gearbox do not make a feature constant") {
     CHECK_THAT(warning_of(zeros), Catch::Contains("the feature is constant"));
 }
 
-}  // namespace
-
-}  // namespace test_clusters
+}  // namespace gearpod::analysis::test_clusters

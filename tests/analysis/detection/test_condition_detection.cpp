@@ -1,14 +1,7 @@
-#include <catch2/catch.hpp>
-#include <cmath>
-
 #include "analysis/detection/condition_detection.hpp"
+#include "tests/test.hpp"
 
-namespace test_condition_detection {
-
-using namespace gearpod;
-using namespace gearpod::analysis;
-
-namespace {
+namespace gearpod::analysis::test_condition_detection {
 
 // A feature that is torque plus fault, in small steps, with no scatter beyond `step`.
 struct Sample {
@@ -103,6 +96,4 @@ TEST_CASE("Conditions without a threshold do not count; continuous inputs are no
                     std::invalid_argument);
 }
 
-}  // namespace
-
-}  // namespace test_condition_detection
+}  // namespace gearpod::analysis::test_condition_detection

@@ -1,18 +1,10 @@
 #include <boost/math/distributions/normal.hpp>
-#include <catch2/catch.hpp>
-#include <cmath>
-#include <limits>
-#include <random>
 
 #include "analysis/detection/detection.hpp"
 #include "analysis/detection/threshold.hpp"
+#include "tests/test.hpp"
 
-namespace test_detection {
-
-using namespace gearpod;
-using namespace gearpod::analysis;
-
-namespace {
+namespace gearpod::analysis::test_detection {
 
 const double kNan = std::numeric_limits<double>::quiet_NaN();
 
@@ -172,6 +164,4 @@ TEST_CASE("The reliable size needs all larger sizes above it and is never the he
     CHECK(!reliable_size(level, 0.9));
 }
 
-}  // namespace
-
-}  // namespace test_detection
+}  // namespace gearpod::analysis::test_detection

@@ -1,17 +1,8 @@
-#include <algorithm>
-#include <catch2/catch.hpp>
-#include <cmath>
-#include <random>
-
 #include "analysis/detection/false_alarm_rate.hpp"
 #include "analysis/detection/threshold.hpp"
+#include "tests/test.hpp"
 
-namespace test_false_alarm_rate {
-
-using namespace gearpod;
-using namespace gearpod::analysis;
-
-namespace {
+namespace gearpod::analysis::test_false_alarm_rate {
 
 TEST_CASE("A threshold's rate interval is that of the order statistic") {
     // R: qbeta(c(0.025, 0.975), 100, 1901), reference/reference_R.txt.
@@ -91,6 +82,4 @@ TEST_CASE("Healthy rates follow the count and the threshold's own law") {
     CHECK(sharp.upper == Approx(0.3676219226).epsilon(1e-4));
 }
 
-}  // namespace
-
-}  // namespace test_false_alarm_rate
+}  // namespace gearpod::analysis::test_false_alarm_rate

@@ -1,22 +1,13 @@
 // Checks thresholds from weighted records where the rate beyond every value is known. Gearboxes
 // have a normal or an exponential law with normal noise of variance 1, and records are
 // exponentially tilted towards alarms by shifts of the noise.
-#include <algorithm>
-#include <array>
 #include <boost/math/distributions/normal.hpp>
-#include <catch2/catch.hpp>
-#include <cmath>
-#include <random>
 
 #include "analysis/detection/detection.hpp"
 #include "analysis/detection/healthy_thresholds.hpp"
+#include "tests/test.hpp"
 
-namespace test_importance_sample {
-
-using namespace gearpod;
-using namespace gearpod::analysis;
-
-namespace {
+namespace gearpod::analysis::test_importance_sample {
 
 const boost::math::normal kNormal;
 constexpr std::array kShifts{0.0, 2.0, 3.5, 5.0};
@@ -250,6 +241,4 @@ TEST_CASE("Plain records of gearboxes give order statistics and no tail beyond t
     CHECK(std::isnan(records.at(5e-5, 0.95).value));
 }
 
-}  // namespace
-
-}  // namespace test_importance_sample
+}  // namespace gearpod::analysis::test_importance_sample

@@ -1,18 +1,11 @@
 // Checks rates of rare values by multilevel splitting where the rates are known: gearboxes with
 // independent normal inputs whose sum is the value.
 #include <boost/math/distributions/normal.hpp>
-#include <catch2/catch.hpp>
-#include <cmath>
-#include <numbers>
 
 #include "analysis/detection/splitting.hpp"
+#include "tests/test.hpp"
 
-namespace test_splitting {
-
-using namespace gearpod;
-using namespace gearpod::analysis;
-
-namespace {
+namespace gearpod::analysis::test_splitting {
 
 constexpr int kInputs = 20;
 const boost::math::normal kNormal;
@@ -190,6 +183,4 @@ TEST_CASE("Interval coverage of rates by splitting", "[.rare-coverage][splitting
     }
 }
 
-}  // namespace
-
-}  // namespace test_splitting
+}  // namespace gearpod::analysis::test_splitting

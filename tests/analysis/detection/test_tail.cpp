@@ -1,20 +1,11 @@
 // Checks thresholds beyond the healthy sample against laws with known tails.
-#include <algorithm>
 #include <boost/math/distributions/chi_squared.hpp>
 #include <boost/math/distributions/normal.hpp>
-#include <catch2/catch.hpp>
-#include <cmath>
-#include <functional>
-#include <random>
 
 #include "analysis/detection/threshold.hpp"
+#include "tests/test.hpp"
 
-namespace test_tail {
-
-using namespace gearpod;
-using namespace gearpod::analysis;
-
-namespace {
+namespace gearpod::analysis::test_tail {
 
 // A law by its upper tail: the value for a probability of exceedance, and that probability.
 struct Law {
@@ -181,6 +172,4 @@ TEST_CASE("A threshold beyond the sample comes from the fitted tail, for either 
     CHECK(std::isnan(alarm_threshold(high, Alarm::high, 1e-4).value));
 }
 
-}  // namespace
-
-}  // namespace test_tail
+}  // namespace gearpod::analysis::test_tail

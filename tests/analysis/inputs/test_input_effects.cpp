@@ -1,17 +1,9 @@
-#include <catch2/catch.hpp>
-#include <cmath>
-#include <random>
-
 #include "analysis/inputs/input_effects.hpp"
 #include "analysis/statistics/interval.hpp"
 #include "tests/analysis/reference_data.hpp"
+#include "tests/test.hpp"
 
-namespace test_input_effects {
-
-using namespace gearpod;
-using namespace gearpod::analysis;
-
-namespace {
+namespace gearpod::analysis::test_input_effects {
 
 using Where = SizeEstimate::Where;
 
@@ -209,6 +201,4 @@ TEST_CASE("Bounds of the a90 map cover the truth; the test keeps its level", "[.
     CHECK(false_alarms / kStudies == Approx(0.05).margin(0.015));
 }
 
-}  // namespace
-
-}  // namespace test_input_effects
+}  // namespace gearpod::analysis::test_input_effects

@@ -1,16 +1,8 @@
-#include <catch2/catch.hpp>
-#include <cmath>
-#include <random>
-
 #include "analysis/inputs/miss_sensitivity.hpp"
 #include "analysis/statistics/link.hpp"
+#include "tests/test.hpp"
 
-namespace test_miss_sensitivity {
-
-using namespace gearpod;
-using namespace gearpod::analysis;
-
-namespace {
+namespace gearpod::analysis::test_miss_sensitivity {
 
 // Gearboxes are detected where size - torque's effect + scatter exceeds 1.
 struct Study {
@@ -102,6 +94,4 @@ TEST_CASE("Without misses or hits there is no influence to estimate") {
     CHECK(!miss_sensitivity({}, {}, {}, 0.95).refusal.empty());
 }
 
-}  // namespace
-
-}  // namespace test_miss_sensitivity
+}  // namespace gearpod::analysis::test_miss_sensitivity

@@ -1,15 +1,7 @@
-#include <catch2/catch.hpp>
-#include <cmath>
-#include <random>
-
 #include "analysis/inputs/uncertain_inputs.hpp"
+#include "tests/test.hpp"
 
-namespace test_uncertain_inputs {
-
-using namespace gearpod;
-using namespace gearpod::analysis;
-
-namespace {
+namespace gearpod::analysis::test_uncertain_inputs {
 
 // Synthetic campaign with logit POD = -6 + 3 a + effect . z for independent standard normal z. The
 // a90 is then normal with mean (log 9 + 6) / 3; its standard deviation is the root sum of squares
@@ -43,8 +35,6 @@ struct Campaign {
 
 constexpr double kQuantile = 1.6448536;  // of the normal law at 95 %
 const double kMiddle = (std::log(9.0) + 6.0) / 3.0;
-
-}  // namespace
 
 TEST_CASE("The band of two uncertain inputs has their combined width") {
     const Campaign campaign(40000, 1.5, 2.0);
@@ -82,4 +72,4 @@ TEST_CASE("Without a varying input, or without a curve, there is no band") {
     CHECK(refused.band().band.empty());
 }
 
-}  // namespace test_uncertain_inputs
+}  // namespace gearpod::analysis::test_uncertain_inputs

@@ -1,17 +1,10 @@
 // Checks deviations of later records from a baseline of the gearbox's first records.
 #include <boost/math/distributions/students_t.hpp>
-#include <catch2/catch.hpp>
-#include <cmath>
-#include <random>
 
 #include "analysis/monitoring/baseline_deviations.hpp"
+#include "tests/test.hpp"
 
-namespace test_baseline_deviations {
-
-using namespace gearpod;
-using namespace gearpod::analysis;
-
-namespace {
+namespace gearpod::analysis::test_baseline_deviations {
 
 // Share of deviations of one further healthy record beyond the upper 5 % point of Student's t.
 double share_beyond(std::size_t baseline, bool with_condition, double freedom) {
@@ -120,6 +113,4 @@ TEST_CASE("Fused features have unit variance and detect a common shift sooner") 
     CHECK(with_constant.back() == Approx(alone.back()).epsilon(1e-12));
 }
 
-}  // namespace
-
-}  // namespace test_baseline_deviations
+}  // namespace gearpod::analysis::test_baseline_deviations

@@ -1,15 +1,8 @@
 // Checks the size from which a crack has an effect on monitored values.
-#include <catch2/catch.hpp>
-#include <cmath>
-#include <random>
-
 #include "analysis/monitoring/monitor_performance.hpp"
+#include "tests/test.hpp"
 
-namespace test_crack_effect {
-
-using namespace gearpod::analysis;
-
-namespace {
+namespace gearpod::analysis::test_crack_effect {
 
 // Independent standard normal values; those of cracked lives move by `slope` for each unit of size
 // beyond 1, and the size grows from 0 to 4.
@@ -84,6 +77,4 @@ TEST_CASE("Alarms before the crack's effect are false, and give no warning") {
     }
 }
 
-}  // namespace
-
-}  // namespace test_crack_effect
+}  // namespace gearpod::analysis::test_crack_effect

@@ -1,19 +1,11 @@
 // Checks false alarms per 1000 machine hours: thresholds, counts and the coverage of their
 // intervals.
-#include <catch2/catch.hpp>
-#include <cmath>
-#include <random>
-
 #include "analysis/detection/threshold.hpp"
 #include "analysis/monitoring/baseline_deviations.hpp"
 #include "analysis/monitoring/false_alarms.hpp"
+#include "tests/test.hpp"
 
-namespace test_false_alarms {
-
-using namespace gearpod;
-using namespace gearpod::analysis;
-
-namespace {
+namespace gearpod::analysis::test_false_alarms {
 
 using Engine = std::mt19937_64;
 
@@ -145,6 +137,4 @@ TEST_CASE("Intervals of false alarms hold in 95 of 100 campaigns", "[.rare-cover
     }
 }
 
-}  // namespace
-
-}  // namespace test_false_alarms
+}  // namespace gearpod::analysis::test_false_alarms

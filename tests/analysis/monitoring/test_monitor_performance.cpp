@@ -1,17 +1,8 @@
 // Checks the summary of a monitor's performance on lives whose detections are known.
-#include <algorithm>
-#include <catch2/catch.hpp>
-#include <cmath>
-#include <random>
-
 #include "analysis/monitoring/monitor_performance.hpp"
+#include "tests/test.hpp"
 
-namespace test_monitor_performance {
-
-using namespace gearpod;
-using namespace gearpod::analysis;
-
-namespace {
+namespace gearpod::analysis::test_monitor_performance {
 
 // Values are 0 except one `peak` in each healthy life, so that thresholds equal it.
 std::vector<HealthyLife> healthy_lives(int lives, int records, double peak) {
@@ -123,6 +114,4 @@ TEST_CASE("A quantile's bound has its nominal coverage") {
     CHECK(share < 0.99);
 }
 
-}  // namespace
-
-}  // namespace test_monitor_performance
+}  // namespace gearpod::analysis::test_monitor_performance

@@ -1,18 +1,9 @@
 // Checks the order of monitored detectors: what false alarms alone find does not count, and alarms
 // at random never come first.
-#include <algorithm>
-#include <catch2/catch.hpp>
-#include <cmath>
-#include <random>
-#include <vector>
-
 #include "analysis/monitoring/monitor_performance.hpp"
+#include "tests/test.hpp"
 
-namespace test_monitor_ranking {
-
-using namespace gearpod::analysis;
-
-namespace {
+namespace gearpod::analysis::test_monitor_ranking {
 
 constexpr double kStated = 2.0;  // false alarms in 1000 h
 constexpr int kRecords = 100;    // of a life, one an hour
@@ -81,8 +72,6 @@ MonitorPerformance made(long found, long ended, double chance, double per_1000_h
     return out;
 }
 
-}  // namespace
-
 TEST_CASE("A detector that finds everything by chance ranks after one without false alarms") {
     // Sixteen of sixteen each; false alarms alone find half of them with the first.
     const auto trend = made(16, 16, 0.5, 2.0, 3.0), two_of_three = made(16, 16, 0.0, 0.0, 0.4);
@@ -139,4 +128,4 @@ TEST_CASE("Alarms at random never come first, and never where cracks are found")
     CHECK(ranked <= 1);  // one in a thousand at most, each
 }
 
-}  // namespace test_monitor_ranking
+}  // namespace gearpod::analysis::test_monitor_ranking

@@ -2,18 +2,11 @@
 // equations and Markov chains.
 #include <Eigen/Dense>
 #include <boost/math/quadrature/gauss.hpp>
-#include <catch2/catch.hpp>
-#include <cmath>
-#include <random>
 
 #include "analysis/monitoring/detector.hpp"
+#include "tests/test.hpp"
 
-namespace test_run_lengths {
-
-using namespace gearpod;
-using namespace gearpod::analysis;
-
-namespace {
+namespace gearpod::analysis::test_run_lengths {
 
 double phi(double x) {
     return std::exp(-0.5 * x * x) / std::sqrt(2.0 * std::acos(-1.0));
@@ -249,6 +242,4 @@ TEST_CASE("A missing value leaves a detector unchanged, and an alarm resets it")
     CHECK(detector_alarms(cusum, std::vector<double>{1, 1}, nan).alarms.empty());
 }
 
-}  // namespace
-
-}  // namespace test_run_lengths
+}  // namespace gearpod::analysis::test_run_lengths

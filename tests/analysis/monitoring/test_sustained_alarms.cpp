@@ -1,17 +1,8 @@
 // Checks sustained alarms, alarms of held-out healthy records, and the drift of a level.
-#include <catch2/catch.hpp>
-#include <cmath>
-#include <random>
-#include <vector>
-
 #include "analysis/monitoring/sustained_alarms.hpp"
+#include "tests/test.hpp"
 
-namespace test_sustained_alarms {
-
-using namespace gearpod;
-using namespace gearpod::analysis;
-
-namespace {
+namespace gearpod::analysis::test_sustained_alarms {
 
 constexpr double kThreshold = 6.0;
 
@@ -132,6 +123,4 @@ TEST_CASE("A drift is found with its size, and white noise has none") {
     CHECK(drift_of(rising).p_value == Approx(std::erfc(3.9354797 / std::sqrt(2.0))).epsilon(1e-6));
 }
 
-}  // namespace
-
-}  // namespace test_sustained_alarms
+}  // namespace gearpod::analysis::test_sustained_alarms

@@ -1,13 +1,8 @@
 // Inspections of analysis/reference and requests for their curves.
 #pragma once
 
-#include <cmath>
-#include <fstream>
-#include <sstream>
-#include <stdexcept>
-#include <string>
-
 #include "analysis/inspection.hpp"
+#include "tests/test.hpp"
 
 namespace gearpod::analysis {
 

@@ -2,13 +2,7 @@
 // properties that they must have. Their coverage is measured in test_pod_coverage.cpp.
 #include <fmt/format.h>
 
-#include <catch2/catch.hpp>
-#include <cmath>
-#include <fstream>
-#include <iterator>
-#include <limits>
 #include <nlohmann/json.hpp>
-#include <random>
 
 #include "analysis/inspection.hpp"
 #include "analysis/pod/calibrated_bounds.hpp"
@@ -16,13 +10,9 @@
 #include "analysis/report/inspection_report.hpp"
 #include "analysis/statistics/link.hpp"
 #include "tests/analysis/pod/inspection_examples.hpp"
+#include "tests/test.hpp"
 
-namespace test_calibrated_bounds {
-
-using namespace gearpod;
-using namespace gearpod::analysis;
-
-namespace {
+namespace gearpod::analysis::test_calibrated_bounds {
 
 // First `count` of the responses.
 Inspections first_responses(std::size_t count) {
@@ -248,6 +238,4 @@ TEST_CASE("Values that are not finite, and few specimens, are refused") {
                Catch::Contains("only 9 specimens with repeated values"));
 }
 
-}  // namespace
-
-}  // namespace test_calibrated_bounds
+}  // namespace gearpod::analysis::test_calibrated_bounds

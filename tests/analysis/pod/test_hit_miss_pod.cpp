@@ -1,16 +1,9 @@
-#include <catch2/catch.hpp>
-#include <cmath>
-
 #include "analysis/pod/hit_miss_pod.hpp"
 #include "analysis/pod/pod_bounds.hpp"
 #include "tests/analysis/reference_data.hpp"
+#include "tests/test.hpp"
 
-namespace test_hit_miss_pod {
-
-using namespace gearpod;
-using namespace gearpod::analysis;
-
-namespace {
+namespace gearpod::analysis::test_hit_miss_pod {
 
 using Where = SizeEstimate::Where;
 
@@ -314,6 +307,4 @@ TEST_CASE("Hosmer-Lemeshow keeps its level for a true curve and rejects a wrong 
     CHECK(fit_hit_miss(wrong, form).fit.p_value < 1e-6);
 }
 
-}  // namespace
-
-}  // namespace test_hit_miss_pod
+}  // namespace gearpod::analysis::test_hit_miss_pod

@@ -1,18 +1,9 @@
 // Checks the POD of inspections against statsmodels and scipy (reference/inspection_py.txt).
-#include <algorithm>
-#include <catch2/catch.hpp>
-#include <cmath>
-#include <random>
-
 #include "analysis/inspection.hpp"
 #include "tests/analysis/pod/inspection_examples.hpp"
+#include "tests/test.hpp"
 
-namespace test_inspection {
-
-using namespace gearpod;
-using namespace gearpod::analysis;
-
-namespace {
+namespace gearpod::analysis::test_inspection {
 
 using Where = SizeEstimate::Where;
 
@@ -261,6 +252,4 @@ TEST_CASE("Inspections without a flaw determine the floor of hit/miss curves") {
           "all 50 specimens without a flaw count as hits, so hits say nothing about flaws");
 }
 
-}  // namespace
-
-}  // namespace test_inspection
+}  // namespace gearpod::analysis::test_inspection

@@ -4,20 +4,10 @@
 // names have this text at their end or before a comma.
 #include <fmt/core.h>
 
-#include <catch2/catch.hpp>
-#include <cmath>
-#include <cstdlib>
-#include <functional>
-#include <random>
-
 #include "analysis/inspection.hpp"
+#include "tests/test.hpp"
 
-namespace test_pod_coverage {
-
-using namespace gearpod;
-using namespace gearpod::analysis;
-
-namespace {
+namespace gearpod::analysis::test_pod_coverage {
 
 using Where = SizeEstimate::Where;
 
@@ -315,6 +305,4 @@ TEST_CASE("Default bounds of clustered hits cover the truth", "[.pod-coverage][c
     }
 }
 
-}  // namespace
-
-}  // namespace test_pod_coverage
+}  // namespace gearpod::analysis::test_pod_coverage

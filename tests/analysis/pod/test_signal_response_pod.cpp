@@ -1,17 +1,9 @@
-#include <catch2/catch.hpp>
-#include <cmath>
-#include <limits>
-
 #include "analysis/pod/signal_response_pod.hpp"
 #include "analysis/statistics/link.hpp"
 #include "tests/analysis/reference_data.hpp"
+#include "tests/test.hpp"
 
-namespace test_signal_response_pod {
-
-using namespace gearpod;
-using namespace gearpod::analysis;
-
-namespace {
+namespace gearpod::analysis::test_signal_response_pod {
 
 using Where = SizeEstimate::Where;
 
@@ -149,6 +141,4 @@ TEST_CASE("Responses without scatter, sizes or values are refused") {
     CHECK_THAT(refusal(one_size, constant, 2.0), Catch::Contains("linearity check needs three"));
 }
 
-}  // namespace
-
-}  // namespace test_signal_response_pod
+}  // namespace gearpod::analysis::test_signal_response_pod

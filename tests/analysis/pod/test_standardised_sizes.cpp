@@ -1,18 +1,10 @@
 // Checks few nodes in place of many sizes: moments, and log likelihoods of curves of any slope.
-#include <catch2/catch.hpp>
-#include <cmath>
-#include <random>
-
 #include "analysis/pod/hit_miss_table.hpp"
 #include "analysis/pod/pod_curve.hpp"
 #include "analysis/pod/pod_likelihood.hpp"
+#include "tests/test.hpp"
 
-namespace test_standardised_sizes {
-
-using namespace gearpod;
-using namespace gearpod::analysis;
-
-namespace {
+namespace gearpod::analysis::test_standardised_sizes {
 
 // Table with one size per gearbox, with outcomes from a curve of this slope at its midpoint.
 HitMissTable drawn(int count, double slope, double floor, double ceiling, std::mt19937_64& engine) {
@@ -102,6 +94,4 @@ TEST_CASE("log likelihoods over nodes equal those over all gearboxes, for flat a
     }
 }
 
-}  // namespace
-
-}  // namespace test_standardised_sizes
+}  // namespace gearpod::analysis::test_standardised_sizes

@@ -1,19 +1,11 @@
 // Checks the ROC against a small hand-drawn one and against the area from ranks (auc()).
-#include <catch2/catch.hpp>
-#include <cmath>
-#include <limits>
-#include <random>
-
 #include "analysis/ranking/feature_ranking.hpp"
 #include "analysis/statistics/difference_tests.hpp"
 #include "analysis/statistics/rank_statistics.hpp"
 #include "tests/analysis/reference_data.hpp"
+#include "tests/test.hpp"
 
-namespace test_roc {
-
-using namespace gearpod::analysis;
-
-namespace {
+namespace gearpod::analysis::test_roc {
 
 double area_below(const std::vector<RocPoint>& points) {
     double area = 0.0;
@@ -34,8 +26,6 @@ std::vector<double> sample(std::size_t count, double mean, unsigned seed) {
     }
     return values;
 }
-
-}  // namespace
 
 TEST_CASE("A ROC has one corner per threshold; equal values share a corner") {
     // Thresholds 4, 3, 2, 1 detect 1, 2, 2, 3 of three faulty and give 0, 1, 2, 2 false alarms of
@@ -93,14 +83,9 @@ TEST_CASE("Values that are not finite are left out; with one class only there is
     CHECK(points[1].detection_rate == 1.0);
 }
 
-}  // namespace test_roc
+}  // namespace gearpod::analysis::test_roc
 
-namespace test_feature_ranking {
-
-using namespace gearpod;
-using namespace gearpod::analysis;
-
-namespace {
+namespace gearpod::analysis::test_feature_ranking {
 
 const double kNan = std::numeric_limits<double>::quiet_NaN();
 
@@ -196,6 +181,4 @@ TEST_CASE("Features and samples that cannot be ranked are named with the reason"
     CHECK(std::isnan(constant.ranks[0].auc.bounds.lower));
 }
 
-}  // namespace
-
-}  // namespace test_feature_ranking
+}  // namespace gearpod::analysis::test_feature_ranking

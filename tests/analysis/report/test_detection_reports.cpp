@@ -1,18 +1,10 @@
-#include <catch2/catch.hpp>
-#include <limits>
 #include <nlohmann/json.hpp>
-#include <sstream>
-#include <tuple>
 
 #include "analysis/report/detection_json.hpp"
 #include "analysis/report/findings/findings.hpp"
+#include "tests/test.hpp"
 
-namespace test_detection_reports {
-
-using namespace gearpod;
-using namespace gearpod::analysis;
-
-namespace {
+namespace gearpod::analysis::test_detection_reports {
 
 FeatureDetection example(const std::string& name, double scale) {
     FeatureDetection feature;
@@ -235,6 +227,4 @@ TEST_CASE("A transferred bound names its origin") {
                    Catch::Contains(": te_fc at noise x 5."));
 }
 
-}  // namespace
-
-}  // namespace test_detection_reports
+}  // namespace gearpod::analysis::test_detection_reports

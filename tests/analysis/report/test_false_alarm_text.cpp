@@ -1,15 +1,9 @@
 // Checks the text about healthy samples that are too small for their false-alarm rate.
-#include <catch2/catch.hpp>
-
 #include "analysis/detection/false_alarm_rate.hpp"
 #include "analysis/report/false_alarm_text.hpp"
+#include "tests/test.hpp"
 
-namespace test_false_alarm_text {
-
-using namespace gearpod;
-using namespace gearpod::analysis;
-
-namespace {
+namespace gearpod::analysis::test_false_alarm_text {
 
 FeatureDetection with_samples(const DetectionRequest& request, const std::vector<long>& samples) {
     FeatureDetection feature;
@@ -145,6 +139,4 @@ TEST_CASE("A report names the noise levels without a threshold") {
     CHECK(sample_shortage({}, request, Subject::gearboxes).empty());
 }
 
-}  // namespace
-
-}  // namespace test_false_alarm_text
+}  // namespace gearpod::analysis::test_false_alarm_text

@@ -1,17 +1,8 @@
-#include <catch2/catch.hpp>
-#include <cmath>
-#include <limits>
-#include <random>
-
 #include "analysis/statistics/rank_statistics.hpp"
 #include "tests/analysis/reference_data.hpp"
+#include "tests/test.hpp"
 
-namespace test_auc {
-
-using namespace gearpod;
-using namespace gearpod::analysis;
-
-namespace {
+namespace gearpod::analysis::test_auc {
 
 struct Sample {
     std::vector<double> healthy, faulty;
@@ -116,6 +107,4 @@ TEST_CASE("Areas of separated, constant, empty and invalid samples are reported 
     CHECK(std::isnan(auc(low, std::vector<double>{2.0}, true, 0.95).bounds.lower));
 }
 
-}  // namespace
-
-}  // namespace test_auc
+}  // namespace gearpod::analysis::test_auc

@@ -1,18 +1,15 @@
 // Checks the learned sum of several values against closed forms and against leaks between halves.
 #include <boost/random/mersenne_twister.hpp>
 #include <boost/random/normal_distribution.hpp>
-#include <catch2/catch.hpp>
-#include <cmath>
 
 #include "analysis/statistics/learned_sum.hpp"
+#include "tests/test.hpp"
 
-namespace test_learned_sum {
+namespace gearpod::test_learned_sum {
 
-using gearpod::analysis::in_second_half;
-using gearpod::analysis::learned_sum;
-using gearpod::analysis::LearningSample;
-
-namespace {
+using analysis::in_second_half;
+using analysis::learned_sum;
+using analysis::LearningSample;
 
 // Values with a common part (standard deviation `common`) and own noise; faulty specimens are
 // shifted by `shift`. Odd specimens are faulty, halves are pairs of specimens.
@@ -43,8 +40,6 @@ double separation(const LearningSample& sample, const std::vector<double>& sums)
     }
     return (mean[1] - mean[0]) / std::sqrt(squares - mean[0] * mean[0]);
 }
-
-}  // namespace
 
 TEST_CASE("A learned sum of independent values separates as their discriminant does") {
     // The separation of the best sum is the root of the sum of squares, 2.5; the equal sum has
@@ -94,4 +89,4 @@ TEST_CASE("Halves have equal sizes, and interleaved levels fall into both") {
     }
 }
 
-}  // namespace test_learned_sum
+}  // namespace gearpod::test_learned_sum

@@ -1,17 +1,10 @@
 // Checks the vectorised terms of binomial likelihoods against scalar link functions, finite
 // differences and other instruction sets.
-#include <catch2/catch.hpp>
-#include <cmath>
-#include <vector>
-
 #include "analysis/statistics/outcome_terms.hpp"
 #include "machine/instruction_sets.hpp"
+#include "tests/test.hpp"
 
-namespace test_outcome_terms {
-
-using namespace gearpod::analysis;
-
-namespace {
+namespace gearpod::analysis::test_outcome_terms {
 
 constexpr OutcomeCurve kCurves[] = {{Link::logit, 0.0, 1.0},    {Link::probit, 0.05, 1.0},
                                     {Link::probit, 0.0, 1.0},   {Link::cloglog, 0.01, 0.97},
@@ -46,8 +39,6 @@ std::vector<double> evenly(double low, double high, int count) {
     }
     return values;
 }
-
-}  // namespace
 
 TEST_CASE("Terms of outcomes agree with the link functions from tail to tail") {
     const std::vector<double> eta = evenly(-25.0, 25.0, 1003);
@@ -148,4 +139,4 @@ TEST_CASE("Terms and sums have the same bits on all instruction sets") {
     }
 }
 
-}  // namespace test_outcome_terms
+}  // namespace gearpod::analysis::test_outcome_terms

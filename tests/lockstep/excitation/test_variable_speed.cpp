@@ -1,22 +1,17 @@
 // Checks a train with fluctuating speed against closed forms, the same train at another steady
 // speed, and the slow limit.
 #include <Eigen/Dense>
-#include <catch2/catch.hpp>
-#include <complex>
 
 #include "dynamics/gearbox_matrices.hpp"
 #include "lockstep/integrators/sensor_filter.hpp"
 #include "lockstep/tile/rigid_rotation.hpp"
 #include "lockstep/tile/tile_integrators.hpp"
 #include "tests/lockstep/liang_train.hpp"
+#include "tests/test.hpp"
 
-namespace test_variable_speed {
+namespace gearpod::lockstep::test_variable_speed {
 
-using namespace gearpod;
-using namespace gearpod::lockstep;
 using std::numbers::pi;
-
-namespace {
 
 constexpr double kPeriod = 1e-3;
 
@@ -70,8 +65,6 @@ Fluctuation ramp(double value, double slope) {
     }
     return f;
 }
-
-}  // namespace
 
 TEST_CASE("a sinusoidal speed excites a train according to its inertias",
           "[uneven-speed][lockstep]") {
@@ -238,4 +231,4 @@ TEST_CASE("a slowly varying speed passes through the periodic orbits of steady s
     CHECK(slower < 0.35 * slow);
 }
 
-}  // namespace test_variable_speed
+}  // namespace gearpod::lockstep::test_variable_speed

@@ -2,14 +2,10 @@
 // final states, and a realization without contact transitions.
 #pragma once
 
-#include <cmath>
-#include <numbers>
-#include <utility>
-#include <vector>
-
 #include "lockstep/integrators/facts.hpp"
 #include "lockstep/tile/tile_integrators.hpp"
 #include "tests/lockstep/tian_gearbox.hpp"
+#include "tests/test.hpp"
 
 namespace gearpod::test {
 

@@ -1,23 +1,15 @@
 // Checks the recorded accelerations of sun and carrier, which all integrators low-pass, against the
 // spectrum of the recorded motion.
-#include <catch2/catch.hpp>
-#include <cmath>
-#include <complex>
-#include <numbers>
-
 #include "lockstep/integrators/facts.hpp"
 #include "lockstep/integrators/sensor_filter.hpp"
 #include "lockstep/tile/tile_integrators.hpp"
 #include "tests/lockstep/liang_train.hpp"
+#include "tests/test.hpp"
 
-namespace test_bearing_sources {
+namespace gearpod::lockstep::test_bearing_sources {
 
-using namespace gearpod;
-using namespace gearpod::lockstep;
 using test::LiangTrain;
 using Complex = std::complex<double>;
-
-namespace {
 
 constexpr int kSamples = 960, kSteps = 1920, kMeshes = 80;
 constexpr double kSpeedup = 20.0;
@@ -101,8 +93,6 @@ double channel_error(const IntegrationPlan& plan, const MeshRecord& record, int 
     return error / largest;
 }
 
-}  // namespace
-
 TEST_CASE("Channels of sun and carrier are the low-passed accelerations of their motion") {
     const MeshRecord reference = last_mesh(plan_with(Integrator::rk4, true));
     for (const Integrator integrator : all_integrators()) {
@@ -140,4 +130,4 @@ TEST_CASE("Recording sun and carrier leaves the bits of motion and planets uncha
     }
 }
 
-}  // namespace test_bearing_sources
+}  // namespace gearpod::lockstep::test_bearing_sources

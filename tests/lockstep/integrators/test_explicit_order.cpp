@@ -1,23 +1,18 @@
 // Checks the explicit integrators' order on a smooth stiffness, across contact transitions with a
 // node on each, and without such nodes.
-#include <catch2/catch.hpp>
-
 #include "lockstep/integrators/facts.hpp"
 #include "lockstep/tile/rigid_rotation.hpp"
 #include "lockstep/tile/tile_integrators.hpp"
 #include "tests/lockstep/integrators/order.hpp"
 #include "tests/lockstep/liang_train.hpp"
+#include "tests/test.hpp"
 
-namespace test_explicit_order {
+namespace gearpod::lockstep::test_explicit_order {
 
-using namespace gearpod;
-using namespace gearpod::lockstep;
 using test::integrate_meshes;
 using test::Integrated;
 using test::largest_difference;
 using test::LiangTrain;
-
-namespace {
 
 const std::vector<Integrator> kExplicit = test::integrators(true);
 
@@ -54,8 +49,6 @@ IntegrationPlan liang_plan(int steps, Integrator integrator, bool nodes_on_trans
     plan.nodes = tabulate(train.pairs, plan.grid, dynamics::MeshDamping::ratio);
     return plan;
 }
-
-}  // namespace
 
 TEST_CASE("Explicit integrators keep their order on a smooth stiffness") {
     const dynamics::FixedShaftInputs in = test::soft_tian();
@@ -146,4 +139,4 @@ TEST_CASE("A step of nearly zero length leaves an explicit integration unchanged
     }
 }
 
-}  // namespace test_explicit_order
+}  // namespace gearpod::lockstep::test_explicit_order

@@ -1,7 +1,5 @@
 // Checks the implicit integrators against a much finer integration by another method, a conserved
 // energy and each other's bits.
-#include <catch2/catch.hpp>
-
 #include "dynamics/gearbox_matrices.hpp"
 #include "lockstep/integrators/facts.hpp"
 #include "lockstep/integrators/sensor_filter.hpp"
@@ -9,18 +7,15 @@
 #include "machine/instruction_sets.hpp"
 #include "tests/lockstep/integrators/order.hpp"
 #include "tests/lockstep/liang_train.hpp"
+#include "tests/test.hpp"
 
-namespace test_implicit {
+namespace gearpod::lockstep::test_implicit {
 
-using namespace gearpod;
-using namespace gearpod::lockstep;
 using test::integrate_meshes;
 using test::Integrated;
 using test::largest_difference;
 using test::LiangTrain;
 using test::TianGearbox;
-
-namespace {
 
 const std::vector<Integrator> kImplicitOnes = test::integrators(false);
 
@@ -66,8 +61,6 @@ void check_lanes(const IntegrationPlan& plan, const std::vector<dynamics::Gearbo
         }
     }
 }
-
-}  // namespace
 
 TEST_CASE("The implicit integrators keep their order across contact transitions") {
     const auto& train = LiangTrain::instance();
@@ -350,4 +343,4 @@ TEST_CASE("Implicit and explicit integration of separating meshes agree") {
     }
 }
 
-}  // namespace test_implicit
+}  // namespace gearpod::lockstep::test_implicit

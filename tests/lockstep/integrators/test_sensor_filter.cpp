@@ -1,19 +1,11 @@
 // Checks the sensor's low-pass against the closed form of a 4th-order Butterworth filter, |H|^2 = 1
 // / (1 + (f / f_c)^8).
-#include <catch2/catch.hpp>
-#include <cmath>
-#include <numbers>
-#include <vector>
-
 #include "lockstep/integrators/facts.hpp"
 #include "lockstep/integrators/filter_coefficients.hpp"
 #include "lockstep/integrators/sensor_filter.hpp"
+#include "tests/test.hpp"
 
-namespace test_sensor_filter {
-
-using namespace gearpod::lockstep;
-
-namespace {
+namespace gearpod::lockstep::test_sensor_filter {
 
 // Position within a step of the input of each column of a method's coefficients.
 std::vector<double> input_nodes(Integrator integrator) {
@@ -67,8 +59,6 @@ double butterworth(double frequency) {
     return 1.0 / std::sqrt(1.0 + std::pow(frequency, 8));
 }
 
-}  // namespace
-
 TEST_CASE("The low-pass has the gain of a 4th-order Butterworth filter") {
     for (const double frequency : {0.1, 0.5, 1.0, 2.0, 4.0}) {
         INFO("frequency over cutoff " << frequency);
@@ -98,4 +88,4 @@ TEST_CASE("The low-pass converges at its integrator's order in the step") {
     CHECK(order(Integrator::central_difference, 80) == Approx(2.0).margin(0.1));
 }
 
-}  // namespace test_sensor_filter
+}  // namespace gearpod::lockstep::test_sensor_filter

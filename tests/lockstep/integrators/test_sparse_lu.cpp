@@ -1,14 +1,8 @@
 // Checks sparse factors against the dense solver of Eigen.
-#include <catch2/catch.hpp>
-#include <random>
-
 #include "lockstep/integrators/implicit_lanes.hpp"
+#include "tests/test.hpp"
 
-namespace test_sparse_lu {
-
-using namespace gearpod::lockstep;
-
-namespace {
+namespace gearpod::lockstep::test_sparse_lu {
 
 // Arrow matrix: `spokes` blocks of two that couple only with the last three rows; not symmetric.
 Eigen::MatrixXd arrow(int spokes, std::mt19937& engine) {
@@ -39,8 +33,6 @@ Eigen::VectorXd solve(const SparseLu& lu, const Eigen::MatrixXd& f, Eigen::Vecto
     return x;
 }
 
-}  // namespace
-
 TEST_CASE("Sparse factors give the dense solution for any order of the rows") {
     std::mt19937 engine(1);
     for (const int spokes : {1, 4, 8}) {
@@ -67,4 +59,4 @@ TEST_CASE("Entries are the nonzero elements, column by column") {
     CHECK(entries.from == std::vector<int>{0, 0, 1});
 }
 
-}  // namespace test_sparse_lu
+}  // namespace gearpod::lockstep::test_sparse_lu

@@ -1,18 +1,11 @@
 // Checks that the program was built with all kernels that the table of integrators requires.
-#include <algorithm>
-#include <catch2/catch.hpp>
-
 #include "dynamics/fixed_shaft_motion.hpp"
 #include "dynamics/planetary_motion.hpp"
 #include "lockstep/integrators/facts.hpp"
 #include "lockstep/kernels/kernel_table.hpp"
+#include "tests/test.hpp"
 
-namespace test_kernel_table {
-
-using namespace gearpod;
-using namespace gearpod::lockstep;
-
-namespace {
+namespace gearpod::lockstep::test_kernel_table {
 
 bool has(const KernelKey& key) {
     const std::vector<KernelKey> keys = kernel_table().keys();
@@ -25,8 +18,6 @@ std::vector<MotionModel> motion_models(Integrator integrator) {
                              MotionModel::torsional, MotionModel::fixed_shaft}
                : std::vector{MotionModel::matrices};
 }
-
-}  // namespace
 
 TEST_CASE("Every integrator has its declared kernels for every mesh law") {
     const machine::InstructionSet set = built_instruction_sets().back();
@@ -83,4 +74,4 @@ TEST_CASE("A missing kernel is refused by name and not replaced by one of other 
                       Catch::Contains("no rk4 kernel for 2 double-precision lanes"));
 }
 
-}  // namespace test_kernel_table
+}  // namespace gearpod::lockstep::test_kernel_table

@@ -1,22 +1,15 @@
 // Checks meshes with transmission error and meshes that separate against closed forms.
-#include <catch2/catch.hpp>
-#include <complex>
-#include <numbers>
-#include <tuple>
-
 #include "lockstep/integrators/facts.hpp"
 #include "lockstep/plan/stiffness_nodes.hpp"
 #include "tests/lockstep/liang_train.hpp"
 #include "tests/lockstep/pair_of_masses.hpp"
+#include "tests/test.hpp"
 
-namespace test_mesh_laws {
-using namespace gearpod;
-using namespace gearpod::lockstep;
+namespace gearpod::lockstep::test_mesh_laws {
+
 using dynamics::MeshLaw;
 using test::LiangTrain;
 using test::PairOfMasses;
-
-namespace {
 
 // A ball that lands on a spring with a damper and leaves it where d passes 0, computed from one
 // event to the next by the closed forms of both phases.
@@ -82,8 +75,6 @@ std::vector<dynamics::GearboxInputs> eight_trains(double backlash_m) {
     }
     return inputs;
 }
-
-}  // namespace
 
 TEST_CASE("No force acts in the gap, and a collision conserves momentum and energy") {
     PairOfMasses masses(MeshLaw::separating, 4000, 1e-4);
@@ -397,4 +388,5 @@ TEST_CASE("From a far start a loaded train converges to the periodic orbit reach
         CHECK(record.te[i] == Approx(periodic_orbit.records[0].te[i]).epsilon(1e-6));
     }
 }
-}  // namespace test_mesh_laws
+
+}  // namespace gearpod::lockstep::test_mesh_laws

@@ -1,20 +1,15 @@
 // Checks single precision: its loss of accuracy, and equal bits for any number of lanes.
-#include <catch2/catch.hpp>
-
 #include "dynamics/gearbox_matrices.hpp"
 #include "lockstep/integrators/facts.hpp"
 #include "lockstep/tile/rigid_rotation.hpp"
 #include "lockstep/tile/tile_integrators.hpp"
 #include "machine/instruction_sets.hpp"
 #include "tests/lockstep/liang_train.hpp"
+#include "tests/test.hpp"
 
-namespace test_single_precision {
+namespace gearpod::lockstep::test_single_precision {
 
-using namespace gearpod;
-using namespace gearpod::lockstep;
 using test::LiangTrain;
-
-namespace {
 
 constexpr auto kFull = dynamics::Motion::translational_torsional;
 const std::vector<double> kDepths{0.0, 0.5e-3, 1e-3, 2e-3, 3e-3, 4.28e-3, 6e-3, 8.5e-3,
@@ -89,8 +84,6 @@ double relative_rms(const std::vector<double>& a, const std::vector<double>& b) 
     }
     return std::sqrt(deviation / own);
 }
-
-}  // namespace
 
 TEST_CASE("Sixteen singles, eight, four and one give the same bits, on every instruction set") {
     const auto integrator = GENERATE(Integrator::rk4, Integrator::central_difference);
@@ -183,4 +176,4 @@ TEST_CASE("Two methods alone support single precision, and doubles have at most 
     }
 }
 
-}  // namespace test_single_precision
+}  // namespace gearpod::lockstep::test_single_precision

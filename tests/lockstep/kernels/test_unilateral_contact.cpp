@@ -1,9 +1,5 @@
 // Checks unilateral contact per tooth pair: equal pairs against one mesh, and different pairs
 // against an integration of the assembled matrices with separate teeth.
-#include <catch2/catch.hpp>
-#include <cmath>
-#include <random>
-
 #include "dynamics/gearbox_matrices.hpp"
 #include "lockstep/integrators/facts.hpp"
 #include "lockstep/plan/stiffness_nodes.hpp"
@@ -11,15 +7,12 @@
 #include "lockstep/tile/rigid_rotation.hpp"
 #include "lockstep/tile/tile_integrators.hpp"
 #include "tests/lockstep/liang_train.hpp"
+#include "tests/test.hpp"
 
-namespace test_unilateral_contact {
+namespace gearpod::lockstep::test_unilateral_contact {
 
-using namespace gearpod;
-using namespace gearpod::lockstep;
 using dynamics::MeshLaw;
 using test::LiangTrain;
-
-namespace {
 
 const gears::PlanetaryTrain kLiang{19, 31, 81, 4};
 const std::vector<double> kDepths{0.0, 0.5e-3, 1e-3, 2e-3, 3e-3, 3.5e-3, 4e-3, 4.28e-3};
@@ -207,8 +200,6 @@ Eigen::VectorXd lane_of(const machine::AlignedVector& values, std::size_t lane) 
     return own;
 }
 
-}  // namespace
-
 TEST_CASE("Tooth pairs without errors act as one mesh that separates") {
     const auto& train = LiangTrain::instance();
     const auto integrator =
@@ -345,4 +336,4 @@ TEST_CASE("Kernels for varying forces, variable speed and single precision treat
     }
 }
 
-}  // namespace test_unilateral_contact
+}  // namespace gearpod::lockstep::test_unilateral_contact

@@ -1,22 +1,16 @@
 // Checks realizations under variable excitation: fluctuating torque and speed against closed forms.
 #include <Eigen/Dense>
-#include <catch2/catch.hpp>
-#include <complex>
-#include <random>
 
 #include "dynamics/gearbox.hpp"
 #include "lockstep/excitation/excitation_rows.hpp"
 #include "lockstep/tile/tile_integrators.hpp"
 #include "tests/lockstep/liang_train.hpp"
 #include "tests/lockstep/pair_of_masses.hpp"
+#include "tests/test.hpp"
 
-namespace test_excitation {
+namespace gearpod::lockstep::test_excitation {
 
-using namespace gearpod;
-using namespace gearpod::lockstep;
 using std::numbers::pi;
-
-namespace {
 
 // A sine for one realization.
 Fluctuation sine(double amplitude, double per_mesh, double per_s, double turns) {
@@ -34,8 +28,6 @@ machine::AlignedVector integrate_pair(test::PairOfMasses& pair, const Excitation
     }
     return record.te;
 }
-
-}  // namespace
 
 TEST_CASE("a sine of the torque gives the frequency response of a mass on a spring",
           "[excitation][lockstep]") {
@@ -172,4 +164,4 @@ TEST_CASE("random torque shakes a mass on a spring as the spectra say", "[excita
     CHECK(sum / count == Approx(variance).epsilon(0.05));
 }
 
-}  // namespace test_excitation
+}  // namespace gearpod::lockstep::test_excitation

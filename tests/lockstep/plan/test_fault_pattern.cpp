@@ -1,17 +1,10 @@
 // Checks which pair a faulty tooth meets and when, from the gears' rotation angles.
-#include <catch2/catch.hpp>
-#include <cmath>
-
 #include "gears/planetary.hpp"
 #include "lockstep/plan/fault_pattern.hpp"
 #include "stiffness/square_wave_mesh.hpp"
+#include "tests/test.hpp"
 
-namespace test_fault_pattern {
-
-using namespace gearpod;
-using namespace gearpod::lockstep;
-
-namespace {
+namespace gearpod::lockstep::test_fault_pattern {
 
 const stiffness::SquareWaveMesh kSunMesh(1e9, 2e9, 1.6, 0.7), kRingMesh(2e9, 3e9, 1.9, 0.9);
 
@@ -63,8 +56,6 @@ std::vector<Train> trains() {
 double to_whole(double x) {
     return std::abs(x - std::round(x));
 }
-
-}  // namespace
 
 TEST_CASE(
     "a sun or ring tooth meets each planet after the corresponding rotation relative to the "
@@ -164,4 +155,4 @@ TEST_CASE("a planet tooth meets one side, and a shaft's gear its mate, once a tu
     CHECK(pinion.passages[0].start == 0.3);
 }
 
-}  // namespace test_fault_pattern
+}  // namespace gearpod::lockstep::test_fault_pattern

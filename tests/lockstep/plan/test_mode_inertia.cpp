@@ -1,22 +1,15 @@
 // Checks selective mass scaling against the natural frequencies of the matrices with and without
 // the additional inertia.
-#include <algorithm>
-#include <catch2/catch.hpp>
-#include <numbers>
-
 #include "dynamics/gearbox_matrices.hpp"
 #include "lockstep/integrators/facts.hpp"
 #include "lockstep/plan/mode_inertia.hpp"
 #include "lockstep/steps/stability.hpp"
 #include "tests/lockstep/liang_train.hpp"
+#include "tests/test.hpp"
 
-namespace test_mode_inertia {
+namespace gearpod::lockstep::test_mode_inertia {
 
-using namespace gearpod;
-using namespace gearpod::lockstep;
 using test::LiangTrain;
-
-namespace {
 
 constexpr double kLimit_Hz = 3000.0;
 
@@ -30,8 +23,6 @@ dynamics::GearboxMatrices liang_matrices() {
 ModeInertia inertia_at(const dynamics::GearboxMatrices& matrices, double limit_Hz) {
     return mode_inertia(matrices, 2.0 * std::numbers::pi * limit_Hz);
 }
-
-}  // namespace
 
 TEST_CASE("Selective mass scaling lowers the fast modes to the limit and leaves the others") {
     const dynamics::GearboxMatrices matrices = liang_matrices();
@@ -93,4 +84,4 @@ TEST_CASE("Without a limit there is no additional inertia") {
     CHECK(with_mode_inertia(matrices, ModeInertia{}).mass == matrices.mass);
 }
 
-}  // namespace test_mode_inertia
+}  // namespace gearpod::lockstep::test_mode_inertia

@@ -1,12 +1,7 @@
-#include <catch2/catch.hpp>
-#include <cmath>
-#include <vector>
-
 #include "lockstep/plan/phase_grid.hpp"
+#include "tests/test.hpp"
 
-namespace test_phase_grid {
-
-using namespace gearpod::lockstep;
+namespace gearpod::lockstep::test_phase_grid {
 
 TEST_CASE("The phase grid covers a mesh period with a node on every sample and transition") {
     const std::vector<double> transitions{0.75, 0.0, 0.123456789, 0.6022, 0.123456789 + 1e-15};
@@ -42,4 +37,4 @@ TEST_CASE("A phase grid without samples or steps is refused") {
     CHECK_THROWS_AS(make_phase_grid(5, 0, {}), std::invalid_argument);
 }
 
-}  // namespace test_phase_grid
+}  // namespace gearpod::lockstep::test_phase_grid

@@ -1,21 +1,15 @@
 // Checks stiffness at the stage nodes: one-sided at transitions, mirrored for reversed contact, and
 // per lane during a fault passage.
-#include <catch2/catch.hpp>
-#include <cmath>
-
 #include "stiffness/faults/losses.hpp"
 #include "stiffness/faults/pitting.hpp"
 #include "stiffness/square_wave_mesh.hpp"
 #include "tests/lockstep/liang_train.hpp"
+#include "tests/test.hpp"
 
-namespace test_stiffness_nodes {
+namespace gearpod::lockstep::test_stiffness_nodes {
 
-using namespace gearpod;
-using namespace gearpod::lockstep;
 using stiffness::Limit;
 using test::LiangTrain;
-
-namespace {
 
 PairSet ring_pair(const stiffness::MeshStiffness& mesh, double start, bool reversed) {
     return {{&mesh}, {start}, reversed};
@@ -31,8 +25,6 @@ IntegrationPlan stiffness_plan(const PairSet& pairs, std::vector<double> cuts, i
     plan.nodes = tabulate(pairs, plan.grid, dynamics::mesh_damping(plan.layout));
     return plan;
 }
-
-}  // namespace
 
 TEST_CASE("Nodes hold the total at any stage positions, one-sided at the ends of steps") {
     const auto& mesh = LiangTrain::instance().ring_planet;
@@ -159,4 +151,4 @@ TEST_CASE("A pit's edges are jumps at the ends of steps") {
     }
 }
 
-}  // namespace test_stiffness_nodes
+}  // namespace gearpod::lockstep::test_stiffness_nodes

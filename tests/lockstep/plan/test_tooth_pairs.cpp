@@ -1,8 +1,5 @@
 // Checks single tooth pairs: they add up to the total of their gear pair, forwards and backwards,
 // healthy and faulty.
-#include <algorithm>
-#include <catch2/catch.hpp>
-
 #include "dynamics/gearbox_matrices.hpp"
 #include "lockstep/plan/tooth_pairs.hpp"
 #include "lockstep/strategies/solution.hpp"
@@ -12,14 +9,11 @@
 #include "stiffness/square_wave_mesh.hpp"
 #include "tests/lockstep/liang_train.hpp"
 #include "tests/lockstep/tian_gearbox.hpp"
+#include "tests/test.hpp"
 
-namespace test_tooth_pairs {
+namespace gearpod::lockstep::test_tooth_pairs {
 
-using namespace gearpod;
-using namespace gearpod::lockstep;
 using test::LiangTrain;
-
-namespace {
 
 PhaseGrid grid_for(const PairSet& pairs) {
     return make_phase_grid(10, 40, contact_transitions(pairs));
@@ -48,8 +42,6 @@ void check_sum(const PairSet& pairs, const stiffness::FaultyMesh& faulty) {
     }
     CHECK(most > least);
 }
-
-}  // namespace
 
 TEST_CASE(
     "Tooth pairs share their gear pair's stiffness and are in contact during their engagement") {
@@ -145,17 +137,13 @@ TEST_CASE("More simultaneous tooth pairs than supported are refused with their n
                       Catch::Contains("9 tooth pairs of a gear pair touch at once"));
 }
 
-}  // namespace test_tooth_pairs
+}  // namespace gearpod::lockstep::test_tooth_pairs
 
 // Checks errors of single teeth: which teeth meet, and the resulting deflection under load.
 
-namespace test_tooth_errors {
+namespace gearpod::lockstep::test_tooth_errors {
 
-using namespace gearpod;
-using namespace gearpod::lockstep;
 using test::LiangTrain;
-
-namespace {
 
 const gears::PlanetaryTrain kLiang{19, 31, 81, 4};
 
@@ -175,8 +163,6 @@ IntegrationPlan error_plan(int samples, int steps, dynamics::Motion motion) {
     add_tooth_pairs(LiangTrain::instance().pairs, plan.grid, plan.nodes);
     return plan;
 }
-
-}  // namespace
 
 TEST_CASE(
     "Equal errors of all teeth act as one error while a tooth pair is in contact, for both gears") {
@@ -411,4 +397,4 @@ TEST_CASE(
     CHECK(alone > 10);
 }
 
-}  // namespace test_tooth_errors
+}  // namespace gearpod::lockstep::test_tooth_errors

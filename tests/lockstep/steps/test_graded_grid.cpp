@@ -1,19 +1,14 @@
 // Checks graded grids and the pilots that choose them.
-#include <catch2/catch.hpp>
-
 #include "lockstep/integrators/facts.hpp"
 #include "lockstep/steps/graded_grid.hpp"
 #include "lockstep/tile/rigid_rotation.hpp"
 #include "lockstep/tile/tile_integrators.hpp"
 #include "tests/lockstep/liang_train.hpp"
+#include "tests/test.hpp"
 
-namespace test_graded_grid {
+namespace gearpod::lockstep::test_graded_grid {
 
-using namespace gearpod;
-using namespace gearpod::lockstep;
 using test::LiangTrain;
-
-namespace {
 
 constexpr auto kFull = dynamics::Motion::translational_torsional;
 
@@ -88,8 +83,6 @@ double rms_error(const machine::AlignedVector& a, const machine::AlignedVector& 
     }
     return std::sqrt(deviation / own);
 }
-
-}  // namespace
 
 TEST_CASE("Graded steps start short after a transition, double, and end on the next one") {
     const std::vector<double> transitions = liang_transitions();
@@ -172,4 +165,4 @@ TEST_CASE("A pilot grades implicit steps: fewer than uniform ones, within the to
     CHECK(!choose_grading(pilot, 1.0 / 50, 1e-12, grid_of).reached);
 }
 
-}  // namespace test_graded_grid
+}  // namespace gearpod::lockstep::test_graded_grid

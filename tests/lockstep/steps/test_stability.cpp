@@ -1,29 +1,20 @@
 // Checks the step limit against the method's known bounds: 2.8284 / omega for an undamped mode and
 // 2.7853 / rate for an overdamped one (Hairer, Norsett, Wanner, section IV.2). The limit of central
 // differences is compared with the spectral radius of a step.
-#include <catch2/catch.hpp>
-#include <cmath>
-
 #include "dynamics/gearbox_matrices.hpp"
 #include "lockstep/integrators/facts.hpp"
 #include "lockstep/steps/stability.hpp"
 #include "tests/lockstep/integrators/order.hpp"
 #include "tests/lockstep/liang_train.hpp"
 #include "tests/lockstep/tian_gearbox.hpp"
+#include "tests/test.hpp"
 
-namespace test_step_limit {
-
-using namespace gearpod;
-using namespace gearpod::lockstep;
-
-namespace {
+namespace gearpod::lockstep::test_step_limit {
 
 dynamics::GearboxMatrices oscillator(double stiffness, double damping) {
     const auto one = [](double x) { return Eigen::MatrixXd::Constant(1, 1, x); };
     return {one(1.0), one(damping), one(stiffness), one(0.0), one(0.0), Eigen::VectorXd::Zero(1)};
 }
-
-}  // namespace
 
 TEST_CASE("The step limit of Runge-Kutta is 2.828 on the imaginary and 2.785 on the real axis") {
     const double omega = 5e4;
@@ -34,8 +25,6 @@ TEST_CASE("The step limit of Runge-Kutta is 2.828 on the imaginary and 2.785 on 
     CHECK(longest_stable_step(oscillator(1e6, rate), Integrator::rk4) * rate ==
           Approx(2.7853).epsilon(1e-3));
 }
-
-namespace {
 
 // Spectral radius of one step of central differences on (q, v, previous a), from the method's own
 // formulas.
@@ -66,8 +55,6 @@ double own_growth(const dynamics::GearboxMatrices& m, double h) {
     const Eigen::MatrixXd system = state_matrix(m);
     return std::exp(h * dynamics::eigenvalues(system).real().maxCoeff());
 }
-
-}  // namespace
 
 TEST_CASE("The step limit of central differences is where one mode's step begins to grow") {
     const double omega = 5e4;
@@ -133,8 +120,6 @@ TEST_CASE("The stiff mode of Tian's gearbox is the motor coupling's damper; it r
     CHECK(choose_integrator(steps) == Integrator::rk4);
 }
 
-namespace {
-
 // Largest error of a mesh period's acceleration and TE, relative to their largest values.
 std::pair<double, double> errors(const MeshRecord& ours, const MeshRecord& exact) {
     const auto error = [](const machine::AlignedVector& a, const machine::AlignedVector& b) {
@@ -147,8 +132,6 @@ std::pair<double, double> errors(const MeshRecord& ours, const MeshRecord& exact
     };
     return {error(ours.acceleration, exact.acceleration), error(ours.te, exact.te)};
 }
-
-}  // namespace
 
 TEST_CASE(
     "The steps of the implicit integrators keep signals within 0.1 % of their largest value") {
@@ -199,4 +182,4 @@ TEST_CASE(
     }
 }
 
-}  // namespace test_step_limit
+}  // namespace gearpod::lockstep::test_step_limit

@@ -1,23 +1,17 @@
 // Checks coupled stages: without shafts they have the bits of single stages; with a shaft they
 // agree with an independent integration of the equations of both, and converge with order 2.
 #include <Eigen/Dense>
-#include <catch2/catch.hpp>
-#include <cmath>
-#include <numbers>
 
 #include "dynamics/gearbox_matrices.hpp"
 #include "lockstep/strategies/coupled_stages.hpp"
 #include "tests/lockstep/liang_train.hpp"
 #include "tests/lockstep/tian_gearbox.hpp"
+#include "tests/test.hpp"
 
-namespace test_coupled_stages {
+namespace gearpod::lockstep::test_coupled_stages {
 
-using namespace gearpod;
-using namespace gearpod::lockstep;
 using test::LiangTrain;
 using test::TianGearbox;
-
-namespace {
 
 constexpr double kTurn = 2.0 * std::numbers::pi;
 
@@ -200,8 +194,6 @@ double range(const std::vector<double>& a) {
     return std::ranges::max(a) - std::ranges::min(a);
 }
 
-}  // namespace
-
 TEST_CASE("A coupled train agrees with one integration of all its equations", "[coupled]") {
     for (const Train& train : {two_stages(), three_stages()}) {
         const int steps = train.stages.size() == 2 ? 19 * 8 * 4 : 600;
@@ -254,4 +246,4 @@ TEST_CASE("Stages without shafts have the bits of single stages", "[coupled]") {
     }
 }
 
-}  // namespace test_coupled_stages
+}  // namespace gearpod::lockstep::test_coupled_stages

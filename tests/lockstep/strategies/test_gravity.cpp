@@ -1,17 +1,12 @@
 // Checks weight against statics: the bearings carry all of it in any rotation.
-#include <catch2/catch.hpp>
-
 #include "lockstep/integrators/facts.hpp"
 #include "lockstep/strategies/solution.hpp"
 #include "tests/lockstep/liang_train.hpp"
+#include "tests/test.hpp"
 
-namespace test_gravity {
+namespace gearpod::lockstep::test_gravity {
 
-using namespace gearpod;
-using namespace gearpod::lockstep;
 using std::numbers::pi;
-
-namespace {
 
 constexpr double kGravity = 9.80665;
 
@@ -31,8 +26,6 @@ double weight(const dynamics::PlanetaryInputs& in) {
     return kGravity * (in.mass_kg[dynamics::carrier] + in.mass_kg[dynamics::ring] +
                        in.mass_kg[dynamics::sun] + 4.0 * in.mass_kg[dynamics::planet]);
 }
-
-}  // namespace
 
 TEST_CASE("the bearings of a rotating train carry its weight, which rotates backwards",
           "[gravity][lockstep]") {
@@ -181,4 +174,4 @@ TEST_CASE("the displacement of a shaft's gear is its weight over its bearing's s
     CHECK(q[dynamics::y_2] == Approx(4.0 * y / 2e8));
 }
 
-}  // namespace test_gravity
+}  // namespace gearpod::lockstep::test_gravity

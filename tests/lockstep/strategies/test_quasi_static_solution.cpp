@@ -1,17 +1,12 @@
 // Checks quasi-static tiles against closed forms of the planets' load paths and a dense solver.
-#include <catch2/catch.hpp>
-
 #include "dynamics/gearbox_matrices.hpp"
 #include "lockstep/strategies/solution.hpp"
 #include "tests/lockstep/liang_train.hpp"
+#include "tests/test.hpp"
 
-namespace test_quasi_static_solution {
+namespace gearpod::lockstep::test_quasi_static_solution {
 
-using namespace gearpod;
-using namespace gearpod::lockstep;
 using test::LiangTrain;
-
-namespace {
 
 constexpr auto kTorsional = dynamics::Motion::torsional;
 constexpr auto kFull = dynamics::Motion::translational_torsional;
@@ -91,8 +86,6 @@ void set_error(IntegrationPlan& plan, int pair, double error) {
         plan.nodes.error[i] = error;
     }
 }
-
-}  // namespace
 
 TEST_CASE("The torsional TE is that of springs in series and parallel at every phase") {
     const auto& train = LiangTrain::instance();
@@ -284,4 +277,4 @@ TEST_CASE("Static errors redistribute the load, separate meshes and load back fl
     }
 }
 
-}  // namespace test_quasi_static_solution
+}  // namespace gearpod::lockstep::test_quasi_static_solution

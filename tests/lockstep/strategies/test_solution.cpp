@@ -1,18 +1,13 @@
 // Checks tiles: the healthy periodic orbit, the passage of a crack, and lanes that are independent
 // of their neighbours.
-#include <catch2/catch.hpp>
-
 #include "lockstep/integrators/facts.hpp"
 #include "machine/instruction_sets.hpp"
 #include "tests/lockstep/liang_train.hpp"
+#include "tests/test.hpp"
 
-namespace test_solution {
+namespace gearpod::lockstep::test_solution {
 
-using namespace gearpod;
-using namespace gearpod::lockstep;
 using test::LiangTrain;
-
-namespace {
 
 constexpr auto kFull = dynamics::Motion::translational_torsional;
 
@@ -66,8 +61,6 @@ void check_lanes(const IntegrationPlan& plan, const std::vector<dynamics::Gearbo
     }
 }
 
-}  // namespace
-
 TEST_CASE("Eight lanes, four and one give the same bits, on every instruction set") {
     const auto& train = LiangTrain::instance();
     const IntegrationPlan plan = train.plan(24, 1200, kFull);
@@ -92,8 +85,6 @@ TEST_CASE("Eight lanes, four and one give the same bits, on every instruction se
         }
     }
 }
-
-namespace {
 
 constexpr int kSpan = 93;  // three passages of the faulty tooth
 
@@ -135,8 +126,6 @@ std::vector<double> changes(const TileResult& tile, std::size_t lane) {
     }
     return all;
 }
-
-}  // namespace
 
 // The perturbations by deeper cracks last longer. A gearbox without a crack has none.
 TEST_CASE("The perturbation by a fault ends in each lane by itself") {
@@ -253,4 +242,4 @@ TEST_CASE("Mean mesh forces carry the torque from the sun to the ring") {
     }
 }
 
-}  // namespace test_solution
+}  // namespace gearpod::lockstep::test_solution

@@ -1,8 +1,5 @@
 // Checks gearboxes with worn flanks: quasi-static contact against springs with given gaps, kernels
 // against gaps of the same size, and the independence of lanes.
-#include <catch2/catch.hpp>
-#include <cmath>
-
 #include "gears/flank_gaps.hpp"
 #include "lockstep/plan/tooth_pairs.hpp"
 #include "lockstep/tile/rigid_rotation.hpp"
@@ -10,15 +7,12 @@
 #include "stiffness/gapped_mesh.hpp"
 #include "tests/lockstep/liang_train.hpp"
 #include "tests/lockstep/tian_gearbox.hpp"
+#include "tests/test.hpp"
 
-namespace test_wear {
+namespace gearpod::lockstep::test_wear {
 
-using namespace gearpod;
-using namespace gearpod::lockstep;
 using test::LiangTrain;
 using test::TianGearbox;
-
-namespace {
 
 constexpr double kReach = 60e-6;
 const std::vector<double> kDepths{0.0, 2e-6, 20e-6, 0.0, 5e-6, 1e-6, 10e-6, 40e-6};
@@ -144,8 +138,6 @@ int differences(const TileResult& one, std::size_t a, std::size_t width_a, const
     compare(one.contact_loss, other.contact_loss);
     return different;
 }
-
-}  // namespace
 
 // The loaded tooth pairs are springs with the gap of the corner contact and of the wear, which is
 // proportional to the specific sliding; bisection finds the approach at which they carry the force.
@@ -338,4 +330,4 @@ TEST_CASE("Strategies that need unchanged mesh periods refuse wear") {
         std::invalid_argument);
 }
 
-}  // namespace test_wear
+}  // namespace gearpod::lockstep::test_wear

@@ -1,20 +1,16 @@
 // Checks one integrated mesh period against another solver, a closed form and the method's order.
 #include <boost/numeric/odeint.hpp>
-#include <catch2/catch.hpp>
 
 #include "dynamics/gearbox_matrices.hpp"
 #include "lockstep/integrators/facts.hpp"
 #include "lockstep/integrators/sensor_filter.hpp"
 #include "lockstep/tile/tile_integrators.hpp"
 #include "tests/lockstep/liang_train.hpp"
+#include "tests/test.hpp"
 
-namespace test_integration {
+namespace gearpod::lockstep::test_integration {
 
-using namespace gearpod;
-using namespace gearpod::lockstep;
 using test::LiangTrain;
-
-namespace {
 
 TileState rest(const IntegrationPlan& plan, const dynamics::PlanetaryInputs& in) {
     const std::vector<double> k(plan.nodes.stiffness.begin(), plan.nodes.stiffness.begin() + 8);
@@ -85,8 +81,6 @@ std::vector<double> dormand_prince(const IntegrationPlan& plan, const dynamics::
     }
     return x;
 }
-
-}  // namespace
 
 TEST_CASE("An integrated mesh period agrees with an adaptive solver over the assembled matrices") {
     const auto& train = LiangTrain::instance();
@@ -187,4 +181,4 @@ TEST_CASE("An undamped mode of a gearbox with constant stiffness follows its cos
     }
 }
 
-}  // namespace test_integration
+}  // namespace gearpod::lockstep::test_integration

@@ -1,17 +1,10 @@
 // Checks the mesh damping of the integrated gearbox: that of its law at the stiffness of the phase.
-#include <catch2/catch.hpp>
-#include <vector>
-
 #include "dynamics/gearbox.hpp"
 #include "lockstep/tile/mesh_forces.hpp"
 #include "tests/lockstep/tian_gearbox.hpp"
+#include "tests/test.hpp"
 
-namespace test_mesh_forces {
-
-using namespace gearpod;
-using namespace gearpod::lockstep;
-
-namespace {
+namespace gearpod::lockstep::test_mesh_forces {
 
 TEST_CASE("The mesh's damping force is the rate of its deflection times the law's damping") {
     const auto& gearbox = test::TianGearbox::instance();
@@ -44,6 +37,4 @@ TEST_CASE("The mesh's damping force is the rate of its deflection times the law'
     }
 }
 
-}  // namespace
-
-}  // namespace test_mesh_forces
+}  // namespace gearpod::lockstep::test_mesh_forces

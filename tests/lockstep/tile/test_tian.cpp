@@ -1,23 +1,18 @@
 // Checks Tian's gearbox (2004, chapter 4) with Table 4.1 as printed against published frequencies,
 // a closed form and an independent solution of the printed equations.
 #include <Eigen/LU>
-#include <catch2/catch.hpp>
-#include <complex>
 
 #include "dynamics/gearbox_matrices.hpp"
 #include "lockstep/integrators/sensor_filter.hpp"
 #include "lockstep/tile/tile_integrators.hpp"
 #include "stiffness/faults/losses.hpp"
 #include "tests/lockstep/tian_gearbox.hpp"
+#include "tests/test.hpp"
 
-namespace test_tian {
+namespace gearpod::lockstep::test_tian {
 
-using namespace gearpod;
-using namespace gearpod::lockstep;
 using std::numbers::pi;
 using test::TianGearbox;
-
-namespace {
 
 constexpr double kPeriod_s = 1.0 / TianGearbox::kMeshFrequency_Hz;
 
@@ -170,8 +165,6 @@ DenseSolution trapezoidal_rule(const TianGearbox& gearbox, int meshes) {
     return solution;
 }
 
-}  // namespace
-
 TEST_CASE("Tian's gearbox as printed agrees with a dense solution of his equations") {
     const TianGearbox& gearbox = TianGearbox::instance();
     const DenseSolution dense = trapezoidal_rule(gearbox, 12);
@@ -289,4 +282,4 @@ TEST_CASE(
     CHECK(oscillation_Hz(extremes(shock), 0.1e-3, 1.2e-3) == Approx(2530.0).epsilon(0.08));
 }
 
-}  // namespace test_tian
+}  // namespace gearpod::lockstep::test_tian

@@ -1,9 +1,5 @@
 // Checks contact of single tooth pairs at the steps of a mesh period: bounds that hold between
 // samples, and the share of time out of contact.
-#include <catch2/catch.hpp>
-#include <cmath>
-#include <numeric>
-
 #include "dynamics/gearbox_matrices.hpp"
 #include "lockstep/integrators/facts.hpp"
 #include "lockstep/plan/tooth_pairs.hpp"
@@ -14,14 +10,11 @@
 #include "stiffness/square_wave_mesh.hpp"
 #include "tests/lockstep/liang_train.hpp"
 #include "tests/lockstep/tian_gearbox.hpp"
+#include "tests/test.hpp"
 
-namespace test_tooth_contact {
+namespace gearpod::lockstep::test_tooth_contact {
 
-using namespace gearpod;
-using namespace gearpod::lockstep;
 using test::LiangTrain;
-
-namespace {
 
 constexpr double kSpeedup = 10.0;
 
@@ -91,8 +84,6 @@ std::vector<double> least_of_lanes(const machine::AlignedVector& bounds) {
     }
     return least;
 }
-
-}  // namespace
 
 TEST_CASE(
     "Step states hold the state at the samples and continue from one mesh period to the next") {
@@ -257,4 +248,4 @@ TEST_CASE("The share of time out of contact keeps its bits for any lanes and is 
               .contact_loss.empty());
 }
 
-}  // namespace test_tooth_contact
+}  // namespace gearpod::lockstep::test_tooth_contact

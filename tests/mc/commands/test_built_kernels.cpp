@@ -1,12 +1,9 @@
 // Checks the messages of a program that lacks the kernels that a study requires.
-#include <catch2/catch.hpp>
-
 #include "tests/mc/program.hpp"
 
-namespace test_built_kernels {
+namespace gearpod::test_built_kernels {
 
-using namespace gearpod;
-using namespace gearpod::test;
+using namespace test;
 
 TEST_CASE("Lanes without a kernel in this build are bad input, reported with the available ones") {
     for (const int lanes : {1, 4}) {
@@ -49,4 +46,4 @@ TEST_CASE("Single-precision gearboxes that do not converge are counted with sixt
     }
 }
 
-}  // namespace test_built_kernels
+}  // namespace gearpod::test_built_kernels

@@ -1,14 +1,10 @@
 // Checks gearpod check: several study files, problems of each, the exit code.
-#include <catch2/catch.hpp>
-#include <fstream>
-
 #include "mc/library/run/run_options.hpp"
 #include "tests/mc/program.hpp"
 
-namespace test_check {
+namespace gearpod::test_check {
 
-using namespace gearpod;
-using namespace gearpod::test;
+using namespace test;
 
 TEST_CASE("check reports the problems of every study and simulates none") {
     const Folder folder;
@@ -35,4 +31,4 @@ TEST_CASE("check of sound studies ends with code 0, unless a changed key is wron
     CHECK(changed.mentions("sensor.noise_m_s2"));
 }
 
-}  // namespace test_check
+}  // namespace gearpod::test_check

@@ -2,23 +2,14 @@
 // gearbox, the same bytes for any threads and merged parts, and refused outputs.
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <array>
-#include <cmath>
-#include <map>
-#include <set>
-
 #include "mc/files/text/text_table.hpp"
 #include "mc/report/dataset.hpp"
 #include "tests/mc/lives/life_example.hpp"
 #include "tests/mc/program.hpp"
 
-namespace test_dataset {
+namespace gearpod::test_dataset {
 
-using namespace gearpod;
-using namespace gearpod::test;
-
-namespace {
+using namespace test;
 
 const std::string kRun =
     "run " + study("planet-crack-ideal.toml") +
@@ -62,8 +53,6 @@ std::vector<Line> lines_of(const std::string& folder) {
 std::string same_number(double a, double b) {
     return a == b || (std::isnan(a) && std::isnan(b)) ? "same" : fmt::format("{} and {}", a, b);
 }
-
-}  // namespace
 
 TEST_CASE("A dataset holds the numbers of the results, each gearbox in one split") {
     const Folder folder;
@@ -241,4 +230,4 @@ TEST_CASE("A dataset replaces no other file, and lives have none") {
     CHECK_FALSE(std::filesystem::exists(folder.file("lives")));
 }
 
-}  // namespace test_dataset
+}  // namespace gearpod::test_dataset

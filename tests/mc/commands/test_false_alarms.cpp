@@ -4,18 +4,13 @@
 
 #include "tests/mc/program.hpp"
 
-namespace test_false_alarms {
+namespace gearpod::test_false_alarms {
 
-using namespace gearpod;
-using namespace gearpod::test;
-
-namespace {
+using namespace test;
 
 const std::string kSmall = study("planet-crack-ideal.toml") +
                            " --set ensemble.threshold_instances=30"
                            " --set ensemble.instances=28 --set sensor.noise_levels=[0,1]";
-
-}  // namespace
 
 TEST_CASE(
     "A sample without a threshold is reported before the run, and no fault counts as missed") {
@@ -120,4 +115,4 @@ TEST_CASE("Uncertainty left by a calibration is a separate band in text, data an
                   {"\"sensor.gain\" is not a random input of the gearboxes"});
 }
 
-}  // namespace test_false_alarms
+}  // namespace gearpod::test_false_alarms

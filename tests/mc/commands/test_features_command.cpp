@@ -1,10 +1,5 @@
 // Checks gearpod features: the features of a measured signal.
-#include <catch2/catch.hpp>
-#include <cmath>
-#include <fstream>
-#include <functional>
 #include <nlohmann/json.hpp>
-#include <numbers>
 
 #include "features/feature.hpp"
 #include "mc/files/hdf5_data.hpp"
@@ -14,12 +9,9 @@
 #include "tests/mc/program.hpp"
 #include "tests/mc/recording_bytes.hpp"
 
-namespace test_features_command {
+namespace gearpod::test_features_command {
 
-using namespace gearpod;
-using namespace gearpod::test;
-
-namespace {
+using namespace test;
 
 const std::string kReference = std::string(GEARPOD_SOURCE_DIR) + "/tests/features/reference/";
 const std::string kSmall = kReference + "small.toml";
@@ -370,6 +362,4 @@ TEST_CASE("Control characters in file names and titles do not reach the terminal
     }
 }
 
-}  // namespace
-
-}  // namespace test_features_command
+}  // namespace gearpod::test_features_command

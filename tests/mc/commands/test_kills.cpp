@@ -1,17 +1,13 @@
 // Kills runs of one to three ranks two hundred times at random moments, while another process
 // attempts to write the same output. An hour's test: ctest -C long -R kills.
 #include <csignal>
-#include <random>
 #include <thread>
 
 #include "tests/mc/program.hpp"
 
-namespace test_kills {
+namespace gearpod::test_kills {
 
-using namespace gearpod;
-using namespace gearpod::test;
-
-namespace {
+using namespace test;
 
 // Starts a separate process group, so that a launcher's ranks end with it.
 pid_t start(const std::string& command) {
@@ -24,8 +20,6 @@ pid_t start(const std::string& command) {
     setpgid(child, child);
     return child;
 }
-
-}  // namespace
 
 TEST_CASE("Killed two hundred times with a concurrent rival, a run loses nothing", "[.kills]") {
     const Folder folder;
@@ -72,4 +66,4 @@ TEST_CASE("Killed two hundred times with a concurrent rival, a run loses nothing
     CHECK(bits(out) == reference);
 }
 
-}  // namespace test_kills
+}  // namespace gearpod::test_kills

@@ -1,16 +1,11 @@
 // Checks that the commands that compute gearboxes print the same for any number of lanes.
 // tests/mc/ensemble and tests/mc/lives check every shipped study, in tiles of any filling.
-#include <filesystem>
-
 #include "tests/mc/compared_program.hpp"
 #include "tests/mc/program.hpp"
 
-namespace test_lane_bits {
+namespace gearpod::test_lane_bits {
 
-using namespace gearpod;
-using namespace gearpod::test;
-
-namespace {
+using namespace test;
 
 // Seven milliseconds per gearbox.
 const std::string kStudy = std::string(GEARPOD_SOURCE_DIR) + "/tests/bench/rare_teeth.toml";
@@ -53,8 +48,6 @@ LaneOutputs outputs_with(const std::string& lanes, const Folder& folder) {
     return outputs;
 }
 
-}  // namespace
-
 TEST_CASE("misses, rare and sweep give the same numbers for any lanes") {
     const Folder folder;
     const LaneOutputs reference = outputs_with("16", folder);
@@ -65,4 +58,4 @@ TEST_CASE("misses, rare and sweep give the same numbers for any lanes") {
     }
 }
 
-}  // namespace test_lane_bits
+}  // namespace gearpod::test_lane_bits

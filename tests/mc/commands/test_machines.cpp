@@ -1,8 +1,5 @@
 // Checks a run on several machines: each evaluates a share of the detection statistics, and the
 // text is that of one process.
-#include <catch2/catch.hpp>
-#include <filesystem>
-#include <fstream>
 #include <nlohmann/json.hpp>
 
 #include "analysis/report/reliability_json.hpp"
@@ -10,13 +7,10 @@
 #include "mc/results/reliability_of_results.hpp"
 #include "tests/mc/program.hpp"
 
-namespace test_machines {
+namespace gearpod::test_machines {
 
-using namespace gearpod;
-using namespace gearpod::test;
+using namespace test;
 namespace fs = std::filesystem;
-
-namespace {
 
 // Prefix of a command that Open MPI runs with one rank on one machine and two on another. Both are
 // this machine: Open MPI starts a process on another machine by calling ssh, which a script
@@ -40,8 +34,6 @@ std::string tables(const Outcome& run) {
     REQUIRE(last != std::string::npos);
     return run.output.substr(first, last - first);
 }
-
-}  // namespace
 
 TEST_CASE("Machines share the detection statistics, and the report is that of one process",
           "[mpi]") {
@@ -79,4 +71,4 @@ TEST_CASE("Machines share the detection statistics, and the report is that of on
     CHECK(text() == before);
 }
 
-}  // namespace test_machines
+}  // namespace gearpod::test_machines

@@ -1,19 +1,12 @@
 // Checks features --baseline: a recording compared with an earlier one of the same gearbox.
-#include <algorithm>
-#include <catch2/catch.hpp>
-#include <cmath>
-#include <fstream>
 #include <nlohmann/json.hpp>
 
 #include "mc/files/hdf5_data.hpp"
 #include "tests/mc/program.hpp"
 
-namespace test_measured_baseline {
+namespace gearpod::test_measured_baseline {
 
-using namespace gearpod;
-using namespace gearpod::test;
-
-namespace {
+using namespace test;
 
 // Planets and ring have tooth errors: the signal repeats after 385 mesh periods of eight samples.
 const std::string kStudy =
@@ -149,6 +142,4 @@ TEST_CASE("Many recordings are compared with one baseline") {
     CHECK_FALSE(features(healthy + " " + faulty, "--quiet --csv -").mentions("change_"));
 }
 
-}  // namespace
-
-}  // namespace test_measured_baseline
+}  // namespace gearpod::test_measured_baseline

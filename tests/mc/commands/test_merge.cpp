@@ -2,12 +2,9 @@
 // name.
 #include "tests/mc/program.hpp"
 
-namespace test_merge {
+namespace gearpod::test_merge {
 
-using namespace gearpod;
-using namespace gearpod::test;
-
-namespace {
+using namespace test;
 
 // Three tiles of the threshold group and four test gearboxes; the last tile of each group is not
 // full.
@@ -26,8 +23,6 @@ std::string part(const Folder& folder, const std::string& which, const std::stri
 std::string datasets(const std::string& file) {
     return shell("h5dump -n " + file + " | tail -n +2").output;
 }
-
-}  // namespace
 
 TEST_CASE("Four merged parts equal one run, bit by bit", "[merge]") {
     const Folder folder;
@@ -160,4 +155,4 @@ TEST_CASE("A merge on a full disk leaves nothing and can be repeated", "[merge]"
     CHECK(folder.files() == files + 1);
 }
 
-}  // namespace test_merge
+}  // namespace gearpod::test_merge

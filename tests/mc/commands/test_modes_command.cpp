@@ -1,15 +1,12 @@
 // Checks the critical speeds and the page of gearpod modes.
-#include <catch2/catch.hpp>
-#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "mc/library/stiffness_modes.hpp"
 #include "tests/mc/program.hpp"
 
-namespace test_modes_command {
+namespace gearpod::test_modes_command {
 
-using namespace gearpod;
-using namespace gearpod::test;
+using namespace test;
 
 TEST_CASE("Critical speeds lie where a mesh harmonic crosses a natural frequency") {
     // Mesh frequency 10 Hz per rad/s; one mode at 50 Hz, two that rise from 20 to 40 Hz.
@@ -60,4 +57,4 @@ TEST_CASE("modes writes a Campbell diagram, and prints the critical speeds") {
           2);
 }
 
-}  // namespace test_modes_command
+}  // namespace gearpod::test_modes_command

@@ -5,19 +5,14 @@
 #include "mc/files/input/number_text.hpp"
 #include "tests/mc/program.hpp"
 
-namespace test_options {
+namespace gearpod::test_options {
 
-using namespace gearpod;
 using mc::NumberForm;
-using namespace gearpod::test;
-
-namespace {
+using namespace test;
 
 bool contains(const std::string& text, const std::string& part) {
     return text.find(part) != std::string::npos;
 }
-
-}  // namespace
 
 TEST_CASE("A number is finite, in decimal notation, and in the range of its option") {
     const auto real = [](const std::string& text) {
@@ -180,4 +175,4 @@ TEST_CASE("A word that an option cannot take is not its value") {
     CHECK(program("features --help").mentions("--healthy FILE "));
 }
 
-}  // namespace test_options
+}  // namespace gearpod::test_options

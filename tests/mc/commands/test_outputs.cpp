@@ -5,13 +5,10 @@
 
 #include "tests/mc/program.hpp"
 
-namespace test_outputs {
+namespace gearpod::test_outputs {
 
-using namespace gearpod;
-using namespace gearpod::test;
+using namespace test;
 namespace fs = std::filesystem;
-
-namespace {
 
 constexpr const char* kSmall = " --instances 2 --set ensemble.threshold_instances=1";
 
@@ -29,8 +26,6 @@ struct Workplace {
         fs::create_symlink(results, folder.file("link.h5"));
     }
 };
-
-}  // namespace
 
 TEST_CASE("A command refuses to overwrite a file that it reads, under any name") {
     const Workplace place;
@@ -238,4 +233,4 @@ TEST_CASE("Names of conditions that a results file cannot hold are refused befor
     CHECK(program(command + "--csv -").code == 0);
 }
 
-}  // namespace test_outputs
+}  // namespace gearpod::test_outputs

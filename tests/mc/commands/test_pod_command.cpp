@@ -2,21 +2,13 @@
 // tests/analysis/pod/test_inspection.cpp.
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <catch2/catch.hpp>
-#include <cmath>
-#include <fstream>
 #include <nlohmann/json.hpp>
-#include <random>
 
 #include "tests/mc/program.hpp"
 
-namespace test_pod_command {
+namespace gearpod::test_pod_command {
 
-using namespace gearpod;
-using namespace gearpod::test;
-
-namespace {
+using namespace test;
 
 const std::string kTables = std::string(GEARPOD_SOURCE_DIR) + "/tests/analysis/reference/";
 
@@ -220,6 +212,4 @@ TEST_CASE(
     CHECK(held >= kTablesTried - 1);  // 95 % each
 }
 
-}  // namespace
-
-}  // namespace test_pod_command
+}  // namespace gearpod::test_pod_command

@@ -1,22 +1,16 @@
 // Checks the program from a user's view: exit codes, output and files.
-#include <algorithm>
-#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "tests/mc/program.hpp"
 
-namespace test_program {
+namespace gearpod::test_program {
 
-using namespace gearpod::test;
+using namespace test;
 namespace fs = std::filesystem;
-
-namespace {
 
 bool mentions(const Outcome& outcome, const std::string& text) {
     return outcome.mentions(text);
 }
-
-}  // namespace
 
 TEST_CASE("A run ends with the table and a file from which report prints the same numbers") {
     const Folder folder;
@@ -201,4 +195,4 @@ TEST_CASE("The C library's choice of elementary functions has no effect on the r
     }
 }
 
-}  // namespace test_program
+}  // namespace gearpod::test_program

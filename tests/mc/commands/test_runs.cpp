@@ -4,20 +4,16 @@
 
 #include <chrono>
 #include <csignal>
-#include <random>
 #include <thread>
 
 #include "tests/mc/compared_program.hpp"
 #include "tests/mc/program.hpp"
 
-namespace test_runs {
+namespace gearpod::test_runs {
 
-using namespace gearpod;
-using namespace gearpod::test;
+using namespace test;
 namespace fs = std::filesystem;
 using namespace std::chrono_literals;
-
-namespace {
 
 // Command for three batches of the threshold group and four test gearboxes; the last batch of each
 // group is not full. Snapshots are written continuously.
@@ -67,8 +63,6 @@ void await_batches(const std::string& part, std::uintmax_t before) {
         std::this_thread::sleep_for(5ms);
     }
 }
-
-}  // namespace
 
 TEST_CASE("One to four ranks, one or two threads, one lane, four or eight: the same bits",
           "[mpi]") {
@@ -361,4 +355,4 @@ TEST_CASE("A folder without write permission is reported before the run") {
     CHECK(fs::is_empty(folder.file("locked")));
 }
 
-}  // namespace test_runs
+}  // namespace gearpod::test_runs

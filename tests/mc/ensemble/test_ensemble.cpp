@@ -1,18 +1,13 @@
 // Checks ensembles: the same bits for any way of computation, reuse against full integration, and
 // plausible detection rates.
-#include <cmath>
-
 #include "machine/instruction_sets.hpp"
 #include "mc/study/schema/sizes.hpp"
 #include "tests/mc/program.hpp"
 #include "tests/mc/study_file.hpp"
 
-namespace test_ensemble {
+namespace gearpod::test_ensemble {
 
-using namespace gearpod;
-using namespace gearpod::test;
-
-namespace {
+using namespace test;
 
 const std::vector<std::string> kSmall{"ensemble.instances=11", "ensemble.threshold_instances=6"};
 
@@ -20,8 +15,6 @@ std::vector<std::string> with(std::vector<std::string> overrides, const std::str
     overrides.push_back(more);
     return overrides;
 }
-
-}  // namespace
 
 TEST_CASE("One lane, four or eight, one thread or two, any instruction set: the same bits") {
     const auto reference = bits(run(shipped_study("planet-crack-ideal.toml", kSmall)));
@@ -169,4 +162,4 @@ TEST_CASE("Detection rates: false alarms at size 0, more with size, never more w
     CHECK(window.levels.back().cells[1].pd < 0.2);
 }
 
-}  // namespace test_ensemble
+}  // namespace gearpod::test_ensemble

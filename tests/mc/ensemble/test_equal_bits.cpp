@@ -3,9 +3,6 @@
 // gearboxes with a fault and one without.
 #include <fmt/format.h>
 
-#include <cmath>
-#include <memory>
-
 #include "mc/ensemble/batch_workers.hpp"
 #include "mc/ensemble/gearbox/simulation.hpp"
 #include "mc/study/fluctuations.hpp"
@@ -14,12 +11,9 @@
 #include "tests/mc/study_file.hpp"
 #include "tests/shipped_studies.hpp"
 
-namespace test_equal_bits {
+namespace gearpod::test_equal_bits {
 
-using namespace gearpod;
-using namespace gearpod::test;
-
-namespace {
+using namespace test;
 
 // Studies without teeth have modes only and are excluded.
 std::vector<std::string> studies_with_teeth() {
@@ -138,8 +132,6 @@ bool any_width(const mc::Study& study) {
     return GEARPOD_PORTABLE || (!mc::has_variable_excitation(study) && !mc::is_coupled(study));
 }
 
-}  // namespace
-
 // The first filling is the reference. tests/lockstep checks each mesh law with all widths.
 TEST_CASE("Every shipped study gives a gearbox the same bits in any tile") {
     const auto names = studies_with_teeth();
@@ -175,4 +167,4 @@ TEST_CASE("A simulated gearbox with periodic meshes has the bits of a run") {
     check_simulation("planet-crack-ideal.toml");
 }
 
-}  // namespace test_equal_bits
+}  // namespace gearpod::test_equal_bits

@@ -2,15 +2,14 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include <catch2/catch.hpp>
 #include <csignal>
 #include <thread>
 
 #include "mc/ensemble/interruption.hpp"
+#include "tests/test.hpp"
 
-namespace test_interruption {
+namespace gearpod::mc::test_interruption {
 
-using namespace gearpod::mc;
 using namespace std::chrono_literals;
 
 TEST_CASE("Time limits are parsed as hours, minutes and seconds") {
@@ -89,4 +88,4 @@ TEST_CASE("A request to stop takes effect at the requested time") {
     CHECK(interruption.stop());
 }
 
-}  // namespace test_interruption
+}  // namespace gearpod::mc::test_interruption

@@ -1,20 +1,11 @@
 // Checks ensemble.until against the closed form of the Wilson interval where every gearbox is
 // detected.
-#include <algorithm>
-#include <cmath>
-#include <random>
-
 #include "mc/ensemble/batch_workers.hpp"
 #include "mc/ensemble/running_pd.hpp"
 #include "mc/plan/sampling.hpp"
 #include "tests/mc/study_file.hpp"
 
-namespace test_running_pd {
-
-using namespace gearpod;
-using namespace gearpod::mc;
-
-namespace {
+namespace gearpod::mc::test_running_pd {
 
 const std::vector<std::string> kUntil{
     "ensemble.instances=700", "ensemble.threshold_instances=40", "sensor.noise_levels=[0, 1]",
@@ -35,8 +26,6 @@ BatchRows rows_of(const Study& study, const EnsemblePlan& ensemble, const Batch&
     }
     return rows;
 }
-
-}  // namespace
 
 TEST_CASE("The run may stop at the gearbox that the Wilson interval requires, in any order") {
     const Study study = test::shipped_study("planet-crack-ideal.toml", kUntil);
@@ -87,4 +76,4 @@ TEST_CASE(
     CHECK(*watch.rows_left() == 64 * 16 / 9 - 64);
 }
 
-}  // namespace test_running_pd
+}  // namespace gearpod::mc::test_running_pd

@@ -1,15 +1,11 @@
 // Checks OpenMP teams: every task runs once on as many threads as OpenMP grants, and exceptions are
 // not lost.
 #include <atomic>
-#include <catch2/catch.hpp>
-#include <stdexcept>
-#include <vector>
 
 #include "machine/team.hpp"
+#include "tests/test.hpp"
 
-namespace test_team {
-
-using namespace gearpod;
+namespace gearpod::test_team {
 
 TEST_CASE("Every index is processed once, for any team size") {
     for (const int threads : {1, 2, 3, 7}) {
@@ -52,4 +48,4 @@ TEST_CASE("An exception in a team is rethrown after the others have finished") {
     CHECK(threads == 3);
 }
 
-}  // namespace test_team
+}  // namespace gearpod::test_team

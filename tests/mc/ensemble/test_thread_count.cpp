@@ -1,16 +1,11 @@
 // Checks the number of a run's threads and their placement: OMP_NUM_THREADS, OMP_THREAD_LIMIT and
 // numerics.threads, ranks on the same machine, OMP_PROC_BIND and OMP_PLACES.
-#include <algorithm>
-
 #include "machine/team.hpp"
 #include "tests/mc/program.hpp"
 
-namespace test_thread_count {
+namespace gearpod::test_thread_count {
 
-using namespace gearpod;
-using namespace gearpod::test;
-
-namespace {
+using namespace test;
 
 // Five batches.
 std::string run_of(const Folder& folder) {
@@ -36,8 +31,6 @@ void check_threads(const std::string& environment, const std::string& more, int 
     CHECK(run.mentions("(1 rank, " + std::to_string(threads) + " thread" +
                        (threads == 1 ? "" : "s") + " in total"));
 }
-
-}  // namespace
 
 TEST_CASE(
     "OMP_NUM_THREADS sets the number of threads, numerics.threads overrides it, the limit "
@@ -116,4 +109,4 @@ TEST_CASE("Only the team is bound to places: one per thread, none for the main t
     CHECK_FALSE(run.mentions("of 3"));
 }
 
-}  // namespace test_thread_count
+}  // namespace gearpod::test_thread_count

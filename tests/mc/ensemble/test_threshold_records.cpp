@@ -4,12 +4,9 @@
 #include "tests/mc/program.hpp"
 #include "tests/mc/study_file.hpp"
 
-namespace test_threshold_records {
+namespace gearpod::test_threshold_records {
 
-using namespace gearpod;
-using namespace gearpod::test;
-
-namespace {
+using namespace test;
 
 constexpr int kGearboxes = 18, kRecords = 3, kGraded = 5;
 
@@ -37,8 +34,6 @@ double value_of(const mc::Results& results, const std::string& feature, std::siz
                         [&](const auto& f) { return f.name == feature; })
         ->values[2 * row + level];
 }
-
-}  // namespace
 
 TEST_CASE(
     "Records of a gearbox differ in their noise alone, and the first equals a single record") {
@@ -185,4 +180,4 @@ TEST_CASE("Tilting without records, with other counts or with coloured noise is 
                Catch::Contains("tilting needs white noise: background_Hz colours it"));
 }
 
-}  // namespace test_threshold_records
+}  // namespace gearpod::test_threshold_records

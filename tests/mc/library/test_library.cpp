@@ -1,20 +1,12 @@
 // Checks the functions for other programs: problems as exceptions, and recordings in memory.
-#include <catch2/catch.hpp>
-#include <cmath>
-#include <string>
-#include <vector>
-
 #include "mc/files/input/problems.hpp"
 #include "mc/library/inspection_table.hpp"
 #include "mc/library/open_study.hpp"
 #include "mc/library/signal_features.hpp"
 #include "mc/library/stiffness_modes.hpp"
+#include "tests/test.hpp"
 
-namespace test_library {
-
-using namespace gearpod;
-
-namespace {
+namespace gearpod::test_library {
 
 const std::string kStudy = GEARPOD_SOURCE_DIR "/studies/planet-crack-ideal.toml";
 
@@ -31,8 +23,6 @@ std::string message_of(Call call) {
 bool mentions(const std::string& text, const std::string& part) {
     return text.find(part) != std::string::npos;
 }
-
-}  // namespace
 
 TEST_CASE("A study that is read by a program reports every problem in one exception") {
     const std::string text = "[gearbox]\nsun_teth = 1\n[operation]\ntorque = 1\n";
@@ -98,4 +88,4 @@ TEST_CASE("A table in memory is inspected like one of a file") {
     CHECK(mentions(message, "\ntable: --link: must be logit or"));
 }
 
-}  // namespace test_library
+}  // namespace gearpod::test_library

@@ -1,9 +1,6 @@
 // A small campaign of lives of gearboxes with identical teeth.
 #pragma once
 
-#include <string>
-#include <vector>
-
 #include "tests/mc/study_file.hpp"
 
 namespace gearpod::test {

@@ -1,22 +1,13 @@
 // Checks the interpolation of signals between integrated torques and speeds, and how their numbers
 // are chosen.
-#include <algorithm>
-#include <catch2/catch.hpp>
-#include <cmath>
-#include <map>
-#include <numeric>
-#include <random>
-
 #include "mc/lives/campaign.hpp"
 #include "mc/lives/interpolation.hpp"
 #include "tests/mc/lives/life_example.hpp"
+#include "tests/test.hpp"
 
-namespace test_interpolation {
+namespace gearpod::test_interpolation {
 
-using namespace gearpod;
-using namespace gearpod::test;
-
-namespace {
+using namespace test;
 
 const std::vector<std::string> kVarying{"life.torque_scatter=0.05", "life.speed_scatter=0.02",
                                         "life.interpolation_tolerance=0.5", "ensemble.instances=8"};
@@ -234,6 +225,4 @@ TEST_CASE("Records at random loads are off by no more than stated in 95 % of 200
     CHECK(within >= 0.95 * tried);
 }
 
-}  // namespace
-
-}  // namespace test_interpolation
+}  // namespace gearpod::test_interpolation

@@ -2,19 +2,13 @@
 // The lives of several gearboxes with cracks decay at different mesh periods.
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <memory>
-
 #include "mc/lives/life_tile.hpp"
 #include "tests/mc/gearbox_bits.hpp"
 #include "tests/mc/study_file.hpp"
 
-namespace test_life_bits {
+namespace gearpod::test_life_bits {
 
-using namespace gearpod;
-using namespace gearpod::test;
-
-namespace {
+using namespace test;
 
 std::vector<std::string> studies_with_lives() {
     std::vector<std::string> names = shipped_studies();
@@ -90,8 +84,6 @@ void check(const std::string& name, const std::vector<std::string>& overrides,
     });
 }
 
-}  // namespace
-
 TEST_CASE("Every shipped study gives a gearbox's life the same bits in any tile") {
     const auto names = studies_with_lives();
     REQUIRE(names.size() >= 2);
@@ -122,4 +114,4 @@ TEST_CASE("Every shipped study gives a gearbox's life the same bits in all tiles
     }
 }
 
-}  // namespace test_life_bits
+}  // namespace gearpod::test_life_bits

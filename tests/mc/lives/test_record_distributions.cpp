@@ -2,21 +2,16 @@
 // conflicts of both.
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <boost/math/distributions/normal.hpp>
-#include <cmath>
 
 #include "mc/lives/life_tile.hpp"
 #include "mc/lives/load_axis.hpp"
 #include "tests/mc/lives/life_example.hpp"
 #include "tests/mc/program.hpp"
 
-namespace test_record_distributions {
+namespace gearpod::test_record_distributions {
 
-using namespace gearpod;
-using namespace gearpod::test;
-
-namespace {
+using namespace test;
 
 const std::string kTorque =
     "random.operation.torque_N_m={distribution=\"uniform\",low=300,high=500,per=\"record\"}";
@@ -171,6 +166,4 @@ TEST_CASE("describe shows the law of inputs per record") {
                                  "times the study's value"});
 }
 
-}  // namespace
-
-}  // namespace test_record_distributions
+}  // namespace gearpod::test_record_distributions

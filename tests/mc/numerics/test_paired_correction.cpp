@@ -1,18 +1,9 @@
 // Checks the correction by gearboxes computed twice against differences that are known.
-#include <catch2/catch.hpp>
-#include <cmath>
-#include <limits>
-#include <random>
-
 #include "mc/numerics/paired_correction.hpp"
 #include "mc/results/reliability_of_results.hpp"
+#include "tests/test.hpp"
 
-namespace test_paired_correction {
-
-using namespace gearpod;
-using namespace gearpod::mc;
-
-namespace {
+namespace gearpod::mc::test_paired_correction {
 
 constexpr double kOffset = 0.1, kByValue = 0.02, kBySize = 150.0;
 
@@ -69,8 +60,6 @@ double a90_of(const Results& r) {
     REQUIRE(reliability);
     return reliability->features[0].levels[0].hit_miss.a90.estimate.size;
 }
-
-}  // namespace
 
 TEST_CASE("The correction recovers a difference that grows with the value and the fault") {
     PairedValues pairs = Population(1, 100, 0.0).all;
@@ -137,4 +126,4 @@ TEST_CASE("Results without pairs have no corrected detection") {
     CHECK(corrected_detection(own, ColumnRows(own)).empty());
 }
 
-}  // namespace test_paired_correction
+}  // namespace gearpod::mc::test_paired_correction

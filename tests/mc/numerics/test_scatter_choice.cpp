@@ -1,20 +1,11 @@
 // Checks the choice of steps and mass scaling for an error over the features' scatter on gearboxes
 // that the choice did not see.
-#include <algorithm>
-#include <catch2/catch.hpp>
-#include <cmath>
-
 #include "mc/ensemble/batch_workers.hpp"
 #include "mc/numerics/numerical_error.hpp"
 #include "mc/numerics/numerics_choice.hpp"
 #include "tests/mc/study_file.hpp"
 
-namespace test_scatter_choice {
-
-using namespace gearpod;
-using namespace gearpod::mc;
-
-namespace {
+namespace gearpod::mc::test_scatter_choice {
 
 // Gearboxes with real teeth at a speed at which a record is short.
 Study real_teeth(std::vector<std::string> more = {}) {
@@ -38,8 +29,6 @@ std::vector<double> values(const Scene& scene, const BatchRows& rows, std::size_
     }
     return all;
 }
-
-}  // namespace
 
 TEST_CASE("Steps for a share of the scatter keep it on other gearboxes, with fewer steps") {
     const Planner planner(real_teeth({"numerics.scatter_tolerance=0.2"}));
@@ -163,4 +152,4 @@ TEST_CASE("Mass scaling and its choice are refused where they cannot work") {
                Catch::Contains("chooses the steps, too"));
 }
 
-}  // namespace test_scatter_choice
+}  // namespace gearpod::mc::test_scatter_choice

@@ -1,19 +1,10 @@
 // Checks that the numerics of a solver setting equal those that reading its overrides gives, and
 // that invalid settings are rejected as by reading.
-#include <catch2/catch.hpp>
-#include <string>
-#include <vector>
-
 #include "mc/numerics/solver_setting.hpp"
 #include "tests/mc/scene_examples.hpp"
 #include "tests/mc/study_file.hpp"
 
-namespace test_solver_setting {
-
-using namespace gearpod;
-using namespace gearpod::mc;
-
-namespace {
+namespace gearpod::mc::test_solver_setting {
 
 // Reads the study again, without a tolerance and with the setting's overrides.
 StudyReading read_again(Study study, const SolverSetting& setting) {
@@ -40,8 +31,6 @@ void check_as_read(const Study& study, const SolverSetting& setting) {
         CHECK(error.remedy() == first.remedy);
     }
 }
-
-}  // namespace
 
 TEST_CASE("A solver setting gives the numerics that its overrides give") {
     for (const char* const name : {"published/tian-fig-4-9.toml", "planet-crack.toml"}) {
@@ -87,4 +76,4 @@ TEST_CASE("The text of a solver setting names the keys that it chooses") {
                                    "numerics.grid_tolerance=0.01"});
 }
 
-}  // namespace test_solver_setting
+}  // namespace gearpod::mc::test_solver_setting

@@ -1,16 +1,10 @@
 // Compares random values of a distribution with its distribution function.
 #pragma once
 
-#include <algorithm>
-#include <catch2/catch.hpp>
-#include <cmath>
-#include <functional>
-#include <string>
-#include <vector>
-
 #include "mc/files/input/document.hpp"
 #include "mc/study/distributions/distribution.hpp"
 #include "mc/study/random/philox.hpp"
+#include "tests/test.hpp"
 
 namespace gearpod::tests {
 

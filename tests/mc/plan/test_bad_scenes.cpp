@@ -1,19 +1,15 @@
 // Checks that keys invalid for a kind of gearbox, degrees of freedom, profile or fault are refused
 // when a study is read.
-#include <catch2/catch.hpp>
-#include <cmath>
-
 #include "mc/study/study.hpp"
 #include "tests/mc/scene_examples.hpp"
 #include "tests/mc/study_problems.hpp"
+#include "tests/test.hpp"
 
-namespace test_bad_scenes {
+namespace gearpod::test_bad_scenes {
 
-using gearpod::mc::format;
-using gearpod::mc::read_study_text;
-using namespace gearpod::tests;
-
-namespace {
+using mc::format;
+using mc::read_study_text;
+using namespace tests;
 
 struct BadScene {
     const std::string& study;
@@ -226,8 +222,6 @@ std::string pitted(double radius_mm) {
                         std::to_string(radius_mm));
 }
 
-}  // namespace
-
 TEST_CASE("The scenes from which invalid ones are made are valid") {
     for (const std::string& text : {kFixedShaftStudy, kQuasiStaticStudy, kSpatialCrackStudy}) {
         const auto reading = read_study_text(text, "good.toml");
@@ -270,4 +264,4 @@ TEST_CASE("A pitted band is refused outside the contact with the mating flank") 
     }
 }
 
-}  // namespace test_bad_scenes
+}  // namespace gearpod::test_bad_scenes

@@ -1,18 +1,13 @@
 // Checks correlated random inputs against closed forms of the Gaussian copula.
-#include <cmath>
-#include <numbers>
-
 #include "analysis/statistics/rank_statistics.hpp"
 #include "mc/plan/sampling.hpp"
 #include "tests/mc/plan/random_samples.hpp"
 #include "tests/mc/study_example.hpp"
+#include "tests/test.hpp"
 
-namespace test_correlations {
+namespace gearpod::mc::test_correlations {
 
-using namespace gearpod::mc;
-using namespace gearpod::tests;
-
-namespace {
+using namespace tests;
 
 constexpr double kRank = 0.6;
 
@@ -75,8 +70,6 @@ std::string problem_of(const std::vector<std::string>& overrides) {
     REQUIRE(reading.problems.size() == 1);
     return format(reading.problems);
 }
-
-}  // namespace
 
 TEST_CASE("Correlated inputs have the requested rank correlation and their own distributions") {
     constexpr std::uint64_t kCount = 20000;
@@ -200,4 +193,4 @@ TEST_CASE("Impossible correlations are refused") {
     has(problem_of({torque, mass, list("3")}), "must be a list of pairs");
 }
 
-}  // namespace test_correlations
+}  // namespace gearpod::mc::test_correlations

@@ -1,9 +1,4 @@
 // Checks fluctuating torque and speed, and gravity, from the study file to the signals.
-#include <bit>
-#include <catch2/catch.hpp>
-#include <cmath>
-#include <numbers>
-
 #include "mc/ensemble/gearbox/gearbox_tile.hpp"
 #include "mc/ensemble/gearbox/simulation.hpp"
 #include "mc/study/fluctuations.hpp"
@@ -11,14 +6,10 @@
 #include "tests/mc/study_example.hpp"
 #include "tests/mc/study_file.hpp"
 
-namespace test_fluctuations {
+namespace gearpod::mc::test_fluctuations {
 
-using namespace gearpod;
-using namespace gearpod::mc;
-using namespace gearpod::tests;
+using namespace tests;
 using std::numbers::pi;
-
-namespace {
 
 Study study_of(const std::string& text, const std::vector<std::string>& overrides) {
     return test::valid_study(read_study_text(text, "example", overrides));
@@ -130,8 +121,6 @@ const BadScene kBadScenes[] = {
      "numerics.steps_per_mesh",
      "too few for the fastest fluctuation"},
 };
-
-}  // namespace
 
 TEST_CASE("Invalid fluctuations and a weight without effect are refused with key and remedy") {
     for (const BadStudy& bad : kBad) {
@@ -255,4 +244,4 @@ TEST_CASE("Fluctuations and weight give the same bits in 1, 4 and 8 lanes, with 
     CHECK(bits(eight.te_turn, 8, 5) != bits(eight.te_turn, 8, 2));
 }
 
-}  // namespace test_fluctuations
+}  // namespace gearpod::mc::test_fluctuations

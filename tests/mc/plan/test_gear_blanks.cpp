@@ -1,17 +1,11 @@
 // Checks gears with rims and webs in a study.
-#include <catch2/catch.hpp>
-#include <cmath>
-
 #include "mc/study/gears.hpp"
 #include "tests/mc/study_example.hpp"
 #include "tests/mc/study_file.hpp"
 
-namespace test_gear_blanks {
+namespace gearpod::test_gear_blanks {
 
-using namespace gearpod;
 using mc::Scene;
-
-namespace {
 
 const std::vector<std::string> kBodies{"effects.foundation='elastic-ring'",
                                        "gearbox.sun_bore_mm=26", "gearbox.planet_bore_mm=40",
@@ -25,8 +19,6 @@ Scene scene_with(std::vector<std::string> more) {
 double mean(const Scene& scene, std::size_t mesh) {
     return mean_total(*scene.gearbox().stiffness->meshes()[mesh].stiffness);
 }
-
-}  // namespace
 
 // Source: ISO 6336-1, 1 + ln(b_s / b) / (5 exp(s_R / (5 m_n))); the smaller value applies to a
 // mesh.
@@ -89,4 +81,4 @@ TEST_CASE("Every gear has its own bore, and the ring its rim") {
     CHECK(mean(thin_planets, 1) != Approx(ring).epsilon(1e-3));
 }
 
-}  // namespace test_gear_blanks
+}  // namespace gearpod::test_gear_blanks

@@ -1,20 +1,13 @@
 // Checks exchange of random inputs between gearboxes: mixed with those of others, or replaced as a
 // whole.
-#include <catch2/catch.hpp>
-#include <cmath>
-
 #include "mc/plan/sampling.hpp"
 #include "signals/noise/normals.hpp"
 #include "tests/mc/study_example.hpp"
 #include "tests/mc/study_file.hpp"
 
-namespace test_gearbox_streams {
+namespace gearpod::mc::test_gearbox_streams {
 
-using namespace gearpod;
-using namespace gearpod::mc;
 using analysis::InputExchange;
-
-namespace {
 
 constexpr int kNumbers = 2000;
 constexpr std::uint64_t kSeed = 7;
@@ -58,8 +51,6 @@ double kept_share(const std::vector<double>& mixed, const std::vector<double>& b
     }
     return kept;
 }
-
-}  // namespace
 
 TEST_CASE("Exchanged numbers are normal mixtures of both with the weights of the given share") {
     const std::vector<double> unmixed = numbers(4);
@@ -149,4 +140,4 @@ TEST_CASE("Inputs without an underlying normal number are exchanged as a whole")
     CHECK(taken < 60);
 }
 
-}  // namespace test_gearbox_streams
+}  // namespace gearpod::mc::test_gearbox_streams

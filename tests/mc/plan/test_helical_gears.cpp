@@ -1,24 +1,16 @@
 // Checks studies of helical gears whose stiffness is computed from their teeth.
-#include <algorithm>
-#include <catch2/catch.hpp>
-#include <cmath>
-#include <numbers>
-
 #include "gears/mesh_geometry.hpp"
 #include "mc/study/gears.hpp"
 #include "tests/mc/scene_examples.hpp"
 #include "tests/mc/study_example.hpp"
 #include "tests/mc/study_file.hpp"
 
-namespace test_helical_gears {
+namespace gearpod::test_helical_gears {
 
-using namespace gearpod;
 using mc::Member;
 using mc::Scene;
 using mc::Study;
-using namespace gearpod::test;
-
-namespace {
+using namespace test;
 
 constexpr double kDegree = std::numbers::pi / 180.0;
 
@@ -31,8 +23,6 @@ double relative_range(const mc::SceneMesh& mesh) {
     }
     return (largest - least) / mean_total(*mesh.stiffness);
 }
-
-}  // namespace
 
 TEST_CASE("A helix angle of zero gives the bits of an omitted one") {
     std::vector<std::string> few = tests::kFast;
@@ -174,4 +164,4 @@ TEST_CASE("Relief and crowning of helical teeth change the approach under load a
     CHECK(ground.gearbox().stiffness->meshes()[0].loaded->range().mean < before + 30e-6);
 }
 
-}  // namespace test_helical_gears
+}  // namespace gearpod::test_helical_gears

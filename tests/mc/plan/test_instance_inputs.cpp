@@ -1,9 +1,6 @@
 // Checks that a drawn value acts like the same value in a study file, for every random input.
-#include <catch2/catch.hpp>
 #include <cstring>
-#include <string>
 #include <variant>
-#include <vector>
 
 #include "mc/plan/sampling.hpp"
 #include "mc/study/gears.hpp"
@@ -12,18 +9,11 @@
 #include "tests/mc/study_example.hpp"
 #include "tests/mc/study_file.hpp"
 
-namespace test_instance_inputs {
-
-using namespace gearpod;
-using namespace gearpod::mc;
-
-namespace {
+namespace gearpod::mc::test_instance_inputs {
 
 bool equal_inputs(const InstanceInputs& a, const InstanceInputs& b) {
     return std::memcmp(&a, &b, sizeof a) == 0;
 }
-
-}  // namespace
 
 TEST_CASE("A drawn value of any input gives the gearbox of a study with this nominal value") {
     for (const std::string& text : {tests::kExampleStudy, tests::kFixedShaftStudy}) {
@@ -50,4 +40,4 @@ TEST_CASE("A drawn value of any input gives the gearbox of a study with this nom
     }
 }
 
-}  // namespace test_instance_inputs
+}  // namespace gearpod::mc::test_instance_inputs

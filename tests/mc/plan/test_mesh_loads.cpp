@@ -1,18 +1,13 @@
 // Checks the nominal mesh loads of studies, and the warnings of torques that cannot be meant.
 #include <fmt/format.h>
 
-#include <cstdio>
-
 #include "mc/plan/mesh_loads.hpp"
 #include "tests/mc/program.hpp"
 #include "tests/mc/study_file.hpp"
 
-namespace test_mesh_loads {
+namespace gearpod::test_mesh_loads {
 
-using namespace gearpod;
-using namespace gearpod::test;
-
-namespace {
+using namespace test;
 
 std::vector<std::string> studies_with_gears() {
     std::vector<std::string> names = shipped_studies();
@@ -31,8 +26,6 @@ mc::Problems warnings_with(mc::Study study, double factor) {
     }
     return mc::load_warnings(study, "study.toml");
 }
-
-}  // namespace
 
 // Sources: forces by hand, torque over base radius and planets. 1405 N m on a sun with 27 teeth of
 // module 3.175 mm: 42.8625 mm cos(20 deg) = 40.2776 mm, four planets.
@@ -105,4 +98,4 @@ TEST_CASE("loads of the shipped studies", "[.loads]") {
     }
 }
 
-}  // namespace test_mesh_loads
+}  // namespace gearpod::test_mesh_loads

@@ -1,24 +1,13 @@
 // Checks planets that differ: given and random deviations, and the repetition of their meshes.
-#include <catch2/catch.hpp>
-#include <cmath>
-#include <numbers>
-
 #include "mc/plan/sampling.hpp"
 #include "tests/mc/study_example.hpp"
 #include "tests/mc/study_file.hpp"
 
-namespace test_planets {
-
-using namespace gearpod;
-using namespace gearpod::mc;
-
-namespace {
+namespace gearpod::mc::test_planets {
 
 Study study_with(const std::vector<std::string>& overrides) {
     return test::valid_study(read_study_text(tests::kExampleStudy, "study.toml", overrides));
 }
-
-}  // namespace
 
 TEST_CASE("Planets differ by given and by random deviations, independently in each gearbox") {
     const Study given =
@@ -102,4 +91,4 @@ TEST_CASE("Different planets repeat every mesh: reused records equal integration
     CHECK(moved > 0.02);
 }
 
-}  // namespace test_planets
+}  // namespace gearpod::mc::test_planets

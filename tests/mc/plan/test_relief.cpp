@@ -1,8 +1,4 @@
 // Checks tip and root relief in a study: the springs of the integration, and refused values.
-#include <algorithm>
-#include <catch2/catch.hpp>
-#include <fstream>
-
 #include "lockstep/plan/tooth_pairs.hpp"
 #include "mc/ensemble/gearbox/simulation.hpp"
 #include "mc/plan/scene.hpp"
@@ -10,12 +6,9 @@
 #include "tests/mc/study_example.hpp"
 #include "tests/mc/study_file.hpp"
 
-namespace test_relief {
+namespace gearpod::test_relief {
 
-using namespace gearpod;
 using mc::Scene;
-
-namespace {
 
 const std::vector<std::string> kRelief{
     "gearbox.sun_tip_relief_um=4",     "gearbox.sun_tip_relief_length_mm=3",
@@ -35,8 +28,6 @@ mc::Study study_of(const std::vector<std::string>& more) {
     REQUIRE(reading.study);
     return *reading.study;
 }
-
-}  // namespace
 
 // Quasi-static equilibrium at the loaded approach: the springs of the integration together carry
 // the nominal force of their pair.
@@ -142,4 +133,4 @@ TEST_CASE("Long relief lowers the transmission error of teeth of grade 6 as well
     CHECK(varies("45") < 0.4 * varies("0"));
 }
 
-}  // namespace test_relief
+}  // namespace gearpod::test_relief

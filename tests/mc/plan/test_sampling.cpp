@@ -1,11 +1,6 @@
 // Checks random numbers, distributions and gearboxes sampled from them.
 #include <boost/math/distributions/lognormal.hpp>
 #include <boost/math/distributions/normal.hpp>
-#include <catch2/catch.hpp>
-#include <cmath>
-#include <numeric>
-#include <set>
-#include <tuple>
 
 #include "mc/files/input/document.hpp"
 #include "mc/plan/ensemble_plan.hpp"
@@ -16,12 +11,9 @@
 #include "tests/mc/study_example.hpp"
 #include "tests/mc/study_file.hpp"
 
-namespace test_sampling {
+namespace gearpod::mc::test_sampling {
 
-using namespace gearpod::mc;
-using namespace gearpod::tests;
-
-namespace {
+using namespace tests;
 
 Study study_with(const std::vector<std::string>& overrides) {
     return gearpod::test::valid_study(read_study_text(kExampleStudy, "study.toml", overrides));
@@ -36,8 +28,6 @@ bool same(const InstanceInputs& a, const InstanceInputs& b) {
                b.bodies[Member::planet].bearing_stiffness_N_m &&
            a.path_exponent == b.path_exponent && a.fault_size == b.fault_size;
 }
-
-}  // namespace
 
 TEST_CASE("Philox reproduces its authors' reference values") {
     // Source: Random123, tests/kat_vectors, philox4x64 with 10 rounds: counter, key, output.
@@ -362,4 +352,4 @@ TEST_CASE("Rows of the results hold the sampled values in SI under their names")
     }
 }
 
-}  // namespace test_sampling
+}  // namespace gearpod::mc::test_sampling

@@ -1,25 +1,14 @@
 // Checks gearboxes that fill the ranges of their inputs evenly: Sobol's points against published
 // ones, the scramble against closed forms, and the resulting inputs of a study.
-#include <array>
-#include <catch2/catch.hpp>
-#include <cmath>
-#include <numeric>
-#include <set>
-#include <string>
-#include <vector>
-
 #include "mc/plan/sampling.hpp"
 #include "mc/study/random/scrambled_sobol.hpp"
 #include "tests/mc/plan/random_samples.hpp"
 #include "tests/mc/study_example.hpp"
 #include "tests/mc/study_file.hpp"
 
-namespace test_sampling_plan {
+namespace gearpod::mc::test_sampling_plan {
 
-using namespace gearpod::mc;
-using namespace gearpod::tests;
-
-namespace {
+using namespace tests;
 
 constexpr double kWhole = 0x1p-32;
 
@@ -38,8 +27,6 @@ double share_of(const Sampler& sampler, Group group, std::uint64_t index) {
 double mean(const std::vector<double>& values) {
     return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
 }
-
-}  // namespace
 
 TEST_CASE("Sobol points match those printed by Joe and Kuo") {
     // Source: S. Joe, F. Y. Kuo, Notes on generating Sobol sequences (2008), the first ten points
@@ -213,4 +200,4 @@ TEST_CASE("An unknown sampling plan is refused with the known ones") {
     CHECK(text.find("one of \"plain\", \"sobol\"") != std::string::npos);
 }
 
-}  // namespace test_sampling_plan
+}  // namespace gearpod::mc::test_sampling_plan

@@ -1,22 +1,15 @@
 // Checks scenes of every kind of gearbox and degrees of freedom, from study text to recorded
 // response.
-#include <algorithm>
-#include <catch2/catch.hpp>
-#include <cmath>
-
 #include "dynamics/gearbox_matrices.hpp"
 #include "lockstep/steps/stability.hpp"
 #include "tests/mc/scene_examples.hpp"
 #include "tests/mc/study_example.hpp"
 #include "tests/mc/study_file.hpp"
 
-namespace test_scenes {
+namespace gearpod::test_scenes {
 
-using namespace gearpod;
-using namespace gearpod::tests;
+using namespace tests;
 using mc::Scene;
-
-namespace {
 
 mc::GearboxTile run_one(const Scene& scene) {
     const mc::GearboxId id{mc::Group::test, 0};
@@ -30,8 +23,6 @@ std::string without(const std::string& text, const std::string& key) {
     REQUIRE(begin != std::string::npos);
     return text.substr(0, begin) + text.substr(text.find('\n', begin + 1));
 }
-
-}  // namespace
 
 TEST_CASE("An explicit integrator on a stiff gearbox is refused with the stiff part") {
     const std::string integrator =
@@ -308,4 +299,4 @@ TEST_CASE("A scene of spatial cracks, coupled teeth and separation is built from
     }
 }
 
-}  // namespace test_scenes
+}  // namespace gearpod::test_scenes

@@ -1,21 +1,14 @@
 // Checks studies of gears with profile shift.
-#include <catch2/catch.hpp>
-#include <cmath>
-#include <numbers>
-
 #include "mc/study/gears.hpp"
 #include "tests/mc/study_example.hpp"
 #include "tests/mc/study_file.hpp"
 
-namespace test_shifted_gears {
+namespace gearpod::test_shifted_gears {
 
-using namespace gearpod;
 using mc::Member;
 using mc::MeshKind;
 using mc::Scene;
-using namespace gearpod::test;
-
-namespace {
+using namespace test;
 
 // Problems of a study of Liang's gearbox with these overrides.
 mc::Problems problems_of(const std::vector<std::string>& overrides) {
@@ -39,8 +32,6 @@ std::vector<std::string> bell_with(const std::vector<std::string>& more) {
     all.insert(all.end(), more.begin(), more.end());
     return all;
 }
-
-}  // namespace
 
 TEST_CASE("Shifts of zero and the standard centre distance give the bits of omitted ones") {
     std::vector<std::string> few = tests::kFast;
@@ -222,4 +213,4 @@ TEST_CASE("Real sets that standard teeth cannot form run with their windows on e
     }
 }
 
-}  // namespace test_shifted_gears
+}  // namespace gearpod::test_shifted_gears

@@ -3,13 +3,11 @@
 #include "dynamics/gearbox.hpp"
 #include "dynamics/gearbox_matrices.hpp"
 #include "tests/mc/liang_signals.hpp"
+#include "tests/test.hpp"
 
-namespace test_yang_scenes {
+namespace gearpod::test_yang_scenes {
 
-using namespace gearpod;
-using namespace gearpod::test;
-
-namespace {
+using namespace test;
 
 // Results for the mesh of ring and planet 1, over one mesh period of the healthy periodic orbit.
 struct RingMesh {
@@ -90,8 +88,6 @@ std::pair<double, double> sun_sidebands(const std::vector<double>& change) {
     }
     return {left / 4, gone / 9};
 }
-
-}  // namespace
 
 TEST_CASE(
     "Separating teeth: the response jumps below the linear resonance, and the mean force carries "
@@ -219,4 +215,4 @@ TEST_CASE("Tones of the drive reduce the contrast of the cracked tooth's windows
     CHECK(signal_rms * signal_rms - quiet_rms * quiet_rms == Approx(power).epsilon(0.1));
 }
 
-}  // namespace test_yang_scenes
+}  // namespace gearpod::test_yang_scenes

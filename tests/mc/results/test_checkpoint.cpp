@@ -5,18 +5,13 @@
 #include <sys/wait.h>
 
 #include <csignal>
-#include <limits>
 
 #include "mc/results/checkpoint.hpp"
 #include "tests/mc/program.hpp"
 
-namespace test_checkpoint {
+namespace gearpod::mc::test_checkpoint {
 
-using namespace gearpod;
-using namespace gearpod::mc;
-using namespace gearpod::test;
-
-namespace {
+using namespace test;
 
 const RowShape kShape{2, 2, 3};
 const RunIdentity kIdentity{"gearpod 1 (git abc)", "7", "[ensemble]\nseed = 7\n", kShape};
@@ -67,8 +62,6 @@ std::string reason_of(const std::string& path, const RunIdentity& identity = kId
 bool contains(const std::string& text, const std::string& part) {
     return text.find(part) != std::string::npos;
 }
-
-}  // namespace
 
 TEST_CASE(
     "A plan's batches hold every row once, with the threshold group and test gearboxes in "
@@ -392,4 +385,4 @@ TEST_CASE("A full disk is a write error, and earlier batches remain") {
     }
 }
 
-}  // namespace test_checkpoint
+}  // namespace gearpod::mc::test_checkpoint

@@ -1,21 +1,14 @@
 // Checks contact loss ratios and the error of the time steps in the results file.
 #include <hdf5.h>
 
-#include <catch2/catch.hpp>
-#include <limits>
-
 #include "mc/files/hdf5_data.hpp"
 #include "mc/results/result_rows.hpp"
 #include "mc/results/results_file.hpp"
 #include "tests/mc/program.hpp"
 
-namespace test_contact_results {
+namespace gearpod::mc::test_contact_results {
 
-using namespace gearpod;
-using namespace gearpod::mc;
-using namespace gearpod::test;
-
-namespace {
+using namespace test;
 
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
@@ -42,8 +35,6 @@ bool has_group(const std::string& path, const char* name) {
     const Hdf5Handle file(H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), H5Fclose, "opening");
     return H5Lexists(file.get(), name, H5P_DEFAULT) > 0;
 }
-
-}  // namespace
 
 // More rows than writer and reader process at once.
 TEST_CASE("Contact loss ratios read back as they were written, at once and in parts") {
@@ -104,4 +95,4 @@ TEST_CASE("Contact loss with a wrong number of rows is not written") {
     CHECK(folder.files() == 0);
 }
 
-}  // namespace test_contact_results
+}  // namespace gearpod::mc::test_contact_results

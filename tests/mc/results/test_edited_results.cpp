@@ -1,17 +1,12 @@
 // Checks results files with a valid checksum and invalid contents: every reader refuses them with
 // the reason.
-#include <cmath>
-
 #include "tests/mc/edited_results.hpp"
 #include "tests/mc/program.hpp"
 
-namespace test_edited_results {
+namespace gearpod::test_edited_results {
 
-using namespace gearpod;
-using namespace gearpod::test;
+using namespace test;
 namespace fs = std::filesystem;
-
-namespace {
 
 // Results of a small run, computed once: three healthy gearboxes, five graded, two noise levels.
 const std::string& genuine() {
@@ -112,8 +107,6 @@ std::vector<Edit> edits() {
     };
 }
 
-}  // namespace
-
 TEST_CASE("A results file that is unchanged, or has a new checksum only, is reported") {
     const Folder folder;
     const std::string path = folder.file("r.h5");
@@ -153,4 +146,4 @@ TEST_CASE("Names that are not valid UTF-8 do not prevent a report's JSON") {
     CHECK(outcome.mentions("caf\xef\xbf\xbd.h5"));
 }
 
-}  // namespace test_edited_results
+}  // namespace gearpod::test_edited_results

@@ -2,18 +2,13 @@
 #include <fcntl.h>
 #include <sys/stat.h>
 
-#include <filesystem>
-
 #include "tests/mc/edited_results.hpp"
 #include "tests/mc/program.hpp"
 
-namespace test_integrity {
+namespace gearpod::test_integrity {
 
-using namespace gearpod;
-using namespace gearpod::test;
+using namespace test;
 namespace fs = std::filesystem;
-
-namespace {
 
 constexpr std::size_t kTrailingBytes = 16;
 
@@ -57,8 +52,6 @@ void write_version_2(const std::string& path) {
     }
     update_checksum(path);
 }
-
-}  // namespace
 
 TEST_CASE("A results file keeps its integrity when other programs open it for writing") {
     const Folder folder;
@@ -161,4 +154,4 @@ TEST_CASE("`repair` renews the hash of a readable file and of no other") {
     CHECK(program("repair " + path).code == 2);
 }
 
-}  // namespace test_integrity
+}  // namespace gearpod::test_integrity

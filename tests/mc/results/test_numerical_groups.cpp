@@ -2,14 +2,10 @@
 // read.
 #include <hdf5.h>
 
-#include <catch2/catch.hpp>
-
 #include "mc/results/layout.hpp"
+#include "tests/test.hpp"
 
-namespace test_numerical_groups {
-
-using namespace gearpod;
-using namespace gearpod::mc;
+namespace gearpod::mc::test_numerical_groups {
 
 TEST_CASE("The solver setting is read under its present and its earlier name") {
     Results results;
@@ -34,4 +30,4 @@ TEST_CASE("The solver setting is read under its present and its earlier name") {
     CHECK(setting_read() == "rk4");
 }
 
-}  // namespace test_numerical_groups
+}  // namespace gearpod::mc::test_numerical_groups

@@ -1,16 +1,9 @@
 // Checks the inputs of the reliability assessment from an ensemble's rows.
-#include <catch2/catch.hpp>
-#include <random>
-
 #include "mc/report/run_report.hpp"
 #include "mc/results/reliability_of_results.hpp"
+#include "tests/test.hpp"
 
-namespace test_reliability_of_results {
-
-using namespace gearpod;
-using namespace gearpod::mc;
-
-namespace {
+namespace gearpod::mc::test_reliability_of_results {
 
 // Four hundred healthy gearboxes set the threshold; of 600 test gearboxes, every third has no
 // fault. The parameter that looks like a crack depth is an input like any other.
@@ -39,8 +32,6 @@ Results example() {
     return r;
 }
 
-}  // namespace
-
 TEST_CASE("The fault's size is the column named by the request, all others are inputs") {
     const Results r = example();
     const auto reliability = reliability_of(r, ColumnRows(r), "", 2);
@@ -67,4 +58,4 @@ TEST_CASE("An ensemble that exceeds the memory is not assessed, and the text rep
                Catch::Contains("is limited to 25000000"));
 }
 
-}  // namespace test_reliability_of_results
+}  // namespace gearpod::mc::test_reliability_of_results

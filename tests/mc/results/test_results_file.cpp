@@ -8,25 +8,17 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include <catch2/catch.hpp>
-#include <cmath>
 #include <csignal>
-#include <filesystem>
-#include <limits>
 
 #include "mc/files/hdf5_data.hpp"
 #include "mc/results/result_rows.hpp"
 #include "mc/results/results_file.hpp"
 #include "tests/mc/program.hpp"
 
-namespace test_results_file {
+namespace gearpod::mc::test_results_file {
 
-using namespace gearpod;
-using namespace gearpod::mc;
-using namespace gearpod::test;
+using namespace test;
 namespace fs = std::filesystem;
-
-namespace {
 
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
@@ -73,8 +65,6 @@ std::string reason_of(const std::string& path) {
 bool contains(const std::string& text, const std::string& part) {
     return text.find(part) != std::string::npos;
 }
-
-}  // namespace
 
 TEST_CASE("Results read back as they were written") {
     const Folder folder;
@@ -393,4 +383,4 @@ TEST_CASE("A study without instances or detections still gives a readable file")
     CHECK(read_results(folder.file("r.h5")).features.empty());
 }
 
-}  // namespace test_results_file
+}  // namespace gearpod::mc::test_results_file

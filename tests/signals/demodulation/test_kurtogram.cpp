@@ -1,20 +1,11 @@
 // Checks the kurtogram of tones, impulses, modulated signals and noise against closed forms.
-#include <catch2/catch.hpp>
-#include <cmath>
-#include <complex>
-#include <numbers>
-#include <random>
-#include <vector>
-
 #include "signals/demodulation/kurtogram.hpp"
+#include "tests/test.hpp"
 
-namespace test_kurtogram {
+namespace gearpod::test_kurtogram {
 
-using namespace gearpod;
 using signals::Kurtogram;
 using signals::KurtogramBand;
-
-namespace {
 
 std::vector<double> noise(std::size_t points, double rms) {
     std::mt19937_64 engine(33);
@@ -147,6 +138,4 @@ TEST_CASE("An amplitude-modulated tone has the kurtosis of its modulation") {
         Approx((1.0 + 3.0 * power + 0.375 * power * power) / std::pow(1.0 + 0.5 * power, 2) - 2.0));
 }
 
-}  // namespace
-
-}  // namespace test_kurtogram
+}  // namespace gearpod::test_kurtogram

@@ -2,9 +2,7 @@
 // exceed 1.95 only once in a thousand samples from the right distribution.
 #pragma once
 
-#include <algorithm>
-#include <cmath>
-#include <vector>
+#include "tests/test.hpp"
 
 namespace gearpod::signals {
 

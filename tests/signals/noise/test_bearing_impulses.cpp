@@ -1,21 +1,12 @@
 // Checks the vibration of a faulty bearing against closed forms.
-#include <algorithm>
-#include <catch2/catch.hpp>
-#include <cmath>
-#include <numbers>
-#include <random>
-#include <vector>
-
 #include "signals/noise/bearing_impulses.hpp"
 #include "signals/spectra/fourier_transform.hpp"
+#include "tests/test.hpp"
 
-namespace test_bearing_impulses {
+namespace gearpod::signals::test_bearing_impulses {
 
-using namespace gearpod::signals;
 using std::numbers::pi;
 using Complex = std::complex<double>;
-
-namespace {
 
 constexpr double kLowPass_Hz = 800.0;
 
@@ -51,8 +42,6 @@ Complex fourier(const std::vector<double>& samples, double sample_s, double freq
     }
     return sum * sample_s;
 }
-
-}  // namespace
 
 TEST_CASE("The response to one impulse has the spectrum of resonance and low-pass") {
     const BearingImpulses bearing = inner_ring();
@@ -210,4 +199,4 @@ TEST_CASE("Bearings with invalid frequencies or damping are refused") {
     refuses([](BearingImpulses& b) { b.damping = 0.31; });
 }
 
-}  // namespace test_bearing_impulses
+}  // namespace gearpod::signals::test_bearing_impulses

@@ -1,20 +1,9 @@
-#include <catch2/catch.hpp>
-#include <cmath>
-#include <complex>
-#include <numbers>
-#include <random>
-#include <vector>
-
 #include "signals/noise/coloured_noise.hpp"
 #include "signals/noise/sensor_noise.hpp"
 #include "signals/spectra/fourier_transform.hpp"
+#include "tests/test.hpp"
 
-namespace test_low_pass_noise {
-
-using namespace gearpod;
-using namespace gearpod::signals;
-
-namespace {
+namespace gearpod::signals::test_low_pass_noise {
 
 using std::numbers::pi;
 
@@ -114,17 +103,11 @@ TEST_CASE("Random noise of any colour folds as the noisy signal does, at every l
     }
 }
 
-}  // namespace
-
-}  // namespace test_low_pass_noise
+}  // namespace gearpod::signals::test_low_pass_noise
 
 // Checks noise of a given spectrum: its density in and out of band, its variance, and its prefixes.
 
-namespace test_shaped_noise {
-
-using namespace gearpod::signals;
-
-namespace {
+namespace gearpod::signals::test_shaped_noise {
 
 constexpr double kLowPass_Hz = 800.0;
 
@@ -178,8 +161,6 @@ double stated_density(double from_Hz, double to_Hz) {
     }
     return sum;
 }
-
-}  // namespace
 
 TEST_CASE("The density of the samples is the stated one in band at any sampling rate") {
     for (const double sampling_Hz : {5000.0, 12'800.0}) {
@@ -245,4 +226,4 @@ TEST_CASE("Invalid spectra of noise are refused") {
     CHECK_THROWS_AS(ShapedNoise(kSpectrum, 0.0, 5000.0), std::invalid_argument);
 }
 
-}  // namespace test_shaped_noise
+}  // namespace gearpod::signals::test_shaped_noise

@@ -1,20 +1,11 @@
 #include <boost/math/distributions/normal.hpp>
-#include <catch2/catch.hpp>
-#include <cmath>
-#include <limits>
-#include <numbers>
-#include <random>
 
 #include "machine/instruction_sets.hpp"
 #include "signals/noise/normals.hpp"
 #include "tests/signals/noise/kolmogorov.hpp"
+#include "tests/test.hpp"
 
-namespace test_normals {
-
-using namespace gearpod;
-using namespace gearpod::signals;
-
-namespace {
+namespace gearpod::signals::test_normals {
 
 // Random words, with extreme words in both positions of the pairs.
 std::vector<std::uint64_t> some_words() {
@@ -152,6 +143,4 @@ TEST_CASE("Normal values have the moments, the distribution and the tails of the
     }
 }
 
-}  // namespace
-
-}  // namespace test_normals
+}  // namespace gearpod::signals::test_normals

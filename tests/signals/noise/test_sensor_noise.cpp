@@ -1,18 +1,11 @@
 #include <boost/math/distributions/chi_squared.hpp>
 #include <boost/math/distributions/normal.hpp>
-#include <catch2/catch.hpp>
-#include <cmath>
-#include <random>
 
 #include "signals/noise/sensor_noise.hpp"
 #include "tests/signals/noise/kolmogorov.hpp"
+#include "tests/test.hpp"
 
-namespace test_sensor_noise {
-
-using namespace gearpod;
-using namespace gearpod::signals;
-
-namespace {
+namespace gearpod::signals::test_sensor_noise {
 
 struct Moments {
     double mean = 0.0;
@@ -167,6 +160,4 @@ TEST_CASE("A reconstructed noisy signal folds to the noisy bins and its noise is
     CHECK(std::abs(with_signal / static_cast<double>(noise.size())) < limit);
 }
 
-}  // namespace
-
-}  // namespace test_sensor_noise
+}  // namespace gearpod::signals::test_sensor_noise

@@ -1,19 +1,11 @@
-#include <catch2/catch.hpp>
-#include <cmath>
-#include <numbers>
-
 #include "machine/instruction_sets.hpp"
 #include "signals/sensor/sensor_signal.hpp"
 #include "signals/windowing/folded_signal.hpp"
 #include "tests/signals/direct_signal.hpp"
 #include "tests/signals/random_tile.hpp"
+#include "tests/test.hpp"
 
-namespace test_tones {
-
-using namespace gearpod;
-using namespace gearpod::signals;
-
-namespace {
+namespace gearpod::signals::test_tones {
 
 const std::vector<double> kExponents{0.1, 0.0, -0.1, 0.25, 0.9, -1.0, 0.13, 0.07};
 
@@ -57,8 +49,6 @@ std::vector<double> direct_signal_with_tones(const RandomTile& tile, int lane,
     }
     return signal;
 }
-
-}  // namespace
 
 TEST_CASE("Folded squares with tones equal the sums over all samples of the span") {
     const RandomTile tile(8, 4, 6, 5);
@@ -206,4 +196,4 @@ TEST_CASE("Tones of another shape than the tile are refused") {
                     std::invalid_argument);
 }
 
-}  // namespace test_tones
+}  // namespace gearpod::signals::test_tones

@@ -1,18 +1,11 @@
 // Checks the path from a bearing to the sensor against the rotated vector of its acceleration, and
 // the response to its force against the modal equation.
-#include <catch2/catch.hpp>
-#include <cmath>
-#include <numbers>
-
 #include "signals/path/frequency_response.hpp"
 #include "signals/sensor/sensor_signal.hpp"
 #include "tests/signals/random_tile.hpp"
+#include "tests/test.hpp"
 
-namespace test_bearing_path {
-
-using namespace gearpod::signals;
-
-namespace {
+namespace gearpod::signals::test_bearing_path {
 
 constexpr int kPlanets = 3, kPhases = 4, kLanes = 4;
 constexpr SpanLayout kSpan{.planet_teeth = 7, .ring_teeth = 5, .carrier_meshes = 5};
@@ -33,8 +26,6 @@ TileSignals views_of(const RandomTile& tile) {
     views.further_sources = 2;
     return views;
 }
-
-}  // namespace
 
 TEST_CASE("A bearing's acceleration reaches the sensor as the component of a turning vector") {
     const RandomTile tile = with_bearings();
@@ -133,4 +124,4 @@ TEST_CASE("A mode responds to the force of a bearing by its equation of motion")
     }
 }
 
-}  // namespace test_bearing_path
+}  // namespace gearpod::signals::test_bearing_path

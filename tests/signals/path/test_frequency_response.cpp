@@ -1,20 +1,11 @@
 // Checks the response of the housing against closed forms: a sensor on a resonant mounting, a
 // measured response, and loads that move along an elastic ring.
-#include <catch2/catch.hpp>
-#include <cmath>
-#include <numbers>
-#include <vector>
-
 #include "signals/path/frequency_response.hpp"
 #include "signals/path/transmission_path.hpp"
 #include "signals/sensor/sensor_signal.hpp"
+#include "tests/test.hpp"
 
-namespace test_housing_response {
-
-using namespace gearpod;
-using namespace gearpod::signals;
-
-namespace {
+namespace gearpod::signals::test_housing_response {
 
 constexpr double kPi = std::numbers::pi;
 
@@ -32,8 +23,6 @@ std::vector<double> response_to(const std::vector<double>& signal, double sampli
     periodic.add(signal, sampling_Hz, response);
     return periodic.take();
 }
-
-}  // namespace
 
 // S. S. Rao, Mechanical Vibrations: displacement transmissibility of a damped oscillator.
 TEST_CASE("A mode with participation 1 has the transmissibility of a damped oscillator") {
@@ -110,8 +99,6 @@ TEST_CASE("A response of gain 1 and linear phase delays a signal") {
     }
 }
 
-namespace {
-
 constexpr int kPlanets = 3, kPhases = 40, kOrder = 4;
 constexpr SpanLayout kLayout{5, 7, 7};  // five turns of a carrier with seven mesh periods each
 constexpr double kMeshSampling_Hz = 4000.0;
@@ -147,8 +134,6 @@ struct TravellingLoad {
         return sum.take();
     }
 };
-
-}  // namespace
 
 // The modal load of a moving force is the sum of two travelling lines, of order kOrder x meshes +-
 // n per carrier turn, and each has its own response.
@@ -201,17 +186,14 @@ TEST_CASE("A signal of another length than the response's is refused") {
     CHECK_THROWS_AS(response.add(std::vector<double>(9), 1.0, {}), std::invalid_argument);
 }
 
-}  // namespace test_housing_response
+}  // namespace gearpod::signals::test_housing_response
 
 // Checks the measuring chain of a sensor against closed forms: its low-pass in place of another
 // one, a resonant mounting, and a delay.
 
-namespace test_measuring_chain {
+namespace gearpod::signals::test_measuring_chain {
 
-using namespace gearpod::signals;
 using Complex = std::complex<double>;
-
-namespace {
 
 constexpr double kPi = std::numbers::pi;
 constexpr double kSampling_Hz = 2000.0;
@@ -240,8 +222,6 @@ std::vector<double> measured_by(const MeasuringChain& chain, const std::vector<d
     response.add(signal, kSampling_Hz, {.modes = {}, .measured = {}, .chain = chain});
     return response.take(chain, kSampling_Hz);
 }
-
-}  // namespace
 
 TEST_CASE("A low-pass of its own takes the place of the one that was applied") {
     constexpr double kOwn_Hz = 150.0, kApplied_Hz = 600.0;
@@ -363,4 +343,4 @@ TEST_CASE("The measuring chain multiplies the response of the housing and of the
     }
 }
 
-}  // namespace test_measuring_chain
+}  // namespace gearpod::signals::test_measuring_chain

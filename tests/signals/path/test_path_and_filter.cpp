@@ -1,16 +1,7 @@
-#include <catch2/catch.hpp>
-#include <cmath>
-#include <numbers>
-#include <vector>
-
 #include "signals/path/transmission_path.hpp"
+#include "tests/test.hpp"
 
-namespace test_path_and_filter {
-
-using namespace gearpod;
-using namespace gearpod::signals;
-
-namespace {
+namespace gearpod::signals::test_path_and_filter {
 
 constexpr double kPi = std::numbers::pi;
 
@@ -94,6 +85,4 @@ TEST_CASE("The low-pass may be applied before the path: they commute to the rati
     CHECK(difference_of_orders(4 * 8.87, 800.0, 20000.0) / difference == Approx(4.0).epsilon(0.3));
 }
 
-}  // namespace
-
-}  // namespace test_path_and_filter
+}  // namespace gearpod::signals::test_path_and_filter

@@ -1,17 +1,10 @@
 // Checks the path of sensors at other places against the symmetry of the carrier's turn.
-#include <catch2/catch.hpp>
-#include <cmath>
 #include <cstring>
-#include <numbers>
 
 #include "signals/path/transmission_path.hpp"
+#include "tests/test.hpp"
 
-namespace test_sensor_position {
-
-using namespace gearpod;
-using namespace gearpod::signals;
-
-namespace {
+namespace gearpod::signals::test_sensor_position {
 
 constexpr int kPlanets = 4, kPhases = 6, kPositions = 81;
 constexpr SpanLayout kLayout{31, 81, kPositions};
@@ -41,8 +34,6 @@ double steps_at(const PathGrid& grid, int p, int c, int n) {
     m += m < -below ? kPositions : m >= kPositions - below ? -kPositions : 0;
     return m + grid.fraction()[p * kPlanets + n];
 }
-
-}  // namespace
 
 // A third of a turn is 27 of the 81 mesh periods.
 TEST_CASE("A sensor at an angle sees the carrier as the first one did that angle earlier") {
@@ -127,4 +118,4 @@ TEST_CASE("A sensor at the first one's place has the same bits") {
     CHECK(std::memcmp(first.window(), other.window(), places * kPlanets * sizeof(double)) == 0);
 }
 
-}  // namespace test_sensor_position
+}  // namespace gearpod::signals::test_sensor_position

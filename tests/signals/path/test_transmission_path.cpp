@@ -1,15 +1,7 @@
-#include <catch2/catch.hpp>
-#include <cmath>
-#include <numbers>
-
 #include "signals/path/transmission_path.hpp"
+#include "tests/test.hpp"
 
-namespace test_transmission_path {
-
-using namespace gearpod;
-using namespace gearpod::signals;
-
-namespace {
+namespace gearpod::signals::test_transmission_path {
 
 double farthest(double alpha) {
     const double pi = std::numbers::pi;
@@ -118,6 +110,4 @@ TEST_CASE("An unknown path window is refused by naming the known ones") {
     CHECK_THROWS_WITH(path_window("hanning"), Catch::Contains("hamming, hann, rectangular"));
 }
 
-}  // namespace
-
-}  // namespace test_transmission_path
+}  // namespace gearpod::signals::test_transmission_path

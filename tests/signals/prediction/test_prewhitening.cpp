@@ -1,16 +1,8 @@
 // Checks cepstral pre-whitening.
-#include <catch2/catch.hpp>
-#include <cmath>
-#include <numbers>
-#include <vector>
-
 #include "signals/prediction/prewhitening.hpp"
+#include "tests/test.hpp"
 
-namespace test_prewhitening {
-
-using namespace gearpod::signals;
-
-namespace {
+namespace gearpod::signals::test_prewhitening {
 
 TEST_CASE("Pre-whitening keeps an impulse and makes tones as weak as every other order") {
     // An impulse has equal magnitudes; without its mean it is 1 - 1/n there and -1/n elsewhere.
@@ -35,6 +27,4 @@ TEST_CASE("Pre-whitening keeps an impulse and makes tones as weak as every other
     }
 }
 
-}  // namespace
-
-}  // namespace test_prewhitening
+}  // namespace gearpod::signals::test_prewhitening

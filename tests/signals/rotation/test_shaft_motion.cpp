@@ -1,18 +1,9 @@
 // Checks that jumps of a measured rotation are found, and that rotation of real gearboxes passes:
 // jittery, quantized, with torsional vibration, run-ups and few pulses.
-#include <catch2/catch.hpp>
-#include <cmath>
-#include <functional>
-#include <numbers>
-#include <random>
-
 #include "signals/rotation/shaft_motion.hpp"
+#include "tests/test.hpp"
 
-namespace test_shaft_motion {
-
-using namespace gearpod;
-
-namespace {
+namespace gearpod::test_shaft_motion {
 
 constexpr double kTurn = 2.0 * std::numbers::pi, kRate_Hz = 5120.0;
 constexpr double kLeast = 0.05 / 76.0 * kTurn;  // rad
@@ -196,6 +187,4 @@ TEST_CASE("pulses of real gearboxes pass, and jumps and missing pulses are found
     CHECK_THAT(signals::tachometer_pulses(missing, least).problem, Catch::Contains("missing"));
 }
 
-}  // namespace
-
-}  // namespace test_shaft_motion
+}  // namespace gearpod::test_shaft_motion

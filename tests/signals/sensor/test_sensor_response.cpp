@@ -1,20 +1,12 @@
 // Checks sensor signals recorded mesh by mesh against those computed from stored meshes.
-#include <catch2/catch.hpp>
-#include <cmath>
-#include <numeric>
-
 #include "machine/instruction_sets.hpp"
 #include "signals/sensor/sensor_signal.hpp"
 #include "signals/spectra/synchronous_average.hpp"
 #include "signals/windowing/folded_signal.hpp"
 #include "tests/signals/random_tile.hpp"
+#include "tests/test.hpp"
 
-namespace test_sensor_response {
-
-using namespace gearpod;
-using namespace gearpod::signals;
-
-namespace {
+namespace gearpod::signals::test_sensor_response {
 
 const std::vector<double> kExponents{0.1, 0.0, -0.1, 0.25, 0.9, -1.0, 0.13, 0.07};
 constexpr int kPlanets = 4, kPhases = 6, kTePhases = 3;
@@ -55,8 +47,6 @@ SensorResponse recorded_response(const RandomTile& tile, const PathGrid& path,
     }
     return span;
 }
-
-}  // namespace
 
 TEST_CASE(
     "Meshes recorded one by one give the samples and averaged transmission error of stored ones") {
@@ -121,4 +111,4 @@ TEST_CASE("Samples that are not requested are not stored") {
                     std::invalid_argument);
 }
 
-}  // namespace test_sensor_response
+}  // namespace gearpod::signals::test_sensor_response

@@ -1,18 +1,9 @@
 // Checks the alignment of one record in another: known shifts are recovered, and noise and other
 // signals lower the correlation.
-#include <catch2/catch.hpp>
-#include <cmath>
-#include <numbers>
-#include <random>
-#include <stdexcept>
-
 #include "signals/spectra/alignment.hpp"
+#include "tests/test.hpp"
 
-namespace test_alignment {
-
-using namespace gearpod::signals;
-
-namespace {
+namespace gearpod::signals::test_alignment {
 
 // A period of n samples of some lines, with a delay of `shift` samples.
 std::vector<double> lines(std::size_t n, double shift) {
@@ -33,8 +24,6 @@ double farthest(const std::vector<double>& a, const std::vector<double>& b) {
     }
     return most;
 }
-
-}  // namespace
 
 TEST_CASE("An integer or fractional shift is found and removed") {
     for (const std::size_t n : {279U, 512U, 31U * 27U}) {
@@ -73,4 +62,4 @@ TEST_CASE("Signals that cannot be aligned have no correlation") {
     CHECK_THROWS_AS(align({}, {}), std::invalid_argument);
 }
 
-}  // namespace test_alignment
+}  // namespace gearpod::signals::test_alignment

@@ -1,17 +1,9 @@
-#include <catch2/catch.hpp>
-#include <cmath>
-#include <random>
-
 #include "signals/noise/sensor_noise.hpp"
 #include "signals/spectra/synchronous_average.hpp"
 #include "tests/signals/random_tile.hpp"
+#include "tests/test.hpp"
 
-namespace test_averaged_te {
-
-using namespace gearpod;
-using namespace gearpod::signals;
-
-namespace {
+namespace gearpod::signals::test_averaged_te {
 
 // Average over turns of the whole signal, sample by sample, with its mean removed.
 std::vector<double> direct_average(const RandomTile& tile, int lane, const Timeline& timeline,
@@ -91,6 +83,4 @@ TEST_CASE("Encoder noise decreases with the root of the number of averaged turns
     CHECK(square / 200000.0 == Approx(1.0 / 81.0).epsilon(0.015));
 }
 
-}  // namespace
-
-}  // namespace test_averaged_te
+}  // namespace gearpod::signals::test_averaged_te

@@ -1,18 +1,10 @@
-#include <catch2/catch.hpp>
-#include <cmath>
-#include <numbers>
-#include <random>
 #include <thread>
 
 #include "machine/instruction_sets.hpp"
 #include "signals/spectra/fourier_transform.hpp"
+#include "tests/test.hpp"
 
-namespace test_fourier_transform {
-
-using namespace gearpod;
-using namespace gearpod::signals;
-
-namespace {
+namespace gearpod::signals::test_fourier_transform {
 
 using Complex = std::complex<double>;
 
@@ -112,6 +104,4 @@ TEST_CASE("A Fourier transform refuses other lengths than its own") {
     CHECK_THROWS_AS(FourierTransform(0), std::invalid_argument);
 }
 
-}  // namespace
-
-}  // namespace test_fourier_transform
+}  // namespace gearpod::signals::test_fourier_transform

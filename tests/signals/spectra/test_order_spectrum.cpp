@@ -1,16 +1,7 @@
-#include <catch2/catch.hpp>
-#include <cmath>
-#include <numbers>
-#include <random>
-
 #include "signals/spectra/order_spectrum.hpp"
+#include "tests/test.hpp"
 
-namespace test_order_spectrum {
-
-using namespace gearpod;
-using namespace gearpod::signals;
-
-namespace {
+namespace gearpod::signals::test_order_spectrum {
 
 constexpr double kPi = std::numbers::pi;
 
@@ -102,16 +93,9 @@ TEST_CASE("A spectrum refuses signals that are not one turn") {
     CHECK_THROWS_AS(OrderSpectrum(1), std::invalid_argument);
 }
 
-}  // namespace
+}  // namespace gearpod::signals::test_order_spectrum
 
-}  // namespace test_order_spectrum
-
-namespace test_mesh_separation {
-
-using namespace gearpod;
-using namespace gearpod::signals;
-
-namespace {
+namespace gearpod::signals::test_mesh_separation {
 
 constexpr double kTwoPi = 2.0 * std::numbers::pi;
 
@@ -181,6 +165,4 @@ TEST_CASE("The parts of any turn add up to it") {
     CHECK_THROWS_AS(MeshSeparation(28, 7).load(std::vector<double>(27)), std::invalid_argument);
 }
 
-}  // namespace
-
-}  // namespace test_mesh_separation
+}  // namespace gearpod::signals::test_mesh_separation

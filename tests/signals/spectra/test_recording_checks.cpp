@@ -1,19 +1,7 @@
-#include <algorithm>
-#include <catch2/catch.hpp>
-#include <cmath>
-#include <iterator>
-#include <numbers>
-#include <random>
-#include <vector>
-
 #include "signals/spectra/recording_checks.hpp"
+#include "tests/test.hpp"
 
-namespace test_mesh_speed {
-
-using namespace gearpod;
-using namespace gearpod::signals;
-
-namespace {
+namespace gearpod::signals::test_mesh_speed {
 
 constexpr int kPerMesh = 24;
 
@@ -92,18 +80,11 @@ TEST_CASE("Noise, a single tone and short records give no speed") {
     CHECK_FALSE(mesh_speed(gearbox(40, 3, 1.02, 0.1, 100, 1), kPerMesh, 40));
 }
 
-}  // namespace
-
-}  // namespace test_mesh_speed
+}  // namespace gearpod::signals::test_mesh_speed
 
 // Checks the detection of missing samples in signals whose losses are known.
 
-namespace test_lost_samples {
-
-using namespace gearpod;
-using namespace gearpod::signals;
-
-namespace {
+namespace gearpod::signals::test_lost_samples {
 
 constexpr int kPerMesh = 12, kTurnMeshes = 20, kTurns = 10;
 constexpr double kTwoPi = 2.0 * std::numbers::pi;
@@ -171,6 +152,4 @@ TEST_CASE("Few turns, noise alone and silence give no result") {
     CHECK(!lost_samples({}, kPerMesh, kTurnMeshes));
 }
 
-}  // namespace
-
-}  // namespace test_lost_samples
+}  // namespace gearpod::signals::test_lost_samples

@@ -1,17 +1,7 @@
-#include <catch2/catch.hpp>
-#include <cmath>
-#include <numbers>
-#include <stdexcept>
-#include <vector>
-
 #include "signals/spectra/resampling.hpp"
+#include "tests/test.hpp"
 
-namespace test_order_tracking {
-
-using namespace gearpod;
-using namespace gearpod::signals;
-
-namespace {
+namespace gearpod::signals::test_order_tracking {
 
 constexpr double kTwoPi = 2.0 * std::numbers::pi;
 
@@ -86,17 +76,13 @@ TEST_CASE("Decreasing phases and recordings that are too short are refused") {
     CHECK_THROWS_AS(tracking.resample(std::vector<double>(3), 2, 2), std::invalid_argument);
 }
 
-}  // namespace
-
-}  // namespace test_order_tracking
+}  // namespace gearpod::signals::test_order_tracking
 
 // Checks values of periodic signals between their samples against sums of harmonics.
 
-namespace test_periodic_interpolation {
+namespace gearpod::test_periodic_interpolation {
 
-using gearpod::signals::PeriodicInterpolation;
-
-namespace {
+using signals::PeriodicInterpolation;
 
 // Mean, and harmonics up to a fifth of the number of samples.
 double sum_of_harmonics(double position, std::size_t samples) {
@@ -108,8 +94,6 @@ double sum_of_harmonics(double position, std::size_t samples) {
     }
     return sum;
 }
-
-}  // namespace
 
 TEST_CASE("A periodic signal is interpolated like its harmonics, at any position") {
     for (const std::size_t samples : {100U, 101U, 1240U}) {
@@ -132,4 +116,4 @@ TEST_CASE("Periods of three samples or of another length are refused") {
                     std::invalid_argument);
 }
 
-}  // namespace test_periodic_interpolation
+}  // namespace gearpod::test_periodic_interpolation

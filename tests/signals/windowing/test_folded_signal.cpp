@@ -1,19 +1,11 @@
-#include <catch2/catch.hpp>
-#include <cmath>
-#include <numeric>
-
 #include "machine/instruction_sets.hpp"
 #include "signals/sensor/sensor_signal.hpp"
 #include "signals/windowing/folded_signal.hpp"
 #include "tests/signals/direct_signal.hpp"
 #include "tests/signals/random_tile.hpp"
+#include "tests/test.hpp"
 
-namespace test_folded_signal {
-
-using namespace gearpod;
-using namespace gearpod::signals;
-
-namespace {
+namespace gearpod::signals::test_folded_signal {
 
 const std::vector<double> kExponents{0.1, 0.0, -0.1, 0.25, 0.9, -1.0, 0.13, 0.07};
 
@@ -185,6 +177,4 @@ TEST_CASE("Tile, plan and path of different shapes are refused") {
     CHECK_THROWS_AS(FoldPlan({}, layout), std::invalid_argument);
 }
 
-}  // namespace
-
-}  // namespace test_folded_signal
+}  // namespace gearpod::signals::test_folded_signal

@@ -1,18 +1,11 @@
 // Checks means over exponentially tilted, weighted noise against the closed forms of plain noise.
 #include <boost/math/distributions/non_central_chi_squared.hpp>
-#include <catch2/catch.hpp>
-#include <cmath>
-#include <random>
 
 #include "signals/windowing/noise_importance_sampler.hpp"
 #include "signals/windowing/windowing.hpp"
+#include "tests/test.hpp"
 
-namespace test_noise_importance_sampler {
-
-using namespace gearpod;
-using namespace gearpod::signals;
-
-namespace {
+namespace gearpod::signals::test_noise_importance_sampler {
 
 constexpr SpanLayout kLayout{5, 9, 1};
 constexpr int kPhases = 24;
@@ -167,6 +160,4 @@ TEST_CASE("Without noise there is no tilting, and bins must match the layout") {
                     std::invalid_argument);
 }
 
-}  // namespace
-
-}  // namespace test_noise_importance_sampler
+}  // namespace gearpod::signals::test_noise_importance_sampler

@@ -1,19 +1,9 @@
-#include <catch2/catch.hpp>
-#include <cmath>
-#include <numbers>
-#include <random>
-#include <vector>
-
 #include "signals/spectra/synchronous_average.hpp"
 #include "signals/windowing/tooth_statistics.hpp"
 #include "signals/windowing/windowing.hpp"
+#include "tests/test.hpp"
 
-namespace test_tooth_signals {
-
-using namespace gearpod;
-using namespace gearpod::signals;
-
-namespace {
+namespace gearpod::signals::test_tooth_signals {
 
 constexpr double kTwoPi = 2.0 * std::numbers::pi;
 
@@ -137,6 +127,4 @@ TEST_CASE("The average over turns keeps the repeating part, the rest is the resi
     CHECK_THROWS_AS(fold_of_squares(std::vector<double>{1}, 2), std::invalid_argument);
 }
 
-}  // namespace
-
-}  // namespace test_tooth_signals
+}  // namespace gearpod::signals::test_tooth_signals

@@ -1,17 +1,8 @@
-#include <catch2/catch.hpp>
-#include <cmath>
-#include <numbers>
-#include <random>
-
 #include "machine/instruction_sets.hpp"
 #include "signals/windowing/windowing.hpp"
+#include "tests/test.hpp"
 
-namespace test_windowing {
-
-using namespace gearpod;
-using namespace gearpod::signals;
-
-namespace {
+namespace gearpod::signals::test_windowing {
 
 constexpr double kPi = std::numbers::pi;
 
@@ -280,6 +271,4 @@ TEST_CASE("The window search gives the same bits on every instruction set") {
     }
 }
 
-}  // namespace
-
-}  // namespace test_windowing
+}  // namespace gearpod::signals::test_windowing

@@ -1,19 +1,11 @@
 // Checks stress intensities at a cracked tooth's root.
-#include <catch2/catch.hpp>
-#include <cmath>
-#include <numbers>
-
 #include "stiffness/growth/crack_growth.hpp"
 #include "stiffness/teeth/fracture_mechanics.hpp"
 #include "tests/stiffness/finite_element_tables.hpp"
 #include "tests/stiffness/gear_pairs.hpp"
+#include "tests/test.hpp"
 
-namespace test_root_crack {
-
-using namespace gearpod;
-using namespace gearpod::stiffness;
-
-namespace {
+namespace gearpod::stiffness::test_root_crack {
 
 using std::numbers::pi;
 
@@ -159,18 +151,11 @@ TEST_CASE(
     CHECK_THROWS_AS(RootCrack(pair, Profile::root_circle, 1, 0.0, 0.01), std::invalid_argument);
 }
 
-}  // namespace
-
-}  // namespace test_root_crack
+}  // namespace gearpod::stiffness::test_root_crack
 
 // Checks growth by Paris' law against closed integrals and against cycle-by-cycle summation.
 
-namespace test_paris_growth {
-
-using namespace gearpod;
-using namespace gearpod::stiffness;
-
-namespace {
+namespace gearpod::stiffness::test_paris_growth {
 
 // A crack with the same factor at all depths: K = Y sigma sqrt(pi a) for load sigma.
 constexpr double kFactor = 1.12;
@@ -235,6 +220,4 @@ TEST_CASE("Growth requires depths and a load that opens the crack", "[growth]") 
                     std::invalid_argument);
 }
 
-}  // namespace
-
-}  // namespace test_paris_growth
+}  // namespace gearpod::stiffness::test_paris_growth

@@ -1,11 +1,6 @@
 // Checks stages that elastic shafts couple with a study's gearbox: natural frequencies against
 // equations written here, torques in balance, lines where the tooth numbers put them, and bits.
 #include <Eigen/Dense>
-#include <catch2/catch.hpp>
-#include <cmath>
-#include <complex>
-#include <numbers>
-#include <numeric>
 
 #include "mc/ensemble/coupling/neighbour_stages.hpp"
 #include "mc/ensemble/coupling/record_positions.hpp"
@@ -14,12 +9,9 @@
 #include "tests/mc/ensemble/gearbox/stage_files.hpp"
 #include "tests/mc/study_file.hpp"
 
-namespace test_coupled_train {
+namespace gearpod::test_coupled_train {
 
-using namespace gearpod;
-using namespace gearpod::test;
-
-namespace {
+using namespace test;
 
 const std::vector<std::string> kNumerics{"numerics.integrator=central-difference",
                                          "numerics.horizon=full"};
@@ -86,8 +78,6 @@ std::vector<double> transmission_error(const mc::Scene& scene) {
     }
     return {};
 }
-
-}  // namespace
 
 TEST_CASE("Natural frequencies of a train are those of its equations", "[coupled-train]") {
     const Folder folder;
@@ -216,9 +206,7 @@ TEST_CASE("Shafts that cannot be computed are refused with what would be right",
     const Folder folder;
     const std::string path = stage_file(folder, "stage.toml");
     const auto refused = [&](const std::string& options) {
-        const auto outcome = check_refused("describe " + kSmall + " " + options);
-        INFO(outcome.output);
-        return outcome;
+        return check_refused("describe " + kSmall + " " + options);
     };
     CHECK(refused(stages(path, shaft(2e4)) + "--set numerics.integrator=central-difference")
               .mentions("numerics.horizon"));
@@ -250,4 +238,4 @@ TEST_CASE("Shafts that cannot be computed are refused with what would be right",
               .mentions("integrated by one method only"));
 }
 
-}  // namespace test_coupled_train
+}  // namespace gearpod::test_coupled_train

@@ -1,9 +1,5 @@
 // Checks the error and cost of solver settings: errors against closed forms and an independent
 // method, and the choice of numerics.tolerance.
-#include <algorithm>
-#include <catch2/catch.hpp>
-#include <cmath>
-#include <limits>
 #include <nlohmann/json.hpp>
 
 #include "mc/library/run/run_options.hpp"
@@ -16,13 +12,9 @@
 #include "tests/mc/program.hpp"
 #include "tests/mc/study_file.hpp"
 
-namespace test_accuracy {
+namespace gearpod::mc::test_accuracy {
 
-using namespace gearpod;
-using namespace gearpod::mc;
-using namespace gearpod::test;
-
-namespace {
+using namespace test;
 
 // Tian's cracked pinion with a sensor of narrower band, to reduce computation time.
 const std::vector<std::string> kNarrow{"sensor.sampling_Hz=17100", "sensor.low_pass_Hz=7695",
@@ -56,8 +48,6 @@ PilotRecord record(std::vector<double> sensor, std::vector<double> te,
     r.levels = 1;
     return r;
 }
-
-}  // namespace
 
 TEST_CASE("errors of a pilot are relative L2 norms") {
     const PilotRecord reference = record({3.0, 4.0}, {1.0, -1.0}, {10.0, -2.0});
@@ -226,8 +216,6 @@ TEST_CASE("the share of decisions that the numerical error could change is count
     CHECK(back.numerical->largest == r.numerical->largest);
 }
 
-namespace {
-
 std::string sets() {
     std::string text;
     for (const std::string& key : kNarrow) {
@@ -235,8 +223,6 @@ std::string sets() {
     }
     return text;
 }
-
-}  // namespace
 
 TEST_CASE("accuracy lists every solver setting, marks the frontier and reports what is refused",
           "[accuracy]") {
@@ -402,4 +388,4 @@ TEST_CASE("accuracy reports what it cannot do", "[accuracy]") {
     CHECK(bad.mentions("bad.csv:2: sensor: \"z\" is not a number >= 0"));
 }
 
-}  // namespace test_accuracy
+}  // namespace gearpod::mc::test_accuracy

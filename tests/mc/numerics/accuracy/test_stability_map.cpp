@@ -1,13 +1,8 @@
 // Checks the stability map of a study and its hard cases.
-#include <catch2/catch.hpp>
-
 #include "mc/numerics/accuracy/stability_map.hpp"
 #include "tests/mc/study_file.hpp"
 
-namespace test_stability_map {
-
-using namespace gearpod;
-using namespace gearpod::mc;
+namespace gearpod::mc::test_stability_map {
 
 TEST_CASE("the stability map has the steps of hard cases next to those of the study",
           "[accuracy]") {
@@ -33,4 +28,4 @@ TEST_CASE("the stability map has the steps of hard cases next to those of the st
     }
 }
 
-}  // namespace test_stability_map
+}  // namespace gearpod::mc::test_stability_map

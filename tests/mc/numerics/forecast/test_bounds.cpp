@@ -4,12 +4,9 @@
 
 #include "tests/mc/program.hpp"
 
-namespace test_bounds {
+namespace gearpod::test_bounds {
 
-using namespace gearpod;
-using namespace gearpod::test;
-
-namespace {
+using namespace test;
 
 std::string levels(int count) {
     std::string list;
@@ -31,8 +28,6 @@ double children_processor_s() {
     return static_cast<double>(usage.ru_utime.tv_sec + usage.ru_stime.tv_sec) +
            1e-6 * static_cast<double>(usage.ru_utime.tv_usec + usage.ru_stime.tv_usec);
 }
-
-}  // namespace
 
 TEST_CASE("describe ends within its time and memory for any counts in a study") {
     const std::string study = test::study("crack-in-sun.toml");
@@ -91,4 +86,4 @@ TEST_CASE("A run that exceeds the memory reports this before it begins") {
 }
 #endif
 
-}  // namespace test_bounds
+}  // namespace gearpod::test_bounds

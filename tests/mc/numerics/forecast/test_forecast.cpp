@@ -1,10 +1,5 @@
 // Checks the cost forecast of `describe`: arithmetic on given measurements, and a bounded measuring
 // time.
-#include <bit>
-#include <catch2/catch.hpp>
-#include <cmath>
-#include <set>
-
 #include "mc/ensemble/gearbox/solution_choice.hpp"
 #include "mc/numerics/forecast/forecast.hpp"
 #include "mc/study/gears.hpp"
@@ -12,12 +7,7 @@
 #include "tests/mc/study_file.hpp"
 #include "tests/shipped_studies.hpp"
 
-namespace test_forecast {
-
-using namespace gearpod;
-using namespace gearpod::mc;
-
-namespace {
+namespace gearpod::mc::test_forecast {
 
 constexpr std::size_t kLanes = 8;
 
@@ -64,8 +54,6 @@ const std::vector<std::string> kFast{"operation.carrier_speed_rpm=60", "sensor.s
 
 // Limit with enough time for one tile per thread.
 constexpr double kNoBudget_s = 1e-9;
-
-}  // namespace
 
 TEST_CASE(
     "A run takes the rounds of batches that its threads need; the last round may be partial") {
@@ -290,4 +278,4 @@ TEST_CASE("A study's description ends with a forecast and writes nothing") {
     CHECK(described.output.find(run.output) != std::string::npos);
 }
 
-}  // namespace test_forecast
+}  // namespace gearpod::mc::test_forecast

@@ -2,10 +2,9 @@
 #include "tests/mc/program.hpp"
 #include "tests/mc/study_file.hpp"
 
-namespace test_effect_changes {
+namespace gearpod::test_effect_changes {
 
-using namespace gearpod;
-using namespace gearpod::test;
+using namespace test;
 
 TEST_CASE("describe names effects that change nothing and those that a study lacks") {
     const auto description =
@@ -31,4 +30,4 @@ TEST_CASE("describe measures effects on short records where every mesh period is
     check_mentions(description, {"s: 3 turns of ", "tooth errors"});
 }
 
-}  // namespace test_effect_changes
+}  // namespace gearpod::test_effect_changes

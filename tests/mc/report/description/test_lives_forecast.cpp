@@ -1,15 +1,13 @@
 // Checks the cost forecast of `describe` for lives.
-#include <catch2/catch.hpp>
-
 #include "mc/lives/campaign.hpp"
 #include "mc/report/description/describe_lives.hpp"
 #include "mc/results/results_file.hpp"
 #include "tests/mc/lives/life_example.hpp"
+#include "tests/test.hpp"
 
-namespace test_lives_forecast {
+namespace gearpod::test_lives_forecast {
 
-using namespace gearpod;
-using namespace gearpod::test;
+using namespace test;
 
 TEST_CASE("The forecast of lives counts the records that they will have") {
     const mc::Scene scene(life_study());
@@ -39,4 +37,4 @@ TEST_CASE("The forecast for lives grows with their loads, depths and number") {
     CHECK(lives.file_bytes > 20.0 * plain.file_bytes);
 }
 
-}  // namespace test_lives_forecast
+}  // namespace gearpod::test_lives_forecast

@@ -1,20 +1,12 @@
 // Checks `describe --ranks`: arithmetic on given measurements, and forecast file sizes against
 // files.
-#include <catch2/catch.hpp>
-#include <filesystem>
-
 #include "mc/plan/sampling.hpp"
 #include "mc/report/description/describe_forecast.hpp"
 #include "mc/results/checkpoint.hpp"
 #include "tests/mc/program.hpp"
 #include "tests/mc/study_file.hpp"
 
-namespace test_rank_forecast {
-
-using namespace gearpod;
-using namespace gearpod::mc;
-
-namespace {
+namespace gearpod::mc::test_rank_forecast {
 
 // Equal cost of all gearboxes: a batch of sixteen takes `batch_s`.
 RunCost given_cost(int threads, double batch_s) {
@@ -39,8 +31,6 @@ RankForecast forecast_of(const BatchPlan& plan, double batch_s, int threads, int
     return forecast_ranks(given_cost(threads, batch_s), plan, scene().ensemble().shape, {}, alone,
                           ranks);
 }
-
-}  // namespace
 
 TEST_CASE("Ranks share the batches, and at most as many threads compute as there are batches") {
     const BatchPlan plan(160, 160 * 9);  // a hundred batches
@@ -86,4 +76,4 @@ TEST_CASE("A checkpoint and results have the forecast sizes") {
     CHECK(written - checkpoint_bytes(plan, shape) == Approx(4096.0));
 }
 
-}  // namespace test_rank_forecast
+}  // namespace gearpod::mc::test_rank_forecast

@@ -1,16 +1,12 @@
 // Checks the study that `describe` prints: short lines with the same meaning.
-#include <catch2/catch.hpp>
-#include <sstream>
-
 #include "mc/report/description/terminal_text.hpp"
 #include "mc/study/study.hpp"
 #include "tests/mc/study_example.hpp"
 #include "tests/mc/study_file.hpp"
 
-namespace test_wrapped_study {
+namespace gearpod::mc::test_wrapped_study {
 
-using namespace gearpod::mc;
-using namespace gearpod::tests;
+using namespace tests;
 
 TEST_CASE("A wrapped study has short lines and the same meaning") {
     const Study reading = gearpod::test::valid_study(read_study_text(
@@ -39,4 +35,4 @@ TEST_CASE("Short lines and long strings of a study stay as they are") {
                                                                std::string(40, ']') + "\",\n]\n");
 }
 
-}  // namespace test_wrapped_study
+}  // namespace gearpod::mc::test_wrapped_study

@@ -1,12 +1,7 @@
-#include <catch2/catch.hpp>
-#include <set>
-
 #include "mc/report/sweep/grid.hpp"
+#include "tests/test.hpp"
 
-namespace test_grid {
-
-using namespace gearpod;
-using namespace gearpod::mc;
+namespace gearpod::mc::test_grid {
 
 TEST_CASE("A grid has every combination once; the last key varies fastest") {
     Problems problems;
@@ -87,4 +82,4 @@ TEST_CASE("Malformed lists of values are refused with their key") {
     CHECK(grid_of(keys).empty());  // 101 x 101
 }
 
-}  // namespace test_grid
+}  // namespace gearpod::mc::test_grid
