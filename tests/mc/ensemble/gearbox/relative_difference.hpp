@@ -1,8 +1,7 @@
 // Relative difference of two signals.
 #pragma once
 
-#include <catch2/catch.hpp>
-#include <cmath>
+#include "tests/test.hpp"
 
 namespace gearpod::test {
 

@@ -1,11 +1,6 @@
 // Runs of a small study, and what several tests of its sensors compare.
 #pragma once
 
-#include <map>
-#include <sstream>
-#include <string>
-#include <vector>
-
 #include "tests/mc/program.hpp"
 
 namespace gearpod::test {
@@ -70,6 +65,23 @@ inline double printed_value(const Outcome& outcome, const std::string& name) {
         }
     }
     return 0.0;
+}
+
+inline const std::vector<double>& values(const std::vector<mc::FeatureResult>& features,
+                                         const std::string& name) {
+    return std::ranges::find(features, name, &mc::FeatureResult::name)->values;
+}
+
+inline void check_close(const std::vector<double>& a, const std::vector<double>& b, double relative,
+                        double margin = 0.0) {
+    REQUIRE(a.size() == b.size());
+    for (std::size_t i = 0; i < a.size(); ++i) {
+        CHECK(a[i] == Approx(b[i]).epsilon(relative).margin(margin));
+    }
+}
+
+inline void check_same_bits(const std::vector<double>& a, const std::vector<double>& b) {
+    CHECK(bits_of_values(a) == bits_of_values(b));
 }
 
 // Output of `features` for the exported samples of gearbox 25 of such a run, which has 455 mesh

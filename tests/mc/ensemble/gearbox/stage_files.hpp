@@ -1,9 +1,6 @@
 // Studies of a stage next to the small gearbox.
 #pragma once
 
-#include <fstream>
-#include <string>
-
 #include "tests/mc/ensemble/gearbox/small_runs.hpp"
 #include "tests/mc/study_file.hpp"
 

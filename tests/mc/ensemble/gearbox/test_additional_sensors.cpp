@@ -1,19 +1,13 @@
 // Checks additional sensors of a run: signals, features, baselines and records of given length.
-#include <cmath>
-#include <random>
-
 #include "analysis/statistics/distributions.hpp"
 #include "mc/report/sensors.hpp"
 #include "mc/results/result_rows.hpp"
 #include "tests/mc/ensemble/gearbox/small_runs.hpp"
 #include "tests/mc/study_file.hpp"
 
-namespace test_additional_sensors {
+namespace gearpod::test_additional_sensors {
 
-using namespace gearpod;
-using namespace gearpod::test;
-
-namespace {
+using namespace test;
 
 std::string sensors(const std::string& list) {
     return " --set 'sensor.additional=[" + list + "]' ";
@@ -36,8 +30,6 @@ const mc::FeatureResult& named(const std::vector<mc::FeatureResult>& features,
                                const std::string& name) {
     return *std::ranges::find(features, name, &mc::FeatureResult::name);
 }
-
-}  // namespace
 
 TEST_CASE("A second sensor at the place of the first one differs in its noise only") {
     const Folder folder;
@@ -87,21 +79,6 @@ TEST_CASE("Baselines and records of given length belong to each sensor") {
     }
 }
 
-TEST_CASE("Sensors recorded during integration equal those of the kept motion") {
-    const Folder folder;
-    const std::string side = sensors("{name=\"side\", angle_deg=77, direction=\"tangential\"}");
-    const mc::Results kept = run(folder, "kept.h5", side),
-                      recorded = run(folder, "full.h5", side + "--set numerics.horizon=full");
-    for (const char* name : {"sensor_rms", "window_ratio", "crest_factor", "sun_window_ratio"}) {
-        INFO(name);
-        const auto a = at_level(named(kept.variants[0].features, name), 0),
-                   b = at_level(named(recorded.variants[0].features, name), 0);
-        for (std::size_t row = 0; row < a.size(); ++row) {
-            CHECK(a[row] == Approx(b[row]).epsilon(1e-3));
-        }
-    }
-}
-
 TEST_CASE("Cross-axis sensitivity adds that part of the acceleration at right angles") {
     const Folder folder;
     const std::string options = " --set sensor.noise_levels=[0] " +
@@ -114,23 +91,6 @@ TEST_CASE("Cross-axis sensitivity adds that part of the acceleration at right an
         REQUIRE(mixed.at("sensor_side")[i] ==
                 Approx(tangential[i] + 0.05 * radial[i]).margin(1e-5));
     }
-}
-
-TEST_CASE("Exported samples of an additional sensor have the features of the run") {
-    const Folder folder;
-    const std::string side = sensors("{name=\"side\", angle_deg=77, noise=3}");
-    const mc::Results results = run(folder, "run.h5", side);
-    const auto measured =
-        features_of_export(folder, "sensor_side_noise_1", "--set sensor.noise_levels=[0,1]" + side);
-    for (const char* name : {"sensor_rms", "window_ratio", "fm4", "crest_factor"}) {
-        INFO(name);
-        CHECK(at_level(named(results.variants[0].features, name), 1)[25] ==
-              Approx(printed_value(measured, name)).epsilon(1e-5));
-    }
-}
-
-TEST_CASE("Rows of additional sensors keep their bits over threads, parts and merging") {
-    check_equal_bits_over_parts(sensors("{name=\"side\", angle_deg=77}"));
 }
 
 // Two sensors with independent normal noise: a fault that shifts each by d standard deviations
@@ -189,10 +149,6 @@ TEST_CASE("Problems of additional sensors are all reported") {
     }
     CHECK(program("describe " + kSmall + sensors("{name=\"side\", angle_deg=90}"))
               .mentions("\"side\": 90 degrees from the first one, radial"));
-    const mc::Study reading = valid_study(mc::read_study(
-        kSmall, {"sensor.additional=[{name='b', angle_deg=-33.3, direction='tangential', gain=1.7, "
-                 "noise=0.3}]"}));
-    check_reads_back(reading);
 }
 
-}  // namespace test_additional_sensors
+}  // namespace gearpod::test_additional_sensors

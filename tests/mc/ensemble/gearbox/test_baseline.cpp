@@ -1,74 +1,20 @@
 // Checks features relative to the gearbox's record before the fault: ratios, changes, and inputs
 // that both records share.
-#include <catch2/catch.hpp>
-#include <cmath>
-#include <numeric>
+#include "tests/mc/ensemble/gearbox/computed.hpp"
 
-#include "mc/ensemble/gearbox/realization_features.hpp"
-#include "tests/mc/study_file.hpp"
+namespace gearpod::mc::test_baseline {
 
-namespace test_baseline {
-
-using namespace gearpod;
-using namespace gearpod::mc;
-
-namespace {
-
-Study study_with(std::vector<std::string> overrides) {
-    overrides.insert(overrides.end(), {"random.fault.depth_mm={distribution=\"constant\",value=3}",
-                                       "numerics.steps_per_mesh=9600"});
-    return test::shipped_study("planet-crack-ideal.toml", overrides);
-}
+using namespace test;
 
 const std::string kCompared =
     "features.use=[\"sensor_rms\",\"window_ratio\",\"te_rms\",\"own_sensor_rms\","
     "\"own_window_ratio\",\"own_te_rms\",\"change_sensor_rms\",\"change_window_ratio\"]";
 enum : std::size_t { kRms, kRatio, kTe, kOwnRms, kOwnRatio, kOwnTe, kChangeRms, kChangeRatio };
 
-// Simulated gearboxes of a study and their features.
-class Computed {
-  public:
-    Computed(const Study& study, const std::vector<GearboxId>& ids)
-        : scene_(study),
-          levels_(study.sensor.noise_levels.size()),
-          tile_(run_gearboxes(scene_.tile(), ids, 8)),
-          features_(scene_.tile(), &healthy_) {
-        for (std::size_t lane = 0; lane < ids.size(); ++lane) {
-            REQUIRE(tile_.status[lane] == Status::ok);
-            values_.push_back(
-                features_.compute(signals(static_cast<int>(lane)), tile_.realizations[lane]));
-        }
-    }
-    double value(std::size_t feature, std::size_t level = 0, std::size_t gearbox = 0) const {
-        return values_[gearbox][feature * levels_ + level];
-    }
-    const std::vector<std::vector<double>>& values() const { return values_; }
-    LaneSignals signals(int lane) const {
-        return lane_signals(scene_.tile(), tile_, lane, features_.meshes());
-    }
-    double noise_m_s2() const { return tile_.realizations[0].inputs.noise_m_s2; }
-    int integrated_meshes() const { return tile_.meshes; }
-
-  private:
-    Scene scene_;
-    std::size_t levels_;
-    GearboxTile tile_;
-    HealthyReference healthy_;
-    RealizationFeatures features_;
-    std::vector<std::vector<double>> values_;
-};
-
 const GearboxId kHealthy{Group::threshold, 4}, kFaulty{Group::test, 4};
 
-double rms(const std::vector<double>& values) {
-    return std::sqrt(std::inner_product(values.begin(), values.end(), values.begin(), 0.0) /
-                     static_cast<double>(values.size()));
-}
-
-}  // namespace
-
 TEST_CASE("Without noise and at the same torque a healthy gearbox equals its baseline") {
-    const Computed own(study_with({kCompared, "sensor.noise_levels=[0]"}), {kHealthy});
+    const Computed own(ideal_crack_study({kCompared, "sensor.noise_levels=[0]"}), {kHealthy});
     CHECK(own.value(kOwnRms) == 1.0);
     CHECK(own.value(kOwnRatio) == 1.0);
     CHECK(own.value(kOwnTe) == 1.0);
@@ -77,7 +23,7 @@ TEST_CASE("Without noise and at the same torque a healthy gearbox equals its bas
 }
 
 TEST_CASE("Relative features compare the gearbox with its state before the fault") {
-    const Study study = study_with(
+    const Study study = ideal_crack_study(
         {kCompared, "sensor.noise_levels=[0, 1]", "features.baseline_torque_scatter=0.03"});
     const Computed faulty(study, {kFaulty});
     GearboxId before = kFaulty;
@@ -102,7 +48,7 @@ TEST_CASE("Relative features compare the gearbox with its state before the fault
 }
 
 TEST_CASE("The two records have independent noise") {
-    const Computed own(study_with({kCompared, "sensor.noise_levels=[0, 100]"}), {kHealthy});
+    const Computed own(ideal_crack_study({kCompared, "sensor.noise_levels=[0, 100]"}), {kHealthy});
     const double noise = 100.0 * own.noise_m_s2();
     // About a million samples: 1e-3 of the mean square is one standard deviation.
     CHECK(own.value(kChangeRms, 1) == Approx(std::sqrt(2.0) * noise).epsilon(3e-3));
@@ -111,7 +57,7 @@ TEST_CASE("The two records have independent noise") {
 }
 
 TEST_CASE("A baseline's values do not depend on the other gearboxes of its tile") {
-    const Study study = study_with({kCompared, "features.baseline_torque_scatter=0.03"});
+    const Study study = ideal_crack_study({kCompared, "features.baseline_torque_scatter=0.03"});
     const std::vector<GearboxId> ids{kHealthy, kFaulty, {Group::test, 5}};
     const Computed together(study, ids);
     for (std::size_t i = 0; i < ids.size(); ++i) {
@@ -120,7 +66,7 @@ TEST_CASE("A baseline's values do not depend on the other gearboxes of its tile"
 }
 
 TEST_CASE("A baseline is the same in the tile of its record as in an earlier tile") {
-    const Study study = study_with({kCompared, "features.baseline_torque_scatter=0.03"});
+    const Study study = ideal_crack_study({kCompared, "features.baseline_torque_scatter=0.03"});
     const std::vector<GearboxId> ids{
         kHealthy, kFaulty, {Group::test, 5}, {Group::test, 6}, {Group::threshold, 7}};
     // With five of eight lanes taken there is no room for the baselines, with four there is.
@@ -131,7 +77,7 @@ TEST_CASE("A baseline is the same in the tile of its record as in an earlier til
         CHECK(fewer.signals(static_cast<int>(i)).baseline->sensor ==
               before.signals(static_cast<int>(i)).baseline->sensor);
     }
-    CHECK(fewer.integrated_meshes() < before.integrated_meshes());
+    CHECK(fewer.meshes() < before.meshes());
 }
 
 TEST_CASE("The torque of baseline records has the requested scatter on both shafts") {
@@ -163,4 +109,4 @@ TEST_CASE("A baseline torque is refused where no feature uses it") {
     CHECK(format(reading.problems).find("change_") != std::string::npos);
 }
 
-}  // namespace test_baseline
+}  // namespace gearpod::mc::test_baseline

@@ -1,8 +1,6 @@
 // Checks faulty bearings in studies: as background, and as another fault in healthy gearboxes.
 #include <fmt/format.h>
 
-#include <cmath>
-
 #include "mc/ensemble/gearbox/other_sources.hpp"
 #include "mc/report/alarm_rates.hpp"
 #include "mc/results/result_rows.hpp"
@@ -10,12 +8,9 @@
 #include "tests/mc/ensemble/gearbox/small_runs.hpp"
 #include "tests/mc/study_file.hpp"
 
-namespace test_bearings {
+namespace gearpod::test_bearings {
 
-using namespace gearpod;
-using namespace gearpod::test;
-
-namespace {
+using namespace test;
 
 std::string inner_ring(const std::string& role) {
     return "--set 'sensor.bearings=[{fault=\"inner\", shaft=\"sun\", elements=9, "
@@ -52,8 +47,6 @@ mc::Bearing bearing_6205(mc::BearingFault fault) {
     return bearing;
 }
 
-}  // namespace
-
 // Frequencies of the drive-end bearing SKF 6205-2RS, per turn, as the bearing data centre of Case
 // Western Reserve University gives them.
 TEST_CASE("Impulses per turn are those published for a bearing 6205") {
@@ -69,10 +62,8 @@ TEST_CASE("Impulses per turn are those published for a bearing 6205") {
 TEST_CASE("A bearing in the background is added to the sensor's signal") {
     const Folder folder;
     const auto simulate = [&](const std::string& name, const std::string& options) {
-        const auto outcome =
-            require_success("simulate " + kSmall + " --instance 2 --meshes 455 --out " +
-                            folder.file(name) + " " + options);
-        return outcome;
+        return require_success("simulate " + kSmall + " --instance 2 --meshes 455 --out " +
+                               folder.file(name) + " " + options);
     };
     simulate("without.csv", "");
     const auto with = simulate("with.csv", inner_ring("background"));
@@ -145,10 +136,6 @@ TEST_CASE("Alarms of another fault are counted at the thresholds of the healthy 
               .mentions("5.400 impulses per shaft turn"));
 }
 
-TEST_CASE("Rows with another fault keep their bits over threads, parts and merging") {
-    check_equal_bits_over_parts(inner_ring("other_fault"));
-}
-
 TEST_CASE("The signal of the other fault is exported on its own") {
     const Folder folder;
     const auto simulate = [&](const std::string& name, const std::string& role) {
@@ -197,17 +184,6 @@ TEST_CASE("A tone of a shaft has its order times the shaft's speed") {
     }
 }
 
-TEST_CASE("A study with bearings reads back to the same study") {
-    const mc::Study reading = valid_study(mc::read_study(
-        kSmall,
-        {"sensor.bearings=[{fault='roller', shaft_Hz=12.3, elements=11, diameter_ratio=0.17, "
-         "contact_angle_deg=13.7, amplitude_m_s2=0.3, resonance_Hz=101.7, damping=0.03, "
-         "slip=0.013, "
-         "load_zone_deg=133.3, role='other_fault'}]",
-         "sensor.tones=[{shaft='carrier', order=7, amplitude_m_s2=0.1}]"}));
-    check_reads_back(reading);
-}
-
 TEST_CASE("Problems of bearings and tones are all reported at once") {
     const auto outcome = check_refused(
         "describe " + kSmall +
@@ -237,4 +213,4 @@ TEST_CASE("Problems of bearings and tones are all reported at once") {
     }
 }
 
-}  // namespace test_bearings
+}  // namespace gearpod::test_bearings

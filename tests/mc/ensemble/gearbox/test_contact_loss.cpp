@@ -1,9 +1,6 @@
 // Checks the share of time out of contact, from the tile to the results, the report and its JSON.
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <catch2/catch.hpp>
-#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "mc/numerics/numerical_error.hpp"
@@ -12,12 +9,7 @@
 #include "mc/study/gears.hpp"
 #include "tests/mc/study_file.hpp"
 
-namespace test_contact_loss {
-
-using namespace gearpod;
-using namespace gearpod::mc;
-
-namespace {
+namespace gearpod::mc::test_contact_loss {
 
 Study light_study(const std::vector<std::string>& more = {}) {
     std::vector<std::string> all{
@@ -34,8 +26,6 @@ Study light_study(const std::vector<std::string>& more = {}) {
     study.ensemble.instances = 8;
     return study;
 }
-
-}  // namespace
 
 TEST_CASE("Rows hold the share of time out of contact of each mesh, for any lanes") {
     const Results wide = test::run(light_study({"numerics.lanes=16"}));
@@ -130,4 +120,4 @@ TEST_CASE("The numerical error decreases with the steps and matches that of fine
     CHECK_FALSE(find_step_error(mc::Planner(light_study()), 10.0));
 }
 
-}  // namespace test_contact_loss
+}  // namespace gearpod::mc::test_contact_loss

@@ -1,25 +1,16 @@
 // Checks a fault of another size integrated from the healthy gearbox's states against integration
 // of all meshes with it.
-#include <catch2/catch.hpp>
-
 #include "mc/ensemble/gearbox/healthy_solution.hpp"
 #include "tests/mc/ensemble/gearbox/relative_difference.hpp"
 #include "tests/mc/study_file.hpp"
 
-namespace test_healthy_solution {
-
-using namespace gearpod;
-using namespace gearpod::mc;
-
-namespace {
+namespace gearpod::mc::test_healthy_solution {
 
 Study real_teeth(const std::string& convergence_tolerance) {
     return test::shipped_study("planet-life.toml",
                                {"numerics.precision=\"double\"", "numerics.lanes=1",
                                 "numerics.settle_tolerance=" + convergence_tolerance});
 }
-
-}  // namespace
 
 TEST_CASE("A fault changes the meshes after its passage begins, and no others") {
     const Scene scene(real_teeth("1e-8"));
@@ -62,4 +53,4 @@ TEST_CASE("Few meshes are integrated for a further size of a fault") {
           static_cast<std::size_t>(scene.record().span.ring_teeth));
 }
 
-}  // namespace test_healthy_solution
+}  // namespace gearpod::mc::test_healthy_solution

@@ -1,17 +1,12 @@
 // Checks the response of the housing in runs: modes, measured responses, additional sensors, tones
 // and baselines. The closed forms are in tests/signals/path/test_frequency_response.cpp.
-#include <cmath>
-
 #include "mc/study/study.hpp"
 #include "tests/mc/ensemble/gearbox/small_runs.hpp"
 #include "tests/mc/study_file.hpp"
 
-namespace test_housing {
+namespace gearpod::test_housing {
 
-using namespace gearpod;
-using namespace gearpod::test;
-
-namespace {
+using namespace test;
 
 const std::string kModes =
     " --set 'sensor.housing_modes=[{frequency_Hz=70, damping=0.03, participation=0.8}, "
@@ -23,19 +18,6 @@ std::string flat(double gain) {
            " --set 'sensor.response_gain=[" +
            std::to_string(gain) + ", " + std::to_string(gain) + "]' ";
 }
-
-const std::vector<double>& values(const mc::Results& results, const std::string& name) {
-    return std::ranges::find(results.features, name, &mc::FeatureResult::name)->values;
-}
-
-void check_close(const std::vector<double>& a, const std::vector<double>& b, double relative) {
-    REQUIRE(a.size() == b.size());
-    for (std::size_t i = 0; i < a.size(); ++i) {
-        CHECK(a[i] == Approx(b[i]).epsilon(relative));
-    }
-}
-
-}  // namespace
 
 TEST_CASE("Modes without participation and a gain of 1 leave all features unchanged") {
     const Folder folder;
@@ -59,8 +41,9 @@ TEST_CASE("The housing amplifies the gearbox, but neither tones nor noise") {
     const mc::Results plain = run_small(folder, "plain.h5", quiet),
                       doubled = run_small(folder, "doubled.h5", quiet + flat(2.0)),
                       silent = run_small(folder, "silent.h5", quiet + flat(0.0) + tone);
-    const auto &before = values(plain, "sensor_rms"), &after = values(doubled, "sensor_rms"),
-               &only_tone = values(silent, "sensor_rms");
+    const auto &before = values(plain.features, "sensor_rms"),
+               &after = values(doubled.features, "sensor_rms"),
+               &only_tone = values(silent.features, "sensor_rms");
     for (std::size_t i = 0; i < before.size(); i += 2) {
         CHECK(after[i] == Approx(2.0 * before[i]).epsilon(1e-10));
         CHECK(only_tone[i] == Approx(0.7 / std::sqrt(2.0)).epsilon(2e-3));
@@ -76,15 +59,16 @@ TEST_CASE("Modes change the signal, and each gearbox may have its own natural fr
     const mc::Results plain = run_small(folder, "plain.h5", ""),
                       modes = run_small(folder, "modes.h5", kModes),
                       random = run_small(folder, "random.h5", kModes + scatter);
-    const auto &before = values(plain, "sensor_rms"), &after = values(modes, "sensor_rms"),
-               &scattered = values(random, "sensor_rms");
+    const auto &before = values(plain.features, "sensor_rms"),
+               &after = values(modes.features, "sensor_rms"),
+               &scattered = values(random.features, "sensor_rms");
     int differ = 0;
     for (std::size_t i = 0; i < before.size(); ++i) {
         CHECK(after[i] > 1.1 * before[i]);
         differ += std::abs(scattered[i] / after[i] - 1.0) > 1e-3;
     }
     CHECK(differ > 30);
-    check_close(values(modes, "te_rms"), values(plain, "te_rms"), 1e-12);
+    check_close(values(modes.features, "te_rms"), values(plain.features, "te_rms"), 1e-12);
 }
 
 TEST_CASE("A sensor with the first one's participation and place has its signal") {
@@ -104,35 +88,6 @@ TEST_CASE("A sensor with the first one's participation and place has its signal"
     }
 }
 
-TEST_CASE("Responses of signals recorded during integration equal those of the kept motion") {
-    const Folder folder;
-    const std::string baselines =
-        " --set 'features.use=[\"sensor_rms\", \"window_ratio\", \"change_window_ratio\", "
-        "\"crest_factor\"]' --set features.baseline_torque_scatter=0.02"
-        " --set sensor.record_s=9 --set sensor.noise_levels=[0]";
-    const mc::Results kept = run_small(folder, "kept.h5", kModes + baselines),
-                      recorded = run_small(folder, "recorded.h5",
-                                           kModes + baselines + " --set numerics.horizon=full");
-    for (std::size_t f = 0; f < kept.features.size(); ++f) {
-        INFO(kept.features[f].name);
-        check_close(kept.features[f].values, recorded.features[f].values, 2e-3);
-    }
-}
-
-TEST_CASE("Rows with a housing keep their bits over threads, parts and merging") {
-    check_equal_bits_over_parts(kModes);
-}
-
-TEST_CASE("Exported samples with a housing have the features of the run") {
-    const Folder folder;
-    const mc::Results results = run_small(folder, "run.h5", kModes);
-    const auto measured = features_of_export(folder, "sensor_noise_1", kModes);
-    for (const char* name : {"sensor_rms", "window_ratio", "fm4", "crest_factor"}) {
-        INFO(name);
-        CHECK(values(results, name)[25] == Approx(printed_value(measured, name)).epsilon(1e-5));
-    }
-}
-
 TEST_CASE("A measured response is read from columns of a file, for each sensor") {
     const Folder folder;
     write_bytes(folder.file("frf.csv"), "f,top,phase,side\n0,1,0,3\n50,1,0,3\n1000,1,0,3\n");
@@ -147,7 +102,7 @@ TEST_CASE("A measured response is read from columns of a file, for each sensor")
                             column("side") + ", response_phase_deg=" + column("phase") +
                             "}]' --set sensor.noise_levels=[0]";
     const mc::Results results = run_small(folder, "r.h5", set);
-    const auto& first = values(results, "sensor_rms");
+    const auto& first = values(results.features, "sensor_rms");
     const auto& side =
         std::ranges::find(results.variants[0].features, "sensor_rms", &mc::FeatureResult::name)
             ->values;
@@ -190,12 +145,4 @@ TEST_CASE("Problems of the housing are all reported") {
               .mentions("70 Hz, damping 0.03, participation 0.8: 13.3 times the vibration"));
 }
 
-TEST_CASE("A study with a housing reads back from its resolved text") {
-    const mc::Study reading = valid_study(mc::read_study(
-        kSmall, {"sensor.housing_modes=[{frequency_Hz=70.5, damping=0.03, participation=-0.8}, "
-                 "{frequency_Hz=90, damping=0.02, participation=0.1, nodal_diameters=2}]",
-                 "sensor.additional=[{name='b', angle_deg=30, participation=[0.1, 1e-3]}]"}));
-    check_reads_back(reading);
-}
-
-}  // namespace test_housing
+}  // namespace gearpod::test_housing

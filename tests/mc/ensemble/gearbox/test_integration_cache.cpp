@@ -1,17 +1,8 @@
 // Checks that studies that vary only path, noise and a few sizes integrate their gearboxes once.
-#include <algorithm>
-#include <bit>
-#include <catch2/catch.hpp>
-
 #include "mc/ensemble/batch_workers.hpp"
 #include "tests/mc/study_file.hpp"
 
-namespace test_integration_cache {
-
-using namespace gearpod;
-using namespace gearpod::mc;
-
-namespace {
+namespace gearpod::mc::test_integration_cache {
 
 // Liang's train at high speed, with only the random inputs in `kept`.
 Study study_with(const std::vector<std::string>& kept, const std::vector<std::string>& more = {}) {
@@ -43,8 +34,6 @@ std::vector<Batch> test_tiles(std::size_t count) {
     }
     return tiles;
 }
-
-}  // namespace
 
 TEST_CASE("Cached responses are not integrated again, and give the same bits") {
     const Scene scene(study_with(kSensorOnly));
@@ -78,4 +67,4 @@ TEST_CASE("Nothing is cached where every gearbox has a different response") {
     CHECK_FALSE(errors.solve().settings.distinct_integrations.has_value());
 }
 
-}  // namespace test_integration_cache
+}  // namespace gearpod::mc::test_integration_cache

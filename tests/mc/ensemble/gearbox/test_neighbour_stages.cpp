@@ -1,12 +1,6 @@
 // Checks neighbouring stages: their vibration at the sensor against a Fourier series of their own
 // signal, their gearboxes, records with their fault, and what is refused.
 #include <boost/random/uniform_01.hpp>
-#include <cmath>
-#include <complex>
-#include <filesystem>
-#include <fstream>
-#include <numbers>
-#include <vector>
 
 #include "mc/ensemble/coupling/neighbour_stages.hpp"
 #include "mc/ensemble/gearbox/other_sources.hpp"
@@ -16,12 +10,9 @@
 #include "tests/mc/ensemble/gearbox/stage_files.hpp"
 #include "tests/mc/study_file.hpp"
 
-namespace test_neighbour_stages {
+namespace gearpod::test_neighbour_stages {
 
-using namespace gearpod;
-using namespace gearpod::test;
-
-namespace {
+using namespace test;
 
 // Noise-free sensor signal of a gearbox over the span.
 std::vector<double> sensor_signal(const mc::TilePlan& plan, const mc::Realization& gearbox) {
@@ -48,8 +39,6 @@ std::vector<double> series_at(const std::vector<double>& period,
     }
     return values;
 }
-
-}  // namespace
 
 TEST_CASE("The sensor picks up the stage's own signal, at the stage's time, times the gain") {
     const Folder folder;
@@ -166,9 +155,7 @@ TEST_CASE("Stages that do not fit are refused, all at once, with what would be r
     const Folder folder;
     const std::string path = stage_file(folder, "stage.toml");
     const auto refused = [&](const std::string& options) {
-        const auto outcome = check_refused("describe " + kSmall + " " + options);
-        INFO(outcome.output);
-        return outcome;
+        return check_refused("describe " + kSmall + " " + options);
     };
     CHECK(refused(stages(folder.file("none.toml"), "")).mentions("none.toml: cannot be read"));
     CHECK(refused("--set 'sensor.stages=[{name=\"a\", study=\"" + path +
@@ -203,4 +190,4 @@ TEST_CASE("Stages that do not fit are refused, all at once, with what would be r
     CHECK(program("lives " + kSmall + " " + stages(path, "")).mentions("bearings or stages"));
 }
 
-}  // namespace test_neighbour_stages
+}  // namespace gearpod::test_neighbour_stages

@@ -1,7 +1,4 @@
 // Checks accelerometer noise given by its density before the low-pass.
-#include <algorithm>
-#include <cmath>
-
 #include "mc/plan/calibration_plan.hpp"
 #include "mc/plan/sensor_plan.hpp"
 #include "mc/study/noise.hpp"
@@ -11,12 +8,9 @@
 #include "tests/mc/study_example.hpp"
 #include "tests/mc/study_file.hpp"
 
-namespace test_noise_density {
+namespace gearpod::test_noise_density {
 
-using namespace gearpod;
-using namespace gearpod::test;
-
-namespace {
+using namespace test;
 
 const std::string kSmall = std::string(GEARPOD_SOURCE_DIR) + "/tests/features/reference/small.toml";
 
@@ -61,8 +55,6 @@ Noise noise_of(const std::string& study, const std::string& options, const std::
     return {std::sqrt(sum / static_cast<double>(noise.size())), below / all};
 }
 
-}  // namespace
-
 // White noise after a Butterworth filter of order 4 has 1.1e-3 of its power above twice the corner
 // frequency: the integral of 1/(1 + x^8) from 2 on over that from 0 on. Aliased components are
 // included.
@@ -82,33 +74,6 @@ TEST_CASE("The low-pass limits noise by density; a higher sampling rate leaves i
     const Noise white = noise_of(kSmall, fast, folder.file("w.csv"), low_pass);
     CHECK(white.rms == Approx(study.sensor.noise_m_s2).epsilon(0.05));
     CHECK(white.below == Approx(240.0 / 560.0).epsilon(0.05));
-}
-
-TEST_CASE("Features of noise by density are those of the exported signal") {
-    const Folder folder;
-    const std::string study = by_density(folder, "0.02") + " --set fault.reduction=0.5";
-    const std::string signal = folder.file("s.h5");
-    const auto simulated =
-        require_success("simulate " + study + " --instance 2 --meshes 455 --out " + signal);
-    const auto measured =
-        require_success("features " + signal + " --sensor sensor_noise_1 --study " + study);
-    INFO(simulated.output);
-    for (const char* name : {"sensor_rms", "window_ratio", "window_z", "window_kurtosis"}) {
-        INFO(name);
-        CHECK(printed_value(simulated, name) > 0.0);
-        CHECK(printed_value(simulated, name) ==
-              Approx(printed_value(measured, name)).epsilon(1e-5));
-    }
-}
-
-TEST_CASE("A run with noise by density has the same bits for any lanes and threads") {
-    const Folder folder;
-    const std::string run = "run " + by_density(folder, "0.02") +
-                            " --quiet --set fault.reduction=0.3 --set ensemble.instances=9"
-                            " --set ensemble.threshold_instances=4 --out ";
-    REQUIRE(program(run + folder.file("a.h5")).code == 0);
-    REQUIRE(program(run + folder.file("b.h5") + " --set numerics.threads=1").code == 0);
-    CHECK(bits(folder.file("a.h5")) == bits(folder.file("b.h5")));
 }
 
 TEST_CASE("Noise by density, by rms and by quantisation adds in quadrature") {
@@ -197,13 +162,9 @@ TEST_CASE("A study with noise by density is calibrated by its density") {
           inputs.end());
 }
 
-namespace {
-
 const std::string kBackground =
     " --set sensor.background_Hz=[10,60] --set "
     "sensor.background_density_m_s2_per_sqrt_Hz=[0.05,0.05] ";
-
-}  // namespace
 
 // From 10 to 60 Hz the low-pass of 120 Hz passes all but 1e-3 of the power.
 TEST_CASE("The background of the machine has the rms of its density, and none out of band") {
@@ -219,22 +180,6 @@ TEST_CASE("The background of the machine has the rms of its density, and none ou
     const Noise both =
         noise_of(kSmall, kBackground + "--set sensor.noise_m_s2=0.4 ", folder.file("w.csv"), 31.0);
     CHECK(both.rms == Approx(std::hypot(0.4, expected)).epsilon(0.05));
-}
-
-TEST_CASE("A run with a background has the same bits for any threads and parts") {
-    const Folder folder;
-    const std::string run = "run " + kSmall + kBackground +
-                            " --quiet --set ensemble.instances=20"
-                            " --set ensemble.threshold_instances=20 --out ";
-    REQUIRE(program(run + folder.file("a.h5")).code == 0);
-    REQUIRE(program(run + folder.file("b.h5") + " --set numerics.threads=3").code == 0);
-    REQUIRE(program(run + folder.file("1.h5") + " --part 1/2").code == 0);
-    REQUIRE(program(run + folder.file("2.h5") + " --part 2/2").code == 0);
-    REQUIRE(program("merge --out " + folder.file("m.h5") + " " + folder.file("1.h5") + " " +
-                    folder.file("2.h5"))
-                .code == 0);
-    CHECK(bits(folder.file("a.h5")) == bits(folder.file("b.h5")));
-    CHECK(bits(folder.file("a.h5")) == bits(folder.file("m.h5")));
 }
 
 TEST_CASE("A background needs two frequencies and a density for each") {
@@ -254,4 +199,4 @@ TEST_CASE("A background needs two frequencies and a density for each") {
     CHECK(program("describe " + kSmall + kBackground).mentions("0.3535 of the background"));
 }
 
-}  // namespace test_noise_density
+}  // namespace gearpod::test_noise_density

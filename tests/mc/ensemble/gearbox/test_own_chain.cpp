@@ -1,32 +1,57 @@
 // Checks additional sensors with a measuring chain of their own: low-pass, mounting, delay,
-// converter and noise. The closed forms are in tests/signals/path/test_frequency_response.cpp.
+// converter, sampling rate and noise. The closed forms are in
+// tests/signals/path/test_frequency_response.cpp.
 #include <fmt/format.h>
-
-#include <cmath>
-#include <complex>
-#include <numbers>
 
 #include "mc/plan/sensor_plan.hpp"
 #include "mc/study/noise.hpp"
 #include "mc/study/study.hpp"
-#include "tests/mc/ensemble/gearbox/chain_signals.hpp"
+#include "tests/mc/ensemble/gearbox/small_runs.hpp"
 #include "tests/mc/study_file.hpp"
 
-namespace test_own_chain {
+namespace gearpod::test_own_chain {
 
-using namespace gearpod;
-using namespace gearpod::test;
+using namespace test;
 using Complex = std::complex<double>;
 
-namespace {
-
 constexpr double kPi = std::numbers::pi;
+constexpr double kLowPass_Hz = 120.0;  // of the small study
+// Noise bandwidth of the low-pass over its cut-off frequency.
+const double kBandwidth = (kPi / 8.0) / std::sin(kPi / 8.0);
+
+// Sensors next to the first one, so that they differ by their measuring chain alone.
+std::string side(const std::string& fields) {
+    return " --set 'sensor.additional=[{name=\"side\", angle_deg=0, " + fields + "}]' ";
+}
+
+// Component of a signal at a harmonic of its length.
+Complex component(const std::vector<double>& signal, std::size_t harmonic) {
+    Complex sum = 0.0;
+    for (std::size_t i = 0; i < signal.size(); ++i) {
+        const std::size_t turns = harmonic * i % signal.size();
+        sum += signal[i] * std::polar(1.0, -2.0 * kPi * static_cast<double>(turns) /
+                                               static_cast<double>(signal.size()));
+    }
+    return sum / static_cast<double>(signal.size());
+}
+
+// Rms of the noise in a column.
+double noise_rms(const Columns& columns, const std::string& sensor) {
+    const std::vector<double>&clean = columns.at(sensor), &noisy = columns.at(sensor + "_noise_1");
+    double sum = 0.0;
+    for (std::size_t i = 0; i < clean.size(); ++i) {
+        sum += (noisy[i] - clean[i]) * (noisy[i] - clean[i]);
+    }
+    return std::sqrt(sum / static_cast<double>(clean.size()));
+}
+
+// The sensor does not measure the gearbox.
+const std::string kSilent =
+    " --set 'sensor.response_Hz=[0, 1000]' --set 'sensor.response_phase_deg=[0, 0]'"
+    " --set 'sensor.response_gain=[0, 0]' ";
 
 const std::string kChain =
     "low_pass_Hz=50, mounting_Hz=70, mounting_damping=0.05, delay_s=0.004, quantisation_m_s2=0.01";
-
-// The same with a sampling rate of its own.
-const std::string kSampled = kChain + ", sampling_Hz=110";
 
 // Response of a mounting of 70 Hz with a damping ratio of 0.05 after a low-pass of 50 Hz in place
 // of 120 Hz, delayed by 4 ms.
@@ -59,13 +84,6 @@ void check_spectra(const Columns& columns) {
                                                component(first, k)) < 1e-9 * largest);
     }
 }
-
-const std::vector<double>& values(const std::vector<mc::FeatureResult>& features,
-                                  const std::string& name) {
-    return std::ranges::find(features, name, &mc::FeatureResult::name)->values;
-}
-
-}  // namespace
 
 TEST_CASE("A measuring chain changes the spectrum of the gearbox by its response") {
     const Folder folder;
@@ -212,59 +230,6 @@ TEST_CASE("The first sensor and sensors without a chain keep their bits") {
     }
 }
 
-TEST_CASE("Rows with a measuring chain keep their bits over threads, parts and merging") {
-    check_equal_bits_over_parts(side(kSampled) +
-                                "--set sensor.noise_density_m_s2_per_sqrt_Hz=0.001 "
-                                "--set 'sensor.tones=[{frequency_Hz=31, amplitude_m_s2=0.1}]' ");
-}
-
-TEST_CASE("Rows with a measuring chain keep their bits over lanes") {
-    const auto rows = [](int lanes) {
-        const mc::Study study = valid_study(mc::read_study(
-            kSmall, {"sensor.additional=[{name='side', angle_deg=90, " + kSampled + "}]",
-                     "ensemble.threshold_instances=5", "ensemble.instances=6",
-                     fmt::format("numerics.lanes={}", lanes)}));
-        return bits(run(study));
-    };
-    const auto eight = rows(8);
-    CHECK(rows(1) == eight);
-    CHECK(rows(4) == eight);
-}
-
-TEST_CASE("Exported samples of a measuring chain have the features of the run") {
-    const Folder folder;
-    const std::string options =
-        side(kSampled) + "--set sensor.noise_density_m_s2_per_sqrt_Hz=0.001 ";
-    const mc::Results results = run_small(folder, "run.h5", options);
-    const auto measured = features_of_export(folder, "sensor_side_noise_1", options);
-    for (const char* name : {"sensor_rms", "window_ratio", "fm4", "crest_factor"}) {
-        INFO(name);
-        CHECK(values(results.variants[0].features, name)[25] ==
-              Approx(printed_value(measured, name)).epsilon(1e-5));
-    }
-}
-
-TEST_CASE("Measuring chains of signals recorded during integration equal those of kept motion") {
-    const Folder folder;
-    const std::string options =
-        side(kSampled) +
-        "--set 'features.use=[\"sensor_rms\", \"window_ratio\", \"change_window_ratio\", "
-        "\"crest_factor\"]' --set features.baseline_torque_scatter=0.02"
-        " --set sensor.record_s=9 --set sensor.noise_levels=[0] ";
-    const mc::Results kept = run_small(folder, "kept.h5", options),
-                      recorded =
-                          run_small(folder, "recorded.h5", options + "--set numerics.horizon=full");
-    for (std::size_t f = 0; f < kept.features.size(); ++f) {
-        INFO(kept.features[f].name);
-        const auto &a = kept.variants[0].features[f].values,
-                   &b = recorded.variants[0].features[f].values;
-        REQUIRE(a.size() == b.size());
-        for (std::size_t i = 0; i < a.size(); ++i) {
-            CHECK(a[i] == Approx(b[i]).epsilon(2e-3));
-        }
-    }
-}
-
 TEST_CASE("Problems of a measuring chain are reported") {
     const auto refused = [](const std::string& options, const char* text) {
         check_refused("describe " + kSmall + options, {text});
@@ -299,14 +264,76 @@ TEST_CASE("Problems of a measuring chain are reported") {
         "0.004 s early; noise 0.002 m/s^2 rms"));
 }
 
-TEST_CASE("A study with measuring chains reads back from its resolved text") {
-    const mc::Study reading = valid_study(mc::read_study(
-        kSmall,
-        {"sensor.additional=[{name='b', angle_deg=30, sampling_Hz=150, low_pass_Hz=50.5, "
-         "mounting_Hz=70, "
-         "mounting_damping=0.1, delay_s=-1e-3, quantisation_m_s2=0, range_m_s2=20}, {name='c', "
-         "angle_deg=1, mounting_Hz=1e4}]"}));
-    check_reads_back(reading);
+TEST_CASE("A sampling rate of its own keeps the samples that the converter takes") {
+    const Folder folder;
+    const double sample_s = signals_of_small(folder, "").at("time")[1];
+    const auto rate = fmt::format(", low_pass_Hz=50, sampling_Hz={}", 0.5 / sample_s);
+    const std::string tone = "--set 'sensor.tones=[{frequency_Hz=61.3, amplitude_m_s2=0.7}]'";
+    const auto all = signals_of_small(folder, side("noise=1, low_pass_Hz=50") + tone),
+               own = signals_of_small(folder, side("noise=1" + rate) + tone);
+    const std::vector<double>&before = all.at("sensor_side"), &after = own.at("sensor_side");
+    REQUIRE(after.size() % 2 == 0);
+    double largest_change = 0.0;
+    for (std::size_t i = 0; i < after.size(); i += 2) {
+        REQUIRE(after[i] == Approx(before[i]).margin(1e-9));
+        largest_change = std::max(largest_change, std::abs(after[i + 1] - before[i + 1]));
+    }
+    CHECK(largest_change > 1e-3);  // aliases
 }
 
-}  // namespace test_own_chain
+TEST_CASE("A tone above half the sampling rate of a sensor has the folded frequency") {
+    const Folder folder;
+    const auto columns = signals_of_small(
+        folder, kSilent + side("low_pass_Hz=40, sampling_Hz=100") +
+                    "--set 'sensor.tones=[{frequency_Hz=61.3, amplitude_m_s2=0.7}]'");
+    const std::vector<double>&own = columns.at("sensor_side"), &time = columns.at("time");
+    const double length_s = time[1] * static_cast<double>(own.size());
+    const double rate_Hz = std::round(100.0 * length_s) / length_s;
+    const double angle = 2.0 * kPi * (rate_Hz - 61.3) * time[1];
+    // x_i+1 + x_i-1 = 2 cos(angle) x_i holds for that sine alone.
+    double square = 0.0;
+    for (std::size_t i = 1; i + 1 < own.size(); ++i) {
+        REQUIRE(own[i + 1] + own[i - 1] == Approx(2.0 * std::cos(angle) * own[i]).margin(1e-9));
+        square += own[i] * own[i];
+    }
+    const auto gain = [](double f_Hz) { return 1.0 / std::sqrt(1.0 + std::pow(f_Hz, 8.0)); };
+    CHECK(std::sqrt(2.0 * square / static_cast<double>(own.size())) ==
+          Approx(0.7 * gain(61.3 / 40.0) / gain(61.3 / kLowPass_Hz)).epsilon(0.01));
+}
+
+TEST_CASE("Noise of a sensor lies below half its sampling rate, with the stated variance") {
+    const Folder folder;
+    const auto check = [&](const std::string& fields, const std::string& options, double rms) {
+        const auto columns =
+            signals_of_small(folder, side(fields + ", low_pass_Hz=40, sampling_Hz=100") + options);
+        INFO(fields << options);
+        CHECK(noise_rms(columns, "sensor_side") == Approx(rms).epsilon(0.08));
+        std::vector<double> noise = columns.at("sensor_side_noise_1");
+        for (std::size_t i = 0; i < noise.size(); ++i) {
+            noise[i] -= columns.at("sensor_side")[i];
+        }
+        const double step_Hz = 1.0 / (columns.at("time")[1] * static_cast<double>(noise.size()));
+        const auto power = [&](double from_Hz, double to_Hz) {
+            double sum = 0.0;
+            for (auto k = static_cast<std::size_t>(std::ceil(from_Hz / step_Hz));
+                 k < static_cast<std::size_t>(to_Hz / step_Hz); ++k) {
+                sum += 2.0 * std::norm(component(noise, k));
+            }
+            return sum;
+        };
+        const double below = power(1.0, 35.0);
+        CHECK(power(50.2, 70.0) < 1e-15 * below);
+        return below / 34.0;  // density
+    };
+    // White noise of the same variance in less than half the bandwidth.
+    CHECK(check("noise=2", "--set sensor.noise_m_s2=0.05", 0.1) ==
+          Approx(0.01 / 50.0).epsilon(0.15));
+    CHECK(check("quantisation_m_s2=1", "--set sensor.noise_m_s2=0", std::sqrt(1.0 / 12.0)) ==
+          Approx(1.0 / 12.0 / 50.0).epsilon(0.15));
+    // Filtered noise keeps its density where the low-pass passes it.
+    CHECK(check("noise=1",
+                "--set sensor.noise_m_s2=0 --set sensor.noise_density_m_s2_per_sqrt_Hz=0.01",
+                0.01 * std::sqrt(kBandwidth * 40.0)) == Approx(1e-4).epsilon(0.15));
+}
+
+}  // namespace gearpod::test_own_chain

@@ -1,19 +1,10 @@
 // Checks the random errors of a gearbox's teeth: their assignment, their rotation with the gears,
 // and their size.
-#include <catch2/catch.hpp>
-#include <cmath>
-#include <numbers>
-
 #include "lockstep/plan/tooth_pairs.hpp"
 #include "mc/ensemble/gearbox/tile_random_inputs.hpp"
 #include "tests/mc/study_file.hpp"
 
-namespace test_random_tooth_errors {
-
-using namespace gearpod;
-using namespace gearpod::mc;
-
-namespace {
+namespace gearpod::mc::test_random_tooth_errors {
 
 constexpr double kPi = std::numbers::pi;
 
@@ -75,8 +66,6 @@ void clear_gear(lockstep::GearErrors& gear) {
     std::fill(gear.error_m.begin(), gear.error_m.end(), 0.0);
     std::fill(gear.slope_m.begin(), gear.slope_m.end(), 0.0);
 }
-
-}  // namespace
 
 TEST_CASE("An eccentric gear displaces all tooth pairs in contact, as a displaced planet would") {
     // Either the sun drives, or the carrier is fixed and the ring drives: then contact runs
@@ -161,4 +150,4 @@ TEST_CASE("Tooth errors belong to the gearbox: the same in any lane, for any noi
     }
 }
 
-}  // namespace test_random_tooth_errors
+}  // namespace gearpod::mc::test_random_tooth_errors

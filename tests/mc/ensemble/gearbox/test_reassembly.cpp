@@ -1,30 +1,20 @@
 // Checks baselines of another assembly and averaged baseline records: inputs that they share, tooth
 // errors shifted by whole teeth, and the noise of means.
-#include <catch2/catch.hpp>
-#include <cmath>
-#include <numeric>
-
-#include "mc/ensemble/gearbox/realization_features.hpp"
 #include "mc/ensemble/gearbox/tile_random_inputs.hpp"
 #include "mc/study/assumptions.hpp"
+#include "tests/mc/ensemble/gearbox/computed.hpp"
 #include "tests/mc/program.hpp"
-#include "tests/mc/study_file.hpp"
 
-namespace test_reassembly {
+namespace gearpod::mc::test_reassembly {
 
-using namespace gearpod;
-using namespace gearpod::mc;
-
-namespace {
+using namespace test;
 
 const std::string kChange =
     "features.use=[\"change_sensor_rms\",\"sensor_rms\",\"own_sensor_rms\"]";
 
 Study study_with(std::vector<std::string> overrides) {
-    overrides.insert(overrides.end(),
-                     {kChange, "numerics.steps_per_mesh=9600",
-                      "random.fault.depth_mm={distribution=\"constant\",value=3}"});
-    return test::shipped_study("planet-crack-ideal.toml", overrides);
+    overrides.insert(overrides.begin(), kChange);
+    return ideal_crack_study(overrides);
 }
 
 GearboxId baseline(std::uint64_t number) {
@@ -34,23 +24,11 @@ GearboxId baseline(std::uint64_t number) {
 }
 const GearboxId kTest{Group::test, 4};
 
-std::vector<double> features_of(const Study& study, const GearboxId& id) {
-    const Scene scene(study);
-    const GearboxTile tile = run_gearboxes(scene.tile(), std::span(&id, 1), 8);
-    REQUIRE(tile.status[0] == Status::ok);
-    const HealthyReference healthy;
-    RealizationFeatures features(scene.tile(), &healthy);
-    return features.compute(lane_signals(scene.tile(), tile, 0, scene.record().signal_meshes),
-                            tile.realizations[0]);
-}
-
 std::vector<double> sensor_of(const Scene& scene, const GearboxId& id) {
     const Realization one = scene.sampler().draw(id);
     const GearboxTile tile = run_realizations(scene.tile(), {one}, 8);
     return lane_signals(scene.tile(), tile, 0, scene.record().span.meshes()).sensor;
 }
-
-}  // namespace
 
 TEST_CASE("An assembly keeps its inputs in all records, and a record has its own") {
     const Sampler sampler(DrawPlan{study_with(
@@ -149,7 +127,7 @@ TEST_CASE("The noise of a mean of baseline records falls with the root of their 
     for (const int records : {1, 4}) {
         const Study study = study_with(
             {"features.baseline_records=" + std::to_string(records), "sensor.noise_levels=[100]"});
-        const auto values = features_of(study, {Group::threshold, 4});
+        const auto values = Computed(study, {{Group::threshold, 4}}).values()[0];
         const double noise =
             100.0 * Scene(study).sampler().draw({Group::threshold, 4}).inputs.noise_m_s2;
         // About a million samples: 1e-3 of the mean square is one standard deviation.
@@ -163,10 +141,6 @@ TEST_CASE("The change is measured from the mean of the baseline records' signals
                                     "features.baseline_torque_scatter=0.05"});
     const Scene scene(study);
     std::vector<double> change = sensor_of(scene, kTest);
-    const auto rms = [](const std::vector<double>& values) {
-        return std::sqrt(std::inner_product(values.begin(), values.end(), values.begin(), 0.0) /
-                         static_cast<double>(values.size()));
-    };
     double before = 0.0;
     for (std::uint64_t k = 0; k < 3; ++k) {
         const std::vector<double> one = sensor_of(scene, baseline(k));
@@ -175,7 +149,7 @@ TEST_CASE("The change is measured from the mean of the baseline records' signals
             change[i] -= one[i] / 3.0;
         }
     }
-    const auto values = features_of(study, kTest);
+    const auto values = Computed(study, {kTest}).values()[0];
     CHECK(values[0] == Approx(rms(change)).epsilon(1e-9));
     CHECK(values[2] == Approx(values[1] / before).epsilon(1e-9));
 }
@@ -204,4 +178,4 @@ TEST_CASE("Reports state the baseline, and impossible ones are refused") {
               .mentions("only with features that use a baseline record"));
 }
 
-}  // namespace test_reassembly
+}  // namespace gearpod::mc::test_reassembly

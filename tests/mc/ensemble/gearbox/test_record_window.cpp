@@ -1,130 +1,80 @@
 // Checks records of given length against whole spans, a record cut here from simulated samples, and
 // the probability of their tooth positions.
-#include <catch2/catch.hpp>
-#include <cmath>
-#include <numeric>
-#include <set>
-
-#include "mc/ensemble/gearbox/realization_features.hpp"
-#include "mc/ensemble/gearbox/record_window.hpp"
 #include "mc/ensemble/gearbox/simulation.hpp"
 #include "mc/ensemble/gearbox/solution_choice.hpp"
+#include "tests/mc/ensemble/gearbox/computed.hpp"
 #include "tests/mc/program.hpp"
-#include "tests/mc/study_file.hpp"
 
-namespace test_record_window {
+namespace gearpod::mc::test_record_window {
 
-using namespace gearpod;
-using namespace gearpod::mc;
-
-namespace {
-
-Study study_with(std::vector<std::string> overrides) {
-    overrides.insert(overrides.end(), {"random.fault.depth_mm={distribution=\"constant\",value=3}",
-                                       "numerics.steps_per_mesh=9600"});
-    return test::shipped_study("planet-crack-ideal.toml", overrides);
-}
+using namespace test;
 
 const std::string kPlain = "features.use=[\"sensor_rms\",\"window_ratio\",\"te_rms\"]";
 const std::string kCompared =
     "features.use=[\"sensor_rms\",\"own_sensor_rms\",\"change_sensor_rms\",\"te_rms\"]";
 
-// A simulated gearbox of a study and its features.
-class Computed {
-  public:
-    explicit Computed(const Study& study, GearboxId id = {Group::test, 4})
-        : scene_(study),
-          tile_(run_gearboxes(scene_.tile(), std::span(&id, 1), 1)),
-          features_(scene_.tile(), &healthy_),
-          signals_(lane_signals(scene_.tile(), tile_, 0, scene_.record().signal_meshes)) {
-        REQUIRE(tile_.status[0] == Status::ok);
-        values_ = features_.compute(signals_, tile_.realizations[0]);
-    }
-    double operator[](std::size_t value) const { return values_[value]; }
-    const Scene& scene() const { return scene_; }
-    const LaneSignals& signals() const { return signals_; }
-    int meshes() const { return tile_.meshes; }
-    double noise_m_s2() const { return tile_.realizations[0].inputs.noise_m_s2; }
-    RecordWindow window() const {
-        const Realization& one = tile_.realizations[0];
-        return record_window(scene_.record(), one.id, scene_.record().turns(one.inputs));
-    }
-
-  private:
-    Scene scene_;
-    GearboxTile tile_;
-    HealthyReference healthy_;
-    RealizationFeatures features_;
-    LaneSignals signals_;
-    std::vector<double> values_;
-};
-
-double rms(std::span<const double> values) {
-    return std::sqrt(std::inner_product(values.begin(), values.end(), values.begin(), 0.0) /
-                     static_cast<double>(values.size()));
-}
-
-}  // namespace
-
 TEST_CASE("A record of all turns has the features of the whole span, wherever it begins") {
     const std::string quiet = "sensor.noise_levels=[0]";
-    const Computed whole(study_with({kPlain, quiet}));
+    const Computed whole(ideal_crack_study({kPlain, quiet}));
     // Liang's gearbox has 31 planet and 81 ring teeth: 31 carrier turns.
-    const Computed record(study_with({kPlain, quiet, "sensor.record_turns=31"}));
+    const Computed record(ideal_crack_study({kPlain, quiet, "sensor.record_turns=31"}));
     CHECK(record.window().turns == 81);
     for (const std::size_t feature : {0, 1, 2}) {
-        CHECK(record[feature] == Approx(whole[feature]).epsilon(1e-9));
+        CHECK(record.value(feature) == Approx(whole.value(feature)).epsilon(1e-9));
     }
 }
 
 TEST_CASE("The features of a short record are those of its samples") {
-    const Computed record(study_with({kPlain, "sensor.noise_levels=[0]", "sensor.record_turns=4"}));
+    const Computed record(
+        ideal_crack_study({kPlain, "sensor.noise_levels=[0]", "sensor.record_turns=4"}));
     const RecordWindow window = record.window();
     CHECK(window.turns == 4 * 81 / 31);
     const auto samples = static_cast<std::size_t>(record.scene().record().samples);
-    const auto own = std::span(record.signals().sensor)
+    const LaneSignals signals = record.signals();
+    const auto own = std::span(signals.sensor)
                          .subspan(static_cast<std::size_t>(window.first_mesh) * samples,
                                   static_cast<std::size_t>(window.turns * 31) * samples);
-    CHECK(record[0] == Approx(rms(own)).epsilon(1e-12));
+    CHECK(record.value(0) == Approx(rms(own)).epsilon(1e-12));
     // Mean over the record's turns of every sample of a turn, without its mean.
     const auto te_samples = static_cast<std::size_t>(record.scene().record().te_samples);
     std::vector<double> turn(31 * te_samples);
     for (std::size_t i = 0; i < turn.size() * static_cast<std::size_t>(window.turns); ++i) {
         turn[i % turn.size()] +=
-            record.signals().te[static_cast<std::size_t>(window.first_mesh) * te_samples + i] /
-            window.turns;
+            signals.te[static_cast<std::size_t>(window.first_mesh) * te_samples + i] / window.turns;
     }
     const double mean =
         std::accumulate(turn.begin(), turn.end(), 0.0) / static_cast<double>(turn.size());
     for (double& value : turn) {
         value -= mean;
     }
-    CHECK(record[2] == Approx(rms(turn)).epsilon(1e-9));
+    CHECK(record.value(2) == Approx(rms(turn)).epsilon(1e-9));
 }
 
 TEST_CASE("Noise of a short record has its own number of samples") {
     const Computed record(
-        study_with({kCompared, "sensor.noise_levels=[100]", "sensor.record_turns=4"}));
+        ideal_crack_study({kCompared, "sensor.noise_levels=[100]", "sensor.record_turns=4"}));
     const double noise = 100.0 * record.noise_m_s2();
     const double samples = 10.0 * 31.0 * record.scene().record().samples;
-    CHECK(record[0] == Approx(noise).epsilon(4.0 / std::sqrt(2.0 * samples)));
-    CHECK(record[2] == Approx(std::sqrt(2.0) * noise).epsilon(4.0 / std::sqrt(2.0 * samples)));
+    CHECK(record.value(0) == Approx(noise).epsilon(4.0 / std::sqrt(2.0 * samples)));
+    CHECK(record.value(2) ==
+          Approx(std::sqrt(2.0) * noise).epsilon(4.0 / std::sqrt(2.0 * samples)));
 }
 
 TEST_CASE(
     "Without noise and at the same torque the change is zero, although records begin anywhere") {
     const GearboxId healthy{Group::threshold, 4};
-    const Computed own(study_with({kCompared, "sensor.noise_levels=[0]", "sensor.record_turns=4"}),
-                       healthy);
-    CHECK(own[2] == 0.0);
+    const Computed own(
+        ideal_crack_study({kCompared, "sensor.noise_levels=[0]", "sensor.record_turns=4"}),
+        {healthy});
+    CHECK(own.value(2) == 0.0);
     // The baseline record begins at another tooth, where the path weights other turns.
-    CHECK(own[1] != 1.0);
-    CHECK(own[1] == Approx(1.0).epsilon(0.1));
+    CHECK(own.value(1) != 1.0);
+    CHECK(own.value(1) == Approx(1.0).epsilon(0.1));
 }
 
 TEST_CASE(
     "Records begin at every mesh period with the same probability, whatever was drawn before") {
-    const Scene scene(study_with({kPlain, "sensor.record_turns=4"}));
+    const Scene scene(ideal_crack_study({kPlain, "sensor.record_turns=4"}));
     constexpr int kRecords = 8000, kBins = 8;
     std::vector<int> count(kBins);
     std::set<int> distinct;
@@ -163,31 +113,26 @@ Study real_teeth(std::vector<std::string> overrides) {
 TEST_CASE("Records that are integrated alone are those of the whole signal") {
     // Gearbox 16 is the first of its group, whose window is its own.
     const GearboxId id{Group::test, 16};
-    const Computed alone(real_teeth({}), id);
+    const Computed alone(real_teeth({}), {id});
     REQUIRE(std::get<EveryMeshPeriod>(alone.scene().solve().strategy).records_only);
-    const Computed whole(real_teeth({"ensemble.threshold_records=2"}), id);
+    const Computed whole(real_teeth({"ensemble.threshold_records=2"}), {id});
     REQUIRE(!std::get<EveryMeshPeriod>(whole.scene().solve().strategy).records_only);
     REQUIRE(alone.window().first_mesh == whole.window().first_mesh);
     for (const std::size_t feature : {0, 1, 2, 3}) {
         INFO(feature);
-        CHECK(alone[feature] == Approx(whole[feature]).epsilon(1e-4));
+        CHECK(alone.value(feature) == Approx(whole.value(feature)).epsilon(1e-4));
     }
     CHECK(alone.meshes() < 0.25 * whole.meshes());
     // Others have the window of the first one, whatever tile computes them.
-    const Computed other(real_teeth({}), {Group::test, 19});
+    const Computed other(real_teeth({}), {{Group::test, 19}});
     CHECK(other.window().first_mesh == alone.window().first_mesh);
     std::vector<GearboxId> ids;
     for (std::uint64_t index = 16; index < 24; ++index) {
         ids.push_back({Group::test, index});
     }
-    const GearboxTile tile = run_gearboxes(other.scene().tile(), ids, 8);
-    const HealthyReference healthy;
-    RealizationFeatures features(other.scene().tile(), &healthy);
-    const std::vector<double> values = features.compute(
-        lane_signals(other.scene().tile(), tile, 3, other.scene().record().signal_meshes),
-        tile.realizations[3]);
+    const std::vector<double> values = Computed(real_teeth({}), ids).values()[3];
     for (const std::size_t feature : {0, 1, 2, 3}) {
-        CHECK(values[feature] == other[feature]);
+        CHECK(values[feature] == other.value(feature));
     }
     const Simulation simulation = simulate(other.scene().tile(), {Group::test, 19}, 93);
     CHECK(simulation.features == values);
@@ -225,7 +170,8 @@ TEST_CASE("Parts of a baseline record include the windows of the test record and
 }
 
 TEST_CASE("The length of records changes no other random input, and no results without it") {
-    const Study whole = study_with({kPlain}), cut = study_with({kPlain, "sensor.record_turns=4"});
+    const Study whole = ideal_crack_study({kPlain}),
+                cut = ideal_crack_study({kPlain, "sensor.record_turns=4"});
     for (std::uint64_t i = 0; i < 5; ++i) {
         const GearboxId id{Group::test, i};
         CHECK(Sampler(DrawPlan{whole}).draw(id).random_values ==
@@ -236,7 +182,7 @@ TEST_CASE("The length of records changes no other random input, and no results w
 }
 
 TEST_CASE("A faster gearbox records more turns in the same time") {
-    const Study study = study_with({kPlain, "sensor.record_s=20"});
+    const Study study = ideal_crack_study({kPlain, "sensor.record_s=20"});
     const Scene scene(study);
     InstanceInputs inputs = nominal_inputs(study);
     const int nominal = scene.record().turns(inputs);
@@ -251,17 +197,18 @@ TEST_CASE("A faster gearbox records more turns in the same time") {
 TEST_CASE("Integrated and periodic gearboxes have the same short records") {
     const std::vector<std::string> keys{kPlain, "sensor.noise_levels=[0]",
                                         "sensor.record_turns=1.2"};
-    const Computed periodic(study_with(keys));
+    const Computed periodic(ideal_crack_study(keys));
     std::vector<std::string> all = keys;
     all.push_back("numerics.horizon=\"full\"");
-    const Computed integrated(study_with(all));
+    const Computed integrated(ideal_crack_study(all));
     for (const std::size_t feature : {0, 1, 2}) {
-        CHECK(integrated[feature] == Approx(periodic[feature]).epsilon(1e-5));
+        CHECK(integrated.value(feature) == Approx(periodic.value(feature)).epsilon(1e-5));
     }
 }
 
 TEST_CASE("simulate shows the samples of the record, from its first mesh period") {
-    const Study study = study_with({kPlain, "sensor.noise_levels=[0]", "sensor.record_turns=4"});
+    const Study study =
+        ideal_crack_study({kPlain, "sensor.noise_levels=[0]", "sensor.record_turns=4"});
     const Computed record(study);
     const Scene scene(study);
     const long meshes = 10 * 31;
@@ -271,8 +218,8 @@ TEST_CASE("simulate shows the samples of the record, from its first mesh period"
     };
     CHECK(column("mesh_phase").front() == record.window().first_mesh);
     CHECK(column("time").front() == 0.0);
-    CHECK(simulation.features[0] == record[0]);
-    CHECK(rms(column("sensor")) == Approx(record[0]).epsilon(1e-12));
+    CHECK(simulation.features[0] == record.value(0));
+    CHECK(rms(column("sensor")) == Approx(record.value(0)).epsilon(1e-12));
 }
 
 TEST_CASE("Lengths of records that make no sense are refused, and reports state them") {
@@ -285,10 +232,11 @@ TEST_CASE("Lengths of records that make no sense are refused, and reports state 
     CHECK(
         refused(" --set sensor.record_turns=4 --set 'features.use=[\"sun_window_ratio\"]'").code ==
         2);
-    const std::string conditions = run_conditions(study_with({"sensor.record_turns=4"}));
+    const std::string conditions = run_conditions(ideal_crack_study({"sensor.record_turns=4"}));
     CHECK(conditions.find("begins at a random tooth position") != std::string::npos);
     CHECK(conditions.find("10 of the 81 ring teeth that it can meet (12 %)") != std::string::npos);
-    CHECK(run_conditions(study_with({})).find("81 of the 81 ring teeth") != std::string::npos);
+    CHECK(run_conditions(ideal_crack_study({})).find("81 of the 81 ring teeth") !=
+          std::string::npos);
 }
 
-}  // namespace test_record_window
+}  // namespace gearpod::mc::test_record_window

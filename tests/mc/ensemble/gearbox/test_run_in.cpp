@@ -1,17 +1,10 @@
 // Checks the run-in before the first recorded mesh against a much longer run-in.
-#include <catch2/catch.hpp>
-
 #include "lockstep/strategies/solution.hpp"
 #include "mc/ensemble/gearbox/tile_random_inputs.hpp"
 #include "tests/mc/ensemble/gearbox/relative_difference.hpp"
 #include "tests/mc/study_file.hpp"
 
-namespace test_run_in {
-
-using namespace gearpod;
-using namespace gearpod::mc;
-
-namespace {
+namespace gearpod::mc::test_run_in {
 
 // The first recorded mesh of a gearbox with real teeth after so many others.
 lockstep::MeshRecord first_mesh(const Scene& scene, int run_in) {
@@ -31,8 +24,6 @@ lockstep::MeshRecord first_mesh(const Scene& scene, int run_in) {
     REQUIRE(tile.status.front() == lockstep::LaneStatus::ok);
     return tile.records.at(static_cast<std::size_t>(tile.content.front()));
 }
-
-}  // namespace
 
 TEST_CASE("The initial transient with real teeth has decayed when recording begins") {
     const Scene scene(test::shipped_study("planet-life.toml",
@@ -61,4 +52,4 @@ TEST_CASE("The run-in follows from the slower of gearbox and sensor, and from th
     CHECK(run_in({"sensor.low_pass_Hz=1", "numerics.settle_tolerance=1e-4"}) == 92);
 }
 
-}  // namespace test_run_in
+}  // namespace gearpod::mc::test_run_in

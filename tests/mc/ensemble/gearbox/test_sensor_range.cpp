@@ -2,30 +2,17 @@
 // all features.
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <cmath>
-
 #include "mc/study/study.hpp"
 #include "tests/mc/ensemble/gearbox/small_runs.hpp"
 #include "tests/mc/study_file.hpp"
 
-namespace test_sensor_range {
+namespace gearpod::test_sensor_range {
 
-using namespace gearpod;
-using namespace gearpod::test;
-
-namespace {
+using namespace test;
 
 constexpr double kRange = 0.15;  // passed by some of the samples
 const std::string kNoise = " --set sensor.noise_m_s2=0.03 ";
 const std::string kClipped = kNoise + fmt::format("--set sensor.range_m_s2={} ", kRange);
-
-const std::vector<double>& values(const std::vector<mc::FeatureResult>& features,
-                                  const std::string& name) {
-    return std::ranges::find(features, name, &mc::FeatureResult::name)->values;
-}
-
-}  // namespace
 
 TEST_CASE("Exported samples are clipped after the noise was added") {
     const Folder folder;
@@ -55,22 +42,18 @@ TEST_CASE("Exported samples are clipped after the noise was added") {
 
 // `features` refuses recordings with many clipped samples, hence the larger range.
 TEST_CASE("Features of a run are those of its clipped samples") {
-    const std::string density = " --set sensor.noise_density_m_s2_per_sqrt_Hz=0.001 ";
-    const std::string range = "--set sensor.range_m_s2=0.18 ";
-    for (const std::string& noise : {kNoise, kNoise + density}) {
-        const std::string options = noise + range;
-        const Folder folder;
-        const mc::Results free = run_small(folder, "free.h5", noise),
-                          results = run_small(folder, "run.h5", options);
-        const auto measured = features_of_export(folder, "sensor_noise_1", options);
-        for (const char* name :
-             {"sensor_rms", "window_ratio", "window_kurtosis", "fm4", "crest_factor"}) {
-            INFO(name);
-            CHECK(values(results.features, name)[25] ==
-                  Approx(printed_value(measured, name)).epsilon(1e-5));
-            CHECK(std::abs(values(results.features, name)[25] / values(free.features, name)[25] -
-                           1.0) > 1e-4);
-        }
+    const std::string noise = kNoise + " --set sensor.noise_density_m_s2_per_sqrt_Hz=0.001 ",
+                      options = noise + "--set sensor.range_m_s2=0.18 ";
+    const Folder folder;
+    const mc::Results free = run_small(folder, "free.h5", noise),
+                      results = run_small(folder, "run.h5", options);
+    const auto measured = features_of_export(folder, "sensor_noise_1", options);
+    for (const char* name :
+         {"sensor_rms", "window_ratio", "window_kurtosis", "fm4", "crest_factor"}) {
+        INFO(name);
+        const double value = values(results.features, name)[25];
+        CHECK(value == Approx(printed_value(measured, name)).epsilon(1e-5));
+        CHECK(std::abs(value / values(free.features, name)[25] - 1.0) > 1e-4);
     }
 }
 
@@ -116,23 +99,6 @@ TEST_CASE("A range of one sensor leaves the features of the others unchanged") {
     }
 }
 
-TEST_CASE("Clipped rows keep their bits over threads, parts, merging and lanes") {
-    const std::string baselines =
-        "--set 'features.use=[\"sensor_rms\", \"own_window_ratio\", \"crest_factor\", \"na4\"]'"
-        " --set features.baseline_torque_scatter=0.02 --set sensor.record_s=9 "
-        "--set 'sensor.noise_levels=[0, 1, 2]' ";
-    check_equal_bits_over_parts(kClipped + baselines);
-    const auto rows = [](int lanes) {
-        return bits(
-            test::run(mc::read_study(
-                          kSmall, {fmt::format("sensor.range_m_s2={}", kRange),
-                                   "sensor.noise_m_s2=0.03", "ensemble.threshold_instances=5",
-                                   "ensemble.instances=6", fmt::format("numerics.lanes={}", lanes)})
-                          .study.value()));
-    };
-    CHECK(rows(1) == rows(8));
-}
-
 TEST_CASE("What needs samples that are not clipped refuses a range") {
     const Folder folder;
     const auto refused = [](const std::string& command, const char* text) {
@@ -164,4 +130,4 @@ TEST_CASE("What needs samples that are not clipped refuses a range") {
               .mentions("samples are clipped at 0.15 m/s^2 of either sign"));
 }
 
-}  // namespace test_sensor_range
+}  // namespace gearpod::test_sensor_range

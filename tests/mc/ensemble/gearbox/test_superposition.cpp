@@ -1,9 +1,6 @@
 // Superposition of gearboxes with real teeth, compared with full integration.
 #include <fmt/format.h>
 
-#include <catch2/catch.hpp>
-#include <cmath>
-
 #include "lockstep/strategies/solution.hpp"
 #include "mc/ensemble/gearbox/healthy_solution.hpp"
 #include "mc/ensemble/gearbox/solution_choice.hpp"
@@ -11,12 +8,7 @@
 #include "tests/mc/program.hpp"
 #include "tests/mc/study_file.hpp"
 
-namespace test_superposition {
-
-using namespace gearpod;
-using namespace gearpod::mc;
-
-namespace {
+namespace gearpod::mc::test_superposition {
 
 // Teeth 24/20/64 of grade 6, with pin errors of 20 um; cracked gearboxes and their baselines. No
 // tooth pair loses contact at 6 kN m; some do at 3 kN m and less.
@@ -66,8 +58,6 @@ double relative_rms(const std::vector<double>& a, const std::vector<double>& b) 
 
 const std::string kLight =
     "random.operation.torque_N_m={distribution=\"uniform\",low=300,high=2500}";
-
-}  // namespace
 
 TEST_CASE("Superposed gearboxes with real teeth, healthy and cracked, equal full integration") {
     const std::vector<std::string> heavy{
@@ -143,8 +133,6 @@ TEST_CASE("Gearboxes whose tooth pairs lose contact are integrated in full, to t
     CHECK(test::run(study_with("full", {kLight})).integration.empty());
 }
 
-namespace {
-
 // Eight healthy gearboxes over some mesh periods of the span, superposed where that is allowed.
 class ContactLimit {
   public:
@@ -190,8 +178,6 @@ double relative_rms(const lockstep::TileResult& a, const lockstep::TileResult& b
     }
     return relative_rms(one, other);
 }
-
-}  // namespace
 
 // Regression: with contact checked at samples only, gearboxes of grade 4 near the limit of contact
 // were superposed with errors of up to 1e-3 in the sensor signal.
@@ -247,4 +233,4 @@ TEST_CASE("Integrations of lives start from superposed states as from integrated
     CHECK(relative_rms(cracked("superposed"), cracked("full")) < 1e-7);
 }
 
-}  // namespace test_superposition
+}  // namespace gearpod::mc::test_superposition

@@ -1,19 +1,14 @@
 // Checks the level of other machine noise: one factor on the amplitudes of all tones.
 #include <fmt/format.h>
 
-#include <algorithm>
-
 #include "mc/numerics/study_scene.hpp"
 #include "mc/plan/calibration_plan.hpp"
 #include "mc/recordings/calibration/simulated_sets.hpp"
 #include "tests/mc/program.hpp"
 
-namespace test_tone_level {
+namespace gearpod::test_tone_level {
 
-using namespace gearpod;
-using namespace gearpod::test;
-
-namespace {
+using namespace test;
 
 const std::string kStudy = std::string(GEARPOD_SOURCE_DIR) + "/tests/features/reference/small.toml";
 
@@ -30,8 +25,6 @@ mc::StudyScene scene_with(const std::vector<std::string>& overrides) {
     REQUIRE(made);
     return made;
 }
-
-}  // namespace
 
 TEST_CASE("Twice the level doubles the amplitude of every tone") {
     const Folder folder;
@@ -80,4 +73,4 @@ TEST_CASE("Calibration uses the given level") {
     CHECK(level->independent_of_motion());
 }
 
-}  // namespace test_tone_level
+}  // namespace gearpod::test_tone_level

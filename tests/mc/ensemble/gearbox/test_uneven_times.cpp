@@ -1,15 +1,12 @@
 // Checks that the program writes the times of samples at an uneven speed, whatever lanes it is
 // built for.
-#include <algorithm>
-#include <catch2/catch.hpp>
-
 #include "tests/mc/ensemble/gearbox/small_runs.hpp"
 #include "tests/shipped_studies.hpp"
+#include "tests/test.hpp"
 
-namespace test_uneven_times {
+namespace gearpod::test_uneven_times {
 
-using namespace gearpod;
-using namespace gearpod::test;
+using namespace test;
 
 TEST_CASE("simulate writes uneven times where the speed fluctuates") {
     const Folder folder;
@@ -29,4 +26,4 @@ TEST_CASE("simulate writes uneven times where the speed fluctuates") {
     CHECK(longest / shortest == Approx(1.04 / 0.96).epsilon(0.02));
 }
 
-}  // namespace test_uneven_times
+}  // namespace gearpod::test_uneven_times

@@ -1,9 +1,5 @@
 // Checks studies with worn flanks: the pairs that wear, in all kinds of gearbox, and the records of
 // their gearboxes.
-#include <algorithm>
-#include <catch2/catch.hpp>
-#include <cmath>
-
 #include "mc/ensemble/gearbox/gearbox_tile.hpp"
 #include "mc/ensemble/gearbox/simulation.hpp"
 #include "mc/study/faults/fault_kind.hpp"
@@ -11,13 +7,9 @@
 #include "tests/mc/scene_examples.hpp"
 #include "tests/mc/study_file.hpp"
 
-namespace test_worn_study {
+namespace gearpod::mc::test_worn_study {
 
-using namespace gearpod;
-using namespace gearpod::mc;
-using namespace gearpod::tests;
-
-namespace {
+using namespace tests;
 
 const std::string kCrack = "kind = \"crack\"\nmember = \"planet\"\nside = \"ring\"\n";
 const std::string kDepths =
@@ -38,8 +30,6 @@ std::string worn_pinion() {
                              "kind = \"wear\"\nwear_um = 20\nmember = \"gear\"\n"),
                     "[effects]\n", "[effects]\ncontact_onset = \"extended\"\n");
 }
-
-}  // namespace
 
 // The shape is zero where a tooth pair of a worn gear passes its pitch point, and 1 at an end of
 // its path of contact; the other pairs have none.
@@ -127,4 +117,4 @@ TEST_CASE("The baseline record of a worn gearbox is that of the gearbox without 
     CHECK(healthy.te_turn != worn.te_turn);
 }
 
-}  // namespace test_worn_study
+}  // namespace gearpod::mc::test_worn_study
