@@ -1,15 +1,8 @@
 // Checks the geometry of shifted gears against published sets, to the printed digits.
-#include <catch2/catch.hpp>
-#include <cmath>
-#include <numbers>
-
 #include "gears/mesh_geometry.hpp"
+#include "tests/test.hpp"
 
-namespace test_working_pair {
-
-using namespace gearpod::gears;
-
-namespace {
+namespace gearpod::gears::test_working_pair {
 
 constexpr double kDegree = std::numbers::pi / 180;
 
@@ -42,6 +35,17 @@ struct Set {
     WorkingShifts shifts;
     MeshGeometry mesh;
 };
+
+// Diameters of both gears in mm: working, tip and root circles.
+void check_diameters(const Set& set, std::pair<double, double> working, double last_working,
+                     std::pair<double, double> tip, std::pair<double, double> root, double last) {
+    CHECK(set.working(1) == Approx(working.first).margin(last_working));
+    CHECK(set.working(2) == Approx(working.second).margin(last_working));
+    CHECK(set.tip(1) == Approx(tip.first).margin(last));
+    CHECK(set.tip(2) == Approx(tip.second).margin(last));
+    CHECK(set.root(1) == Approx(root.first).margin(last));
+    CHECK(set.root(2) == Approx(root.second).margin(last));
+}
 
 // A planetary stage defined by its sun's shift and the centre distance.
 struct Stage {
@@ -76,8 +80,6 @@ double contact_diameter_mm(const MeshGeometry& mesh, int which, double tau) {
     return 2e3 * mesh.contact_radius(which, tau);
 }
 
-}  // namespace
-
 // Source: KHK gear technical reference, calculation of a profile shifted spur gear (1), a =
 // 56.4999.
 TEST_CASE("a pair of 12 and 24 teeth shifted by 0.6 and 0.36 matches KHK's") {
@@ -85,12 +87,7 @@ TEST_CASE("a pair of 12 and 24 teeth shifted by 0.6 and 0.36 matches KHK's") {
     CHECK(set.angle() == Approx(26.0886).margin(5e-5));
     CHECK(involute(set.mesh.working_pressure_angle()) == Approx(0.034316).margin(5e-7));
     CHECK(1e3 * set.mesh.centre_distance() == Approx(56.4999).margin(5e-5));
-    CHECK(set.working(1) == Approx(37.667).margin(5e-4));
-    CHECK(set.working(2) == Approx(75.333).margin(5e-4));
-    CHECK(set.tip(1) == Approx(44.840).margin(5e-4));
-    CHECK(set.tip(2) == Approx(79.400).margin(5e-4));
-    CHECK(set.root(1) == Approx(32.100).margin(5e-4));
-    CHECK(set.root(2) == Approx(66.660).margin(5e-4));
+    check_diameters(set, {37.667, 75.333}, 5e-4, {44.840, 79.400}, {32.100, 66.660}, 5e-4);
     CHECK(set.mesh.backlash() == Approx(0).margin(1e-15));
 }
 
@@ -149,12 +146,7 @@ TEST_CASE("12 and 60 helical teeth shifted by 0.09809 in the normal plane match 
     CHECK(2e3 * set.mesh.gear(2).pitch_radius() == Approx(207.846).margin(kLast));
     CHECK(2e3 * set.mesh.gear(1).base_radius() == Approx(38.322).margin(kLast));
     CHECK(2e3 * set.mesh.gear(2).base_radius() == Approx(191.611).margin(kLast));
-    CHECK(set.working(1) == Approx(41.667).margin(kLast));
-    CHECK(set.working(2) == Approx(208.333).margin(kLast));
-    CHECK(set.tip(1) == Approx(48.153).margin(kLast));
-    CHECK(set.tip(2) == Approx(213.842).margin(kLast));
-    CHECK(set.root(1) == Approx(34.657).margin(kLast));
-    CHECK(set.root(2) == Approx(200.346).margin(kLast));
+    check_diameters(set, {41.667, 208.333}, kLast, {48.153, 213.842}, {34.657, 200.346}, kLast);
 }
 
 // Source: the same in the transverse system: m_t = 3 mm, 20 degrees in the transverse plane.
@@ -165,12 +157,7 @@ TEST_CASE("12 and 60 helical teeth shifted by 0.34462 in the transverse plane ma
     CHECK(1e3 * set.mesh.centre_distance() == Approx(109.0000).margin(5e-5));
     CHECK(2e3 * set.mesh.gear(1).base_radius() == Approx(33.8289).margin(5e-5));
     CHECK(2e3 * set.mesh.gear(2).base_radius() == Approx(169.1447).margin(5e-5));
-    CHECK(set.working(1) == Approx(36.3333).margin(5e-5));
-    CHECK(set.working(2) == Approx(181.6667).margin(5e-5));
-    CHECK(set.tip(1) == Approx(44.000).margin(5e-4));
-    CHECK(set.tip(2) == Approx(185.932).margin(5e-4));
-    CHECK(set.root(1) == Approx(30.568).margin(5e-4));
-    CHECK(set.root(2) == Approx(172.500).margin(5e-4));
+    check_diameters(set, {36.3333, 181.6667}, 5e-5, {44.000, 185.932}, {30.568, 172.500}, 5e-4);
 }
 
 // Source: FVA information sheet 2/IV, FZG test gears, type C.
@@ -264,4 +251,4 @@ TEST_CASE("the second stage of a 5 MW wind turbine, 18/36/93 teeth, matches KISS
     CHECK(thickness_mm(ring.gear(2)) == Approx(18.937).margin(kLast));
 }
 
-}  // namespace test_working_pair
+}  // namespace gearpod::gears::test_working_pair

@@ -1,17 +1,11 @@
-#include <catch2/catch.hpp>
-#include <cmath>
-
 #include "stiffness/teeth/tooth_compliance.hpp"
 #include "tests/stiffness/gear_pairs.hpp"
 #include "tests/stiffness/printed_forms.hpp"
+#include "tests/test.hpp"
 
-namespace test_tooth_compliance {
+namespace gearpod::stiffness::test_tooth_compliance {
 
-using namespace gearpod;
-using namespace gearpod::stiffness;
 using namespace test_pairs;
-
-namespace {
 
 printed::Tooth printed_tooth(int teeth, bool is_internal = false) {
     return {teeth,
@@ -37,26 +31,19 @@ std::vector<double> contact_angles(const gears::MeshGeometry& mesh, int which) {
     return angles;
 }
 
-}  // namespace
-
-TEST_CASE("a tooth from the base circle has Tian's compliances") {
-    const gears::MeshGeometry mesh(external(19), external(48));
-    for (const int which : {1, 2}) {
-        const ToothProfile profile(mesh.gear(which), Profile::base_circle);
-        for (const double a1 : contact_angles(mesh, which))
-            check_equal(tooth_compliance(profile, kLiangSteel, a1),
-                        printed_tooth(mesh.gear(which).teeth).base_circle(a1));
-    }
-}
-
 TEST_CASE(
-    "a tooth from a root circle inside the base circle has Liang's compliances 3.2.13 to 3.2.15") {
-    const gears::MeshGeometry mesh(external(19), external(31));
+    "a tooth has Tian's compliances from the base circle, and Liang's 3.2.13 to 3.2.15 from a root "
+    "circle inside it") {
+    const gears::MeshGeometry tian(external(19), external(48)), liang(external(19), external(31));
     for (const int which : {1, 2}) {
-        const ToothProfile profile(mesh.gear(which), Profile::root_circle);
-        for (const double a1 : contact_angles(mesh, which))
-            check_equal(tooth_compliance(profile, kLiangSteel, a1),
-                        printed_tooth(mesh.gear(which).teeth).root_circle(a1));
+        const ToothProfile base(tian.gear(which), Profile::base_circle),
+            root(liang.gear(which), Profile::root_circle);
+        for (const double a1 : contact_angles(tian, which))
+            check_equal(tooth_compliance(base, kLiangSteel, a1),
+                        printed_tooth(tian.gear(which).teeth).base_circle(a1));
+        for (const double a1 : contact_angles(liang, which))
+            check_equal(tooth_compliance(root, kLiangSteel, a1),
+                        printed_tooth(liang.gear(which).teeth).root_circle(a1));
     }
 }
 
@@ -200,4 +187,4 @@ TEST_CASE("a shallow crack removes only the involute's bulge on one side") {
     }
 }
 
-}  // namespace test_tooth_compliance
+}  // namespace gearpod::stiffness::test_tooth_compliance

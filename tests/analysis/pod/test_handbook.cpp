@@ -1,20 +1,10 @@
 // Checks the examples of MIL-HDBK-1823A to their printed digits. The data are not part of the
 // sources: the environment variable GEARPOD_HANDBOOK_DATA names their folder (README.md).
-#include <catch2/catch.hpp>
-#include <cstdlib>
-#include <filesystem>
-#include <fstream>
-#include <sstream>
-
 #include "analysis/inspection.hpp"
 #include "analysis/pod/pod_bounds.hpp"
+#include "tests/test.hpp"
 
-namespace test_handbook {
-
-using namespace gearpod;
-using namespace gearpod::analysis;
-
-namespace {
+namespace gearpod::analysis::test_handbook {
 
 // Columns of a file by number. Prints a message and returns nothing if the folder does not exist.
 Inspections handbook(const std::string& name, std::size_t size, std::vector<std::size_t> values) {
@@ -41,20 +31,27 @@ Inspections handbook(const std::string& name, std::size_t size, std::vector<std:
     return data;
 }
 
+InspectionRequest handbook_request(bool responses, bool log_size) {
+    InspectionRequest request;
+    request.convention = BoundConvention::handbook;
+    request.simulated_tables = 0;
+    request.responses = responses;
+    request.log_sizes = {log_size};
+    if (responses) {
+        request.threshold = 200.0;
+        request.powers = {1.0};
+        request.accept_failed_checks = true;
+    }
+    return request;
+}
+
 TEST_CASE("Example 1, a-hat against a with censored values", "[handbook]") {
     const Inspections data = handbook("example-1-ahat.csv", 1, {2});
     if (data.size.empty()) {
         return;
     }
-    InspectionRequest request;
-    request.convention = BoundConvention::handbook;
-    request.simulated_tables = 0;
-    request.responses = true;
-    request.threshold = 200.0;
+    InspectionRequest request = handbook_request(true, true);
     request.limits = {50.0, 1375.0};
-    request.log_sizes = {true};
-    request.powers = {1.0};
-    request.accept_failed_checks = true;
     const SignalResponsePod pod = inspect(data, request).signal_response;
     REQUIRE(pod.refusal == "");
     CHECK(pod.a50.estimate.size == Approx(8.8).margin(0.05));
@@ -72,14 +69,7 @@ TEST_CASE("Example 2, repeated measurements, against statsmodels' mixed model", 
     if (data.size.empty()) {
         return;
     }
-    InspectionRequest request;
-    request.convention = BoundConvention::handbook;
-    request.simulated_tables = 0;
-    request.responses = true;
-    request.threshold = 200.0;
-    request.log_sizes = {true};
-    request.powers = {1.0};
-    request.accept_failed_checks = true;
+    InspectionRequest request = handbook_request(true, true);
     const SignalResponsePod pod = inspect(data, request).signal_response;
     REQUIRE(pod.refusal == "");
     // Reference: mixedlm("y ~ log(size)", groups = target).fit(reml=False), uncensored.
@@ -95,11 +85,8 @@ TEST_CASE("Example 3, hit/miss by the logit of size and of log size", "[handbook
     if (data.size.empty()) {
         return;
     }
-    InspectionRequest request;
-    request.convention = BoundConvention::handbook;
-    request.simulated_tables = 0;
+    InspectionRequest request = handbook_request(false, false);
     request.links = {Link::logit};
-    request.log_sizes = {false};
     const HitMissPod linear = inspect(data, request).hit_miss;
     CHECK(linear.a50.estimate.size == Approx(0.1156).margin(0.00005));
     CHECK(linear.a90.estimate.size == Approx(0.1709).margin(0.00005));
@@ -116,11 +103,8 @@ TEST_CASE("Example 4, hit/miss by the complementary log-log", "[handbook]") {
     if (data.size.empty()) {
         return;
     }
-    InspectionRequest request;
-    request.convention = BoundConvention::handbook;
-    request.simulated_tables = 0;
+    InspectionRequest request = handbook_request(false, false);
     request.links = {Link::cloglog};
-    request.log_sizes = {false};
     const HitMissPod pod = inspect(data, request).hit_miss;
     const PodCurve& curve = pod.chosen.curve;
     CHECK(-curve.intercept / curve.slope == Approx(0.0975).margin(0.00005));
@@ -133,6 +117,4 @@ TEST_CASE("Example 4, hit/miss by the complementary log-log", "[handbook]") {
     CHECK(bounds.upper.size == Approx(0.1553).margin(0.00005));
 }
 
-}  // namespace
-
-}  // namespace test_handbook
+}  // namespace gearpod::analysis::test_handbook

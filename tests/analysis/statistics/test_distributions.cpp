@@ -1,15 +1,9 @@
 #include <boost/math/quadrature/gauss.hpp>
-#include <catch2/catch.hpp>
-#include <cmath>
-#include <numbers>
 
 #include "analysis/statistics/distributions.hpp"
+#include "tests/test.hpp"
 
-namespace test_distributions {
-
-using namespace gearpod::analysis;
-
-namespace {
+namespace gearpod::analysis::test_distributions {
 
 using std::numbers::pi;
 
@@ -52,6 +46,4 @@ TEST_CASE("Small probabilities of common exceedance keep their digits") {
     }
 }
 
-}  // namespace
-
-}  // namespace test_distributions
+}  // namespace gearpod::analysis::test_distributions

@@ -1,29 +1,32 @@
 #include <boost/math/distributions/binomial.hpp>
-#include <catch2/catch.hpp>
-#include <cmath>
 
 #include "analysis/statistics/interval.hpp"
+#include "tests/test.hpp"
 
-namespace test_wilson {
+namespace gearpod::analysis::test_interval {
 
-using namespace gearpod;
-using namespace gearpod::analysis;
-
-namespace {
-
-TEST_CASE("Wilson intervals agree with the published examples") {
+// Source: Newcombe, Statistics in Medicine 17 (1998), 857-872, Table I, 95 %: score method without
+// continuity correction, exact method.
+TEST_CASE("Wilson and Clopper-Pearson intervals agree with the published examples") {
     struct Row {
         long detected, tested;
-        double lower, upper;
+        Interval wilson, exact;
     };
-    // Source: Newcombe, Statistics in Medicine 17 (1998), 857-872, Table I, score method without
-    // continuity correction, 95 %.
-    for (const Row& row : {Row{81, 263, 0.2553, 0.3662}, Row{15, 148, 0.0624, 0.1605},
-                           Row{0, 20, 0.0, 0.1611}, Row{1, 29, 0.0061, 0.1718}}) {
-        const Interval interval = wilson_interval(row.detected, row.tested, 0.95);
-        CHECK(interval.lower == Approx(row.lower).margin(5.1e-5));
-        CHECK(interval.upper == Approx(row.upper).margin(5.1e-5));
+    const auto check = [](const Interval& found, const Interval& published) {
+        CHECK(found.lower == Approx(published.lower).margin(5.1e-5));
+        CHECK(found.upper == Approx(published.upper).margin(5.1e-5));
+    };
+    for (const Row& row : {Row{81, 263, {0.2553, 0.3662}, {0.2527, 0.3676}},
+                           Row{15, 148, {0.0624, 0.1605}, {0.0578, 0.1617}},
+                           Row{0, 20, {0.0, 0.1611}, {0.0, 0.1684}},
+                           Row{1, 29, {0.0061, 0.1718}, {0.0009, 0.1776}}}) {
+        check(wilson_interval(row.detected, row.tested, 0.95), row.wilson);
+        check(clopper_pearson_interval(row.detected, row.tested, 0.95), row.exact);
     }
+    // R's binom.test to all its digits (reference/reference_R.txt).
+    const Interval interval = clopper_pearson_interval(81, 263, 0.95);
+    CHECK(interval.lower == Approx(0.2527367456).epsilon(1e-9));
+    CHECK(interval.upper == Approx(0.3676219226).epsilon(1e-9));
 }
 
 TEST_CASE("The observation is z standard errors away from Wilson's bounds") {
@@ -48,35 +51,6 @@ TEST_CASE("Wilson intervals are symmetric, end exactly at 0 and 1, and require a
     CHECK_THROWS_AS(wilson_interval(1, 4, 1.0), std::invalid_argument);
 }
 
-}  // namespace
-
-}  // namespace test_wilson
-
-namespace test_clopper_pearson {
-
-using namespace gearpod;
-using namespace gearpod::analysis;
-
-namespace {
-
-TEST_CASE("Clopper-Pearson intervals agree with the published examples") {
-    struct Row {
-        long detected, tested;
-        double lower, upper;
-    };
-    // Sources: Newcombe, Statistics in Medicine 17 (1998), 857-872, Table I, exact method, 95 %;
-    // R's binom.test to all its digits (reference/reference_R.txt).
-    for (const Row& row : {Row{81, 263, 0.2527, 0.3676}, Row{15, 148, 0.0578, 0.1617},
-                           Row{0, 20, 0.0, 0.1684}, Row{1, 29, 0.0009, 0.1776}}) {
-        const Interval interval = clopper_pearson_interval(row.detected, row.tested, 0.95);
-        CHECK(interval.lower == Approx(row.lower).margin(5.1e-5));
-        CHECK(interval.upper == Approx(row.upper).margin(5.1e-5));
-    }
-    const Interval interval = clopper_pearson_interval(81, 263, 0.95);
-    CHECK(interval.lower == Approx(0.2527367456).epsilon(1e-9));
-    CHECK(interval.upper == Approx(0.3676219226).epsilon(1e-9));
-}
-
 TEST_CASE("29 detections of 29 show a rate of 90 % at 95 %, 28 of 28 do not") {
     // The 29-of-29 rule of demonstration tests has a one-sided confidence.
     CHECK(clopper_pearson_interval(29, 29, 0.9).lower > 0.9);
@@ -94,6 +68,4 @@ TEST_CASE("Clopper-Pearson bounds leave half the error in each tail") {
     CHECK_THROWS_AS(clopper_pearson_interval(5, 4, 0.95), std::invalid_argument);
 }
 
-}  // namespace
-
-}  // namespace test_clopper_pearson
+}  // namespace gearpod::analysis::test_interval

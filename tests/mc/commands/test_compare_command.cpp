@@ -4,15 +4,12 @@
 
 #include "tests/mc/program.hpp"
 
-namespace test_compare_command {
+namespace gearpod::test_compare_command {
 
-using namespace gearpod;
-using namespace gearpod::test;
+using namespace test;
 using Json = nlohmann::json;
 
-namespace {
-
-// Runs a quasi-static study without sensor, in about a second.
+// Results of 240 gearboxes.
 std::string run(const Folder& folder, const std::string& name, const std::string& options) {
     const std::string file = folder.file(name);
     require_success("run " + study("planet-crack-ideal.toml") +
@@ -22,16 +19,21 @@ std::string run(const Folder& folder, const std::string& name, const std::string
     return file;
 }
 
+// Results of the study without options, computed once.
+const std::string& plain_results() {
+    static const Folder folder;
+    static const std::string file = run(folder, "a.h5", "");
+    return file;
+}
+
 Json compared(const std::string& files, const std::string& json) {
     require_success("compare " + files + " --json " + json);
     return Json::parse(bytes_of(json));
 }
 
-}  // namespace
-
 TEST_CASE("Comparisons pair the same gearboxes, and only these") {
     const Folder folder;
-    const std::string a = run(folder, "a.h5", ""),
+    const std::string a = plain_results(),
                       more = run(folder, "more.h5", "--set ensemble.instances=210"),
                       noisy = run(folder, "noisy.h5", "--set sensor.noise_m_s2=3"),
                       other = run(folder, "other.h5", "--seed 5"),
@@ -105,7 +107,7 @@ TEST_CASE("compare reports everything that cannot be compared") {
 
 TEST_CASE("compare reports every missing or incomplete file") {
     const Folder folder;
-    const std::string a = run(folder, "a.h5", ""), part = run(folder, "p.h5", "--part 1/2"),
+    const std::string a = plain_results(), part = run(folder, "p.h5", "--part 1/2"),
                       text = folder.file("text.h5"), cut = folder.file("cut.h5");
     write_bytes(text, "size,hit\n1,0\n");
     const std::string whole = bytes_of(a);
@@ -120,4 +122,4 @@ TEST_CASE("compare reports every missing or incomplete file") {
     CHECK(compare.mentions("part 1/2 only"));
 }
 
-}  // namespace test_compare_command
+}  // namespace gearpod::test_compare_command

@@ -1,25 +1,23 @@
 // Checks that the man page and the completion agree with --help for every command.
-#include <sstream>
-
 #include "tests/mc/program.hpp"
 
-namespace test_help {
+namespace gearpod::test_help {
 
-using namespace gearpod;
-using namespace gearpod::test;
-
-namespace {
+using namespace test;
 
 const char* const kCommands[] = {"run",   "report",   "compare",  "describe", "stiffness",
                                  "modes", "accuracy", "simulate", "features", "pod",
                                  "lives", "merge",    "misses",   "rare",     "calibrate",
                                  "sweep", "new",      "repair"};
 
-// Options of a command from its own help: "  --json TEXT ..." begins with two spaces.
+// Options in the help of a command: "  --json TEXT ..." begins with two spaces. Checks its lines,
+// except those of the usage, which name the program by its path.
 std::vector<std::string> options(const std::string& command) {
     std::istringstream help(program(command + " --help").output);
     std::vector<std::string> names;
     for (std::string line; std::getline(help, line);) {
+        INFO(line);
+        CHECK((line.size() <= 80 || line.starts_with("Usage: ")));
         const std::size_t at = line.find("--");
         if (line.starts_with("  ") && at != std::string::npos && at < 6) {
             names.push_back(line.substr(at, line.find_first_of(" ,", at) - at));
@@ -35,9 +33,8 @@ std::string replaced(std::string text) {
     return text;
 }
 
-}  // namespace
-
-TEST_CASE("The man page and the completion hold every option of every command") {
+TEST_CASE("The man page and the completion hold every option of the help, of 80 columns") {
+    options("");
     const auto man = program("--man"), completion = program("--completion");
     REQUIRE(man.code == 0);
     REQUIRE(completion.code == 0);
@@ -61,19 +58,6 @@ TEST_CASE("The man page and the completion hold every option of every command") 
     }
 }
 
-TEST_CASE("Every line of the help fits 80 columns") {
-    std::string all = program("--help").output;
-    for (const char* command : kCommands) {
-        all += program(std::string(command) + " --help").output;
-    }
-    std::istringstream lines(all);
-    for (std::string line; std::getline(lines, line);) {
-        INFO(line);
-        // A usage line names the program by its path.
-        CHECK((line.size() <= 80 || line.starts_with("Usage: ")));
-    }
-}
-
 TEST_CASE("bash completes commands, options and the values of options") {
     const Folder folder;
     const std::string script = folder.file("ask.sh");
@@ -94,4 +78,4 @@ TEST_CASE("The version states source revision and build") {
     }
 }
 
-}  // namespace test_help
+}  // namespace gearpod::test_help

@@ -4,31 +4,29 @@
 #include "mc/results/results_file.hpp"
 #include "tests/mc/program.hpp"
 
-namespace test_misses {
+namespace gearpod::test_misses {
 
-using namespace gearpod;
-using namespace gearpod::test;
+using namespace test;
 
-namespace {
-
-// Thresholds are set by 100 healthy gearboxes.
-std::string run_small(const Folder& folder, const std::string& more = "") {
-    const std::string results = folder.file("ideal.h5");
-    require_success(
-        "run " + study("planet-crack-ideal.toml") + " --quiet --out " + results +
-        " --instances 40 --set ensemble.threshold_instances=100 --set "
-        "'sensor.noise_levels=[0,2]' --set 'features.use=[\"te_rms\",\"window_ratio\"]' " +
-        more);
+// Results of a small study, computed once. Thresholds are set by 100 healthy gearboxes.
+const std::string& small_results() {
+    static const Folder folder;
+    static const std::string results = [] {
+        require_success("run " + study("planet-crack-ideal.toml") + " --quiet --out " +
+                        folder.file("ideal.h5") +
+                        " --instances 40 --set ensemble.threshold_instances=100 --set "
+                        "'sensor.noise_levels=[0,2]' --set "
+                        "'features.use=[\"te_rms\",\"window_ratio\"]'");
+        return folder.file("ideal.h5");
+    }();
     return results;
 }
 
 const std::string kRequest = " --feature window_ratio --size 1 --quiet --json -";
 
-}  // namespace
-
 TEST_CASE("Rates of misses agree with counted ones") {
     const Folder folder;
-    const std::string results = run_small(folder);
+    const std::string& results = small_results();
     const Outcome importance_sampled =
         require_success("misses " + results + " --gearboxes 60 --records 32" + kRequest);
     const auto result = nlohmann::json::parse(importance_sampled.output);
@@ -57,8 +55,7 @@ TEST_CASE("Rates of misses agree with counted ones") {
 }
 
 TEST_CASE("The miss rate of faults that are nearly always missed is at most 1") {
-    const Folder folder;
-    const std::string request = "misses " + run_small(folder) +
+    const std::string request = "misses " + small_results() +
                                 " --feature window_ratio --size 0.01 --gearboxes 60 --records 16 "
                                 "--quiet";
     const Outcome text = require_success(request);
@@ -70,27 +67,16 @@ TEST_CASE("The miss rate of faults that are nearly always missed is at most 1") 
     CHECK((result["counted_records"].is_null() || result["counted_records"] > 0.0));
 }
 
-TEST_CASE("Rates of misses have the same bits for any number of threads") {
-    const Folder folder;
-    const std::string request =
-        "misses " + run_small(folder) + " --gearboxes 40 --records 8" + kRequest;
-    const Outcome one =
-        require_success(shell("OMP_NUM_THREADS=1 " + std::string(GEARPOD_PROGRAM) + " " + request));
-    CHECK(shell("OMP_NUM_THREADS=3 " + std::string(GEARPOD_PROGRAM) + " " + request).output ==
-          one.output);
-}
-
-TEST_CASE("Rates of misses have the same bits for any number of ranks", "[mpi]") {
-    const Folder folder;
-    const std::string request =
-        "misses " + run_small(folder) + " --gearboxes 40 --records 8" + kRequest;
-    const Outcome one = require_success(request);
-    CHECK(shell(mpirun(2) + GEARPOD_PROGRAM + " " + request).output == one.output);
+TEST_CASE("Rates of misses have the same bits for any number of threads and ranks") {
+    const std::string command = std::string(GEARPOD_PROGRAM) + " misses " + small_results() +
+                                " --gearboxes 40 --records 8" + kRequest;
+    const Outcome one = require_success(shell("OMP_NUM_THREADS=1 " + command));
+    CHECK(shell("OMP_NUM_THREADS=3 " + command).output == one.output);
+    CHECK(shell(mpirun(2) + command).output == one.output);
 }
 
 TEST_CASE("Invalid requests to misses are refused, every problem at once") {
-    const Folder folder;
-    const std::string results = run_small(folder);
+    const std::string& results = small_results();
     check_refused("misses " + results + " --feature te_rms --size 0 --noise-level 3 --records 6",
                   {"--feature: \"te_rms\" does not use the acceleration signal",
                    "--size: must be > 0 and finite, but is 0",
@@ -107,7 +93,7 @@ TEST_CASE("Invalid requests to misses are refused, every problem at once") {
     const Outcome deep = check_refused("misses " + results + " --feature window_ratio --size 900");
     CHECK(deep.output.starts_with("--size: "));
     CHECK(std::count(deep.output.begin(), deep.output.end(), '\n') == 1);
-    CHECK(program("misses " + folder.file("none.h5") + " --feature fm4 --size 1").code == 2);
+    CHECK(program("misses /none/none.h5 --feature fm4 --size 1").code == 2);
 }
 
-}  // namespace test_misses
+}  // namespace gearpod::test_misses

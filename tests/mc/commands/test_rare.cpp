@@ -5,12 +5,9 @@
 #include "mc/results/results_file.hpp"
 #include "tests/mc/program.hpp"
 
-namespace test_rare {
+namespace gearpod::test_rare {
 
-using namespace gearpod;
-using namespace gearpod::test;
-
-namespace {
+using namespace test;
 
 // Seven milliseconds per gearbox.
 std::string study() {
@@ -22,8 +19,12 @@ std::string run_some(const Folder& folder, const std::string& name, const std::s
     require_success("run " + study() + " --quiet --out " + results + " " + more);
     return results;
 }
-std::string run_few(const Folder& folder) {
-    return run_some(folder, "few.h5", "--instances 16 --set ensemble.threshold_instances=40");
+// Results of a small run, computed once.
+const std::string& few_results() {
+    static const Folder folder;
+    static const std::string results =
+        run_some(folder, "few.h5", "--instances 16 --set ensemble.threshold_instances=40");
+    return results;
 }
 
 // Number of rows of a group beyond a threshold of its first feature at the last of two noise
@@ -45,12 +46,10 @@ std::pair<double, double> count_above(const std::string& results, int group, dou
     return {above, all};
 }
 
-}  // namespace
-
 TEST_CASE("Thresholds of rare false alarms agree with counted ones") {
     const Folder folder;
     const Outcome rare_outcome =
-        require_success("rare " + run_few(folder) +
+        require_success("rare " + few_results() +
                         " --feature window_ratio --rate 0.01 --gearboxes 160 --quiet --json -");
     const auto result = nlohmann::json::parse(rare_outcome.output);
     CHECK(result["kind"] == "rare-false-alarms");
@@ -90,29 +89,17 @@ TEST_CASE("Misses due to gearbox variation agree with counted ones") {
     CHECK(result["upper"].get<double>() * all > misses - 3.0 * std::sqrt(misses));
 }
 
-TEST_CASE("Rare false alarms have the same bits for any number of threads") {
-    const Folder folder;
-    const std::string rare_outcome =
-        "rare " + run_few(folder) +
-        " --feature window_ratio --rate 0.05 --gearboxes 40 --quiet --json -";
-    const Outcome one = require_success(
-        shell("OMP_NUM_THREADS=1 " + std::string(GEARPOD_PROGRAM) + " " + rare_outcome));
-    CHECK(shell("OMP_NUM_THREADS=3 " + std::string(GEARPOD_PROGRAM) + " " + rare_outcome).output ==
-          one.output);
-}
-
-TEST_CASE("Rare false alarms have the same bits for any number of ranks", "[mpi]") {
-    const Folder folder;
-    const std::string rare_outcome =
-        "rare " + run_few(folder) +
-        " --feature window_ratio --rate 0.05 --gearboxes 40 --quiet --json -";
-    const Outcome one = require_success(rare_outcome);
-    CHECK(shell(mpirun(2) + GEARPOD_PROGRAM + " " + rare_outcome).output == one.output);
+TEST_CASE("Rare false alarms have the same bits for any number of threads and ranks") {
+    const std::string command = std::string(GEARPOD_PROGRAM) + " rare " + few_results() +
+                                " --feature window_ratio --rate 0.05 --gearboxes 40 --quiet "
+                                "--json -";
+    const Outcome one = require_success(shell("OMP_NUM_THREADS=1 " + command));
+    CHECK(shell("OMP_NUM_THREADS=3 " + command).output == one.output);
+    CHECK(shell(mpirun(2) + command).output == one.output);
 }
 
 TEST_CASE("rare reports the number of gearboxes it simulated and what is unknown") {
-    const Folder folder;
-    const std::string results = run_few(folder);
+    const std::string results = few_results();
     const Outcome known = require_success("rare " + results +
                                           " --feature window_ratio --rate 0.05 --gearboxes 60 "
                                           "--quiet");
@@ -126,7 +113,7 @@ TEST_CASE("rare reports the number of gearboxes it simulated and what is unknown
 
 TEST_CASE("Invalid requests to rare are refused, every problem at once") {
     const Folder folder;
-    const std::string results = run_few(folder);
+    const std::string results = few_results();
     const auto refused = [&](const std::string& options) {
         const Outcome outcome = check_refused("rare " + results + " " + options);
         return outcome.output;
@@ -147,4 +134,4 @@ TEST_CASE("Invalid requests to rare are refused, every problem at once") {
     CHECK(program("rare " + folder.file("none.h5") + " --feature fm4 --rate 0.01").code == 2);
 }
 
-}  // namespace test_rare
+}  // namespace gearpod::test_rare

@@ -1,10 +1,6 @@
 // Checks lives of gearboxes: records against integration, crack growth against Paris' integral, one
 // record against the run, and the same bits for any threads and lanes.
-#include <cmath>
 #include <nlohmann/json.hpp>
-#include <numbers>
-#include <sstream>
-#include <string>
 
 #include "mc/ensemble/gearbox/realization_features.hpp"
 #include "mc/lives/life_monitor.hpp"
@@ -14,12 +10,9 @@
 #include "tests/mc/lives/life_example.hpp"
 #include "tests/mc/program.hpp"
 
-namespace test_lives {
+namespace gearpod::test_lives {
 
-using namespace gearpod;
-using namespace gearpod::test;
-
-namespace {
+using namespace test;
 
 TEST_CASE("A record equals its gearbox integrated at that depth and torque") {
     const std::string use = GENERATE("\"te_rms\",\"sensor_rms\",\"window_ratio\"",
@@ -305,10 +298,8 @@ TEST_CASE("Two ranks compute the same lives", "[mpi]") {
 TEST_CASE("Too coarse an interpolation withholds the results, and quiet runs print problems only") {
     const Folder folder;
     std::string command = "lives " + study("planet-crack-ideal.toml") + " --force --out " +
-                          folder.file("l.h5") + " --set monitoring.false_alarms_per_1000_h=10";
-    for (const std::string& one : kLife) {
-        command += " --set '" + one + "'";
-    }
+                          folder.file("l.h5") + " --set monitoring.false_alarms_per_1000_h=10" +
+                          life_arguments();
     const Outcome quiet = require_success(command + " --quiet");
     CHECK(quiet.output.empty());
     const Outcome loud = program(command);
@@ -325,9 +316,7 @@ TEST_CASE("Too coarse an interpolation withholds the results, and quiet runs pri
 
 TEST_CASE("Studies without possible lives are refused with the key") {
     const auto refused = [&](const std::string& more) {
-        const Outcome outcome =
-            check_refused("lives " + study("planet-crack-ideal.toml") + life_options() + more);
-        return outcome;
+        return check_refused("lives " + study("planet-crack-ideal.toml") + life_options() + more);
     };
     CHECK(
         program("lives " + study("planet-crack-ideal.toml")).mentions("life.interval_h: missing"));
@@ -352,6 +341,4 @@ TEST_CASE("Studies without possible lives are refused with the key") {
               .mentions("`lives` ignores keys that only `run` uses: numerics.verify\n"));
 }
 
-}  // namespace
-
-}  // namespace test_lives
+}  // namespace gearpod::test_lives

@@ -1,17 +1,12 @@
 // Checks length and loads of records against whole spans, many short records, and integration.
-#include <cmath>
-
 #include "mc/ensemble/gearbox/realization_features.hpp"
 #include "mc/lives/campaign.hpp"
 #include "tests/mc/lives/life_example.hpp"
 #include "tests/mc/program.hpp"
 
-namespace test_records {
+namespace gearpod::test_records {
 
-using namespace gearpod;
-using namespace gearpod::test;
-
-namespace {
+using namespace test;
 
 // A study without noise, with features that short records have.
 mc::Study quiet_study(std::vector<std::string> more) {
@@ -172,10 +167,8 @@ TEST_CASE("A crack follows the given curve at its gearbox's rate") {
 
 TEST_CASE("Invalid records and curves are refused with the key") {
     const auto refused = [&](const std::string& more) {
-        const Outcome outcome =
-            check_refused("lives " + study("planet-crack-ideal.toml") + life_arguments() +
-                          " --set 'features.use=[\"sensor_rms\"]' --quiet " + more);
-        return outcome;
+        return check_refused("lives " + study("planet-crack-ideal.toml") + life_arguments() +
+                             " --set 'features.use=[\"sensor_rms\"]' --quiet " + more);
     };
     CHECK(refused("--set life.record_turns=1").mentions("windows repeat every 31"));
     CHECK(refused("--set life.record_s=60 --set life.record_turns=9")
@@ -209,6 +202,4 @@ TEST_CASE("describe states which inputs vary per gearbox and which per record") 
     CHECK(!drawn.mentions(", fault.depth_mm,"));
 }
 
-}  // namespace
-
-}  // namespace test_records
+}  // namespace gearpod::test_records

@@ -4,9 +4,9 @@
 #include "tests/mc/program.hpp"
 #include "tests/mc/study_file.hpp"
 
-namespace test_distributions {
+namespace gearpod::test_distributions {
 
-using namespace gearpod::tests;
+using namespace tests;
 
 TEST_CASE("Random values of Weibull and beta laws follow their distribution functions") {
     for (const double shape : {0.7, 2.0, 9.0}) {
@@ -26,14 +26,18 @@ TEST_CASE("Random values of Weibull and beta laws follow their distribution func
           kKsLimit);
 }
 
-TEST_CASE("Discrete values have the frequencies of their weights") {
-    const auto samples =
-        samples_of("{distribution='discrete', values=[30, 10, 20], weights=[1, 2, 5]}", kSamples);
-    for (const auto& [value, share] : {std::pair{30.0, 0.125}, {10.0, 0.25}, {20.0, 0.625}}) {
+void check_frequencies(const std::vector<double>& samples, const std::map<double, double>& shares) {
+    for (const auto& [value, share] : shares) {
         const double found = static_cast<double>(std::count(samples.begin(), samples.end(), value));
         CHECK(found / kSamples ==
               Approx(share).margin(4 * std::sqrt(share * (1 - share) / kSamples)));
     }
+}
+
+TEST_CASE("Discrete values have the frequencies of their weights") {
+    const auto samples =
+        samples_of("{distribution='discrete', values=[30, 10, 20], weights=[1, 2, 5]}", kSamples);
+    check_frequencies(samples, {{30.0, 0.125}, {10.0, 0.25}, {20.0, 0.625}});
     const Distribution discrete =
         distribution_of("{distribution='discrete', values=[30, 10, 20], weights=[1, 2, 5]}");
     CHECK(discrete.median() == 20.0);
@@ -59,19 +63,13 @@ TEST_CASE("Medians of Weibull and beta laws are those of the distribution functi
 
 TEST_CASE("Measured values are used with equal frequency") {
     const auto samples = samples_of("{distribution='empirical', values=[3, 1, 1, 7]}", kSamples);
-    for (const auto& [value, share] : {std::pair{3.0, 0.25}, {1.0, 0.5}, {7.0, 0.25}}) {
-        const double found = static_cast<double>(std::count(samples.begin(), samples.end(), value));
-        CHECK(found / kSamples ==
-              Approx(share).margin(4 * std::sqrt(share * (1 - share) / kSamples)));
-    }
+    check_frequencies(samples, {{3.0, 0.25}, {1.0, 0.5}, {7.0, 0.25}});
     const Distribution measured =
         distribution_of("{distribution='empirical', values=[3, 1, 2], rows=4}");
     CHECK(measured.median() == 2.0);
     CHECK(measured.rows().group == 4);
     CHECK(measured.toml() == "{ distribution = \"empirical\", values = [3, 1, 2], rows = 4 }");
 }
-
-namespace {
 
 // Torque over path exponent of some gearboxes; in the lists below it is 1000 within a row.
 std::vector<double> ratios(const Study& study) {
@@ -85,8 +83,6 @@ std::vector<double> ratios(const Study& study) {
 
 const std::string kTorques = "random.operation.torque_N_m={distribution=\"empirical\",";
 const std::string kExponents = "random.sensor.path_exponent={distribution=\"empirical\",";
-
-}  // namespace
 
 TEST_CASE("Inputs linked in rows use the same position of their lists") {
     const auto study = [](const std::string& rows) {
@@ -172,4 +168,4 @@ TEST_CASE("Lists of a study may come from a column of a file") {
           std::string::npos);
 }
 
-}  // namespace test_distributions
+}  // namespace gearpod::test_distributions

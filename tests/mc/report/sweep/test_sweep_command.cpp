@@ -4,13 +4,10 @@
 #include "tests/mc/lives/life_example.hpp"
 #include "tests/mc/program.hpp"
 
-namespace test_sweep_command {
+namespace gearpod::test_sweep_command {
 
-using namespace gearpod;
-using namespace gearpod::test;
+using namespace test;
 namespace fs = std::filesystem;
-
-namespace {
 
 std::string study_of(int instances) {
     return test::study("planet-crack-ideal.toml") + " --instances " + std::to_string(instances) +
@@ -21,8 +18,6 @@ const std::string kStudy = study_of(22);
 std::string sweep(const Folder& folder, const std::string& rest, int instances = 22) {
     return "sweep " + study_of(instances) + " --out " + folder.file("s") + " " + rest;
 }
-
-}  // namespace
 
 TEST_CASE("A sweep's points are runs with the same gearboxes, and are computed once") {
     const Folder folder;
@@ -97,19 +92,13 @@ TEST_CASE("A sweep reports every problem once before it starts") {
     CHECK(program("sweep " + kStudy).code == 2);
 }
 
-TEST_CASE("A sweep refuses a study without a valid scene, even if its results exist") {
-    const Folder folder;
-    const std::string vary = "--quiet --vary sensor.gain=[1,2] ";
-    REQUIRE(program(sweep(folder, vary)).code == 0);
-    check_refused(sweep(folder, vary + "--set numerics.steps_per_mesh=1"),
-                  {"numerics.steps_per_mesh: 1 steps are too few"});
-}
-
-TEST_CASE("A sweep does not overwrite another study's results") {
+TEST_CASE("A sweep does not overwrite another study's results, and refuses one without a scene") {
     const Folder folder;
     const std::string vary = "--quiet --vary sensor.gain=[1,2] ";
     REQUIRE(program(sweep(folder, vary)).code == 0);
     const std::string before = bytes_of(folder.file("s/gain=1.h5"));
+    check_refused(sweep(folder, vary + "--set numerics.steps_per_mesh=1"),
+                  {"numerics.steps_per_mesh: 1 steps are too few"});
     check_refused(sweep(folder, vary + "--set operation.torque_N_m=300"));
     CHECK(bytes_of(folder.file("s/gain=1.h5")) == before);
     CHECK(program(sweep(folder, vary + "--set operation.torque_N_m=300 --force")).code == 0);
@@ -118,13 +107,9 @@ TEST_CASE("A sweep does not overwrite another study's results") {
 
 TEST_CASE("A sweep of lives has the lives of the command, and resumes") {
     const Folder folder;
-    std::string study = test::study("planet-crack-ideal.toml");
-    for (const std::string& one : kLife) {
-        study += " --set '" + one + "'";
-    }
-    study +=
-        " --set 'features.use=[\"sensor_rms\",\"window_ratio\"]'"
-        " --set monitoring.false_alarms_per_1000_h=10 ";
+    const std::string study = test::study("planet-crack-ideal.toml") + life_arguments() +
+                              " --set 'features.use=[\"sensor_rms\",\"window_ratio\"]'"
+                              " --set monitoring.false_alarms_per_1000_h=10 ";
     const auto swept = [&](const std::string& values) {
         return program("sweep --lives " + study + "--out " + folder.file("s") +
                        " --vary life.interval_h=" + values + " --json -");
@@ -170,4 +155,4 @@ TEST_CASE("Keys without effect on a sweep of runs, or of lives, are refused") {
     CHECK(folder.empty());
 }
 
-}  // namespace test_sweep_command
+}  // namespace gearpod::test_sweep_command
