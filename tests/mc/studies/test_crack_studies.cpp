@@ -1,15 +1,10 @@
 // Checks studies/crack-in-*.toml: the windows of the cracked gear detect the crack, those of the
 // others hardly do.
-#include <catch2/catch.hpp>
-
 #include "tests/mc/study_file.hpp"
 
-namespace test_crack_studies {
+namespace gearpod::test_crack_studies {
 
-using namespace gearpod;
-using namespace gearpod::test;
-
-namespace {
+using namespace test;
 
 // Noise-free value for a 2 mm crack minus the value 1 of equal teeth.
 double excess(const std::string& member, const std::string& feature) {
@@ -52,6 +47,4 @@ TEST_CASE("The signal lasts until every sun tooth has met the whole path") {
     CHECK(without.record().signal_meshes == 25 * 81);
 }
 
-}  // namespace
-
-}  // namespace test_crack_studies
+}  // namespace gearpod::test_crack_studies

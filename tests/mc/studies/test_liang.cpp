@@ -1,18 +1,11 @@
 // Checks Liang's planetary gearbox (2016) against its published figures.
 #include "mc/study/schema/sizes.hpp"
 #include "tests/mc/liang_signals.hpp"
+#include "tests/test.hpp"
 
-namespace test_liang {
+namespace gearpod::test_liang {
 
-using namespace gearpod;
-using test::kNothing;
-using test::largest_off_multiples_of_4;
-using test::run_one;
-using test::sensor_signal;
-using test::shipped_study;
-using test::spectrum;
-
-namespace {
+using namespace gearpod::test;
 
 // The study with one gearbox and no scatter; a crack of the given depth on the given member.
 mc::Study with_crack(mc::Member member, double depth_m,
@@ -27,12 +20,10 @@ mc::Study with_crack(mc::Member member, double depth_m,
     return study;
 }
 
-}  // namespace
-
 TEST_CASE(
     "Fig. 5.8: the ratio of the cracked tooth's RMS to the others' rises with depth as measured") {
-    const mc::Results results = test::run(shipped_study("published/liang-fig-5-8.toml"));
-    const auto& ratio = results.features[test::feature_index(results, "window_ratio")].values;
+    const mc::Results results = run(shipped_study("published/liang-fig-5-8.toml"));
+    const auto& ratio = results.features[feature_index(results, "window_ratio")].values;
     REQUIRE(ratio.size() == 8);
     for (std::size_t i = 2; i < ratio.size(); ++i) {
         CHECK(ratio[i] > ratio[i - 1]);
@@ -177,4 +168,4 @@ TEST_CASE("With the carrier fixed the planets still mesh, driven from either sid
     }
 }
 
-}  // namespace test_liang
+}  // namespace gearpod::test_liang

@@ -1,18 +1,10 @@
 // Checks the shipped studies of Liang's figures (2016) against the statements of their headings.
-#include <map>
-
 #include "tests/mc/liang_signals.hpp"
+#include "tests/test.hpp"
 
-namespace test_liang_studies {
+namespace gearpod::test_liang_studies {
 
-using namespace gearpod;
-using test::kNothing;
-using test::run_one;
-using test::sensor_signal;
-using test::shipped_study;
-using test::spectrum;
-
-namespace {
+using namespace gearpod::test;
 
 // Lowest mesh stiffness during the contact of the cracked tooth, at each crack level of a study.
 std::vector<double> lowest_stiffness(const mc::Scene& scene, const std::vector<double>& depths_m) {
@@ -81,8 +73,6 @@ std::vector<double> difference(const std::vector<double>& a, const std::vector<d
     return result;
 }
 
-}  // namespace
-
 TEST_CASE(
     "Figs. 3.12, 3.14, 3.16: each crack level lowers the stiffness, a missing tooth leaves 0") {
     const std::map<std::string, std::vector<double>> levels{
@@ -111,11 +101,11 @@ TEST_CASE(
         {"published/liang-fig-3-16.toml", "window_ratio"}};
     for (const auto& [name, feature] : shown) {
         INFO(name);
-        const mc::Results results = test::run(shipped_study(name));
+        const mc::Results results = run(shipped_study(name));
         for (const auto status : results.status) {
             CHECK(status == 0);
         }
-        const auto& values = results.features[test::feature_index(results, feature)].values;
+        const auto& values = results.features[feature_index(results, feature)].values;
         REQUIRE(values.size() == 6);  // a healthy gearbox for the threshold, then 0 to 100 %
         for (std::size_t i = 2; i < values.size(); ++i) {
             CHECK(values[i] > 1.02 * values[i - 1]);
@@ -257,4 +247,4 @@ TEST_CASE("Section 2.3: with the carrier or the sun fixed the shipped gearboxes 
     CHECK(sidebands > 0.01 * top);
 }
 
-}  // namespace test_liang_studies
+}  // namespace gearpod::test_liang_studies

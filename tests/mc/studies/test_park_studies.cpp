@@ -1,16 +1,11 @@
 // Checks the shipped studies of Park's figures (2016): transmission errors over a planet turn,
 // their orders and features, quasi-static and with inertia.
-
 #include "tests/mc/liang_signals.hpp"
+#include "tests/test.hpp"
 
-namespace test_park_studies {
+namespace gearpod::test_park_studies {
 
-using namespace gearpod;
-using test::feature_index;
-using test::run_one;
-using test::shipped_study;
-
-namespace {
+using namespace gearpod::test;
 
 constexpr int kPlanetTeeth = 26;
 constexpr double kSunTeeth = 16, kRingTeeth = 68;
@@ -92,7 +87,7 @@ struct FeatureTable {
 };
 
 FeatureTable feature_table(const mc::Study& study) {
-    const mc::Results results = test::run(study);
+    const mc::Results results = run(study);
     for (const auto status : results.status) {
         REQUIRE(status == 0);
     }
@@ -138,8 +133,6 @@ Spikes spikes(const mc::Scene& scene, std::uint64_t number) {
     }
     return found;
 }
-
-}  // namespace
 
 TEST_CASE(
     "The planets' phases: 2/3 and 4/3 of a mesh relative to both gears, 5/8 from sun to ring") {
@@ -333,4 +326,4 @@ TEST_CASE(
     CHECK(quiet.kurtosis[0] == Approx(still.kurtosis[0]).epsilon(0.05));
 }
 
-}  // namespace test_park_studies
+}  // namespace gearpod::test_park_studies

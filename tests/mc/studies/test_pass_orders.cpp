@@ -1,20 +1,13 @@
 // Checks the orders of healthy spectra when teeth differ. A recording of identical teeth repeats
 // with the carrier; errors of planet teeth add lines at the orders of their turns, errors of sun
 // teeth at the sun's.
-#include <catch2/catch.hpp>
-#include <cmath>
-#include <complex>
-
 #include "mc/files/hdf5_data.hpp"
 #include "signals/spectra/fourier_transform.hpp"
 #include "tests/mc/program.hpp"
 
-namespace test_pass_orders {
+namespace gearpod::test_pass_orders {
 
-using namespace gearpod;
-using namespace gearpod::test;
-
-namespace {
+using namespace test;
 
 // Study with 13/11/35 teeth, 8 samples per mesh period.
 const std::string kSmall = std::string(GEARPOD_SOURCE_DIR) + "/tests/features/reference/small.toml";
@@ -49,8 +42,6 @@ double rms(const std::vector<double>& lines, int multiple, bool at_multiples) {
     return std::sqrt(sum);
 }
 
-}  // namespace
-
 TEST_CASE("Identical teeth leave nothing between the carrier's orders, teeth with errors do") {
     struct Gear {
         const char* what;
@@ -73,4 +64,4 @@ TEST_CASE("Identical teeth leave nothing between the carrier's orders, teeth wit
     CHECK(rms(ring, 11, false) < 1e-6 * rms(ring, 11, true));
 }
 
-}  // namespace test_pass_orders
+}  // namespace gearpod::test_pass_orders

@@ -1,19 +1,11 @@
 // Checks the shipped studies of Tian's figures (2004, chapter 4): signal of the sensor on the
 // pinion's bearing for perfect gears and for a chipped, a cracked and a broken pinion tooth.
-#include <numbers>
-
 #include "tests/mc/liang_signals.hpp"
+#include "tests/test.hpp"
 
-namespace test_tian_studies {
+namespace gearpod::test_tian_studies {
 
-using namespace gearpod;
-using test::kNothing;
-using test::run_one;
-using test::sensor_signal;
-using test::shipped_study;
-using test::spectrum;
-
-namespace {
+using namespace gearpod::test;
 
 constexpr double kMesh_Hz = 570.0;
 constexpr int kPinionTeeth = 19;
@@ -77,8 +69,6 @@ double closed_form_Hz(const mc::Study& study, double stiffness_N_m) {
     }
     return std::sqrt(stiffness_N_m * sum) / (2.0 * std::numbers::pi);
 }
-
-}  // namespace
 
 TEST_CASE(
     "Fig. 4.3: the sensor signal oscillates at 3788 Hz with two pairs in contact and at 3049 Hz "
@@ -238,4 +228,4 @@ TEST_CASE("The Runge-Kutta method is refused: the motor coupling's damper is too
     }
 }
 
-}  // namespace test_tian_studies
+}  // namespace gearpod::test_tian_studies

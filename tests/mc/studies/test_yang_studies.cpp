@@ -1,14 +1,11 @@
 // Checks the shipped study of Yang et al. (2022): frequencies, phases, stiffness and the
 // displacements of sun and fourth planet, sections 4.1 and 4.2.
 #include "tests/mc/liang_signals.hpp"
+#include "tests/test.hpp"
 
-namespace test_yang_studies {
+namespace gearpod::test_yang_studies {
 
-using namespace gearpod;
-using test::run_one;
-using test::shipped_study;
-
-namespace {
+using namespace gearpod::test;
 
 constexpr const char* kStudy = "published/yang-fig-15.toml";
 constexpr int kSunTeeth = 28, kPlanets = 4;
@@ -105,8 +102,6 @@ std::vector<Impulse> impulses(const std::vector<double>& values, int meshes, int
     return result;
 }
 
-}  // namespace
-
 TEST_CASE("Yang, sections 4.1 and 4.2: frequencies, mesh phases, 7 and 28 meshes") {
     const mc::Scene scene(shipped_study(kStudy));
     const auto inputs = scene.gearbox().inputs(scene.gearbox().nominal);
@@ -169,7 +164,7 @@ TEST_CASE("Yang, Figs. 20-21: sidebands f_fs apart on the sun, f_rs on planet 4,
     const mc::Scene scene(shipped_study(kStudy));
     const Motions healthy = motions(scene, 0);
     for (const auto* motion : {&healthy.sun, &healthy.planet4}) {
-        CHECK(off_multiples(test::lines(*motion), kMeshes) < test::kNothing);
+        CHECK(off_multiples(test::lines(*motion), kMeshes) < kNothing);
     }
     const std::vector<int> numbers{1, 3, 5};
     std::vector<double> sun_sides, planet_sides;
@@ -180,8 +175,8 @@ TEST_CASE("Yang, Figs. 20-21: sidebands f_fs apart on the sun, f_rs on planet 4,
         sun_sides.push_back(sideband(sun));
         planet_sides.push_back(sideband(planet4));
         // Four equal planets in phase leave only f_fs on the sun, within the convergence tolerance.
-        CHECK(off_multiples(sun, kFault) < test::kNothing);
-        CHECK(off_multiples(planet4, kSunTurn) < test::kNothing);
+        CHECK(off_multiples(sun, kFault) < kNothing);
+        CHECK(off_multiples(planet4, kSunTurn) < kNothing);
         CHECK(off_multiples(planet4, kFault) > 0.1 * sideband(planet4));
     }
     // Limit of visibility in a plot on a linear scale: a five-hundredth of the mesh line.
@@ -256,4 +251,4 @@ TEST_CASE("At Yang's load no tooth loses contact, with a transmission error of 0
     }
 }
 
-}  // namespace test_yang_studies
+}  // namespace gearpod::test_yang_studies

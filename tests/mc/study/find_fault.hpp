@@ -1,9 +1,8 @@
 // Looks up a kind of fault by its name, for tests.
 #pragma once
 
-#include <string_view>
-
 #include "mc/study/faults/fault_kind.hpp"
+#include "tests/test.hpp"
 
 namespace gearpod::tests {
 

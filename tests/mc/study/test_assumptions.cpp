@@ -1,20 +1,14 @@
 // Checks the stated assumptions of a result.
-#include <catch2/catch.hpp>
-
 #include "mc/study/assumptions.hpp"
 #include "tests/mc/study_file.hpp"
 
-namespace test_assumptions {
+namespace gearpod::test_assumptions {
 
-using gearpod::test::shipped_study;
-
-namespace {
+using namespace gearpod::test;
 
 std::string assumptions(const gearpod::mc::Study& study) {
     return gearpod::mc::assumptions(study, false);
 }
-
-}  // namespace
 
 TEST_CASE("A result states for which teeth and planets it is valid") {
     const std::string ideal = assumptions(shipped_study("planet-crack-ideal.toml"));
@@ -44,4 +38,4 @@ TEST_CASE("Crack growth is an assumption of results on lives, not of a run of th
     CHECK_THAT(gearpod::mc::assumptions(study, false), !Catch::Contains("Paris"));
 }
 
-}  // namespace test_assumptions
+}  // namespace gearpod::test_assumptions

@@ -1,18 +1,15 @@
 // Checks that gears that cannot mesh are refused when the study is read.
-#include <algorithm>
-#include <catch2/catch.hpp>
-#include <cmath>
-
 #include "mc/study/study.hpp"
 #include "tests/mc/study_example.hpp"
 #include "tests/mc/study_problems.hpp"
+#include "tests/test.hpp"
 
-namespace test_bad_gears {
+namespace gearpod::test_bad_gears {
 
-using gearpod::mc::format;
-using gearpod::mc::Problem;
-using gearpod::mc::read_study_text;
-using namespace gearpod::tests;
+using mc::format;
+using mc::Problem;
+using mc::read_study_text;
+using namespace tests;
 
 TEST_CASE("All gears that do not mesh are named, on the line of the angle or the smaller gear") {
     // Lengths in modules, tip circles one module from the pitch circles. True if the mate's contact
@@ -85,4 +82,4 @@ TEST_CASE("Gears without tooth contact at some phase are refused") {
     CHECK(mentions(problems[1], "planet and ring do not mesh (the contact ratio of 31 against 81"));
 }
 
-}  // namespace test_bad_gears
+}  // namespace gearpod::test_bad_gears

@@ -1,22 +1,17 @@
 // Checks that every kind of error in a study file is reported with file, line, key and remedy.
-#include <algorithm>
-#include <catch2/catch.hpp>
-#include <cmath>
-
 #include "mc/study/study.hpp"
 #include "tests/mc/study_example.hpp"
 #include "tests/mc/study_problems.hpp"
+#include "tests/test.hpp"
 
-namespace test_bad_input {
+namespace gearpod::test_bad_input {
 
-using gearpod::mc::format;
-using gearpod::mc::Problem;
-using gearpod::mc::Problems;
-using gearpod::mc::read_study;
-using gearpod::mc::read_study_text;
-using namespace gearpod::tests;
-
-namespace {
+using mc::format;
+using mc::Problem;
+using mc::Problems;
+using mc::read_study;
+using mc::read_study_text;
+using namespace tests;
 
 struct BadFile {
     const char* from;    // text of the example to replace
@@ -194,8 +189,6 @@ const BadFile kBadFiles[] = {
     {"[operation]", "[[[operation]]]", "[[[operation", "", "not valid TOML"},
     {"[operation]", "[[operation]]", "[[operation", "operation", "must be a section"},
 };
-
-}  // namespace
 
 TEST_CASE("Each bad study file is refused with the line, the key and the remedy") {
     for (const BadFile& bad : kBadFiles) {
@@ -377,4 +370,4 @@ TEST_CASE("No damage to a study file leads to an exception") {
     }
 }
 
-}  // namespace test_bad_input
+}  // namespace gearpod::test_bad_input

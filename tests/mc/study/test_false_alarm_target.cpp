@@ -1,18 +1,13 @@
 // Checks targets of false alarms in time, and their conversion to the rate of a record.
-#include <catch2/catch.hpp>
-
 #include "mc/study/false_alarm_target.hpp"
 #include "mc/study/schema/schema.hpp"
 #include "mc/study/study.hpp"
 #include "tests/mc/study_example.hpp"
+#include "tests/test.hpp"
 
-namespace test_false_alarm_target {
+namespace gearpod::mc::test_false_alarm_target {
 
-using namespace gearpod;
-using namespace gearpod::mc;
 using tests::kExampleStudy;
-
-namespace {
 
 Study study_of(const std::string& text, const std::vector<std::string>& overrides = {}) {
     StudyReading reading = read_study_text(text, "study.toml", overrides);
@@ -56,6 +51,4 @@ TEST_CASE("A target of false alarms in time is a rate of one record") {
           "detection.false_alarms_per_year");
 }
 
-}  // namespace
-
-}  // namespace test_false_alarm_target
+}  // namespace gearpod::mc::test_false_alarm_target

@@ -1,8 +1,4 @@
 // Checks every kind of fault: names shown to the user, keys, and the law that its study builds.
-#include <algorithm>
-#include <catch2/catch.hpp>
-#include <set>
-
 #include "mc/plan/scene.hpp"
 #include "mc/study/faults/crack.hpp"
 #include "mc/study/faults/fault_kind.hpp"
@@ -13,15 +9,10 @@
 #include "tests/mc/study/find_fault.hpp"
 #include "tests/mc/study_example.hpp"
 
-namespace test_faults {
+namespace gearpod::mc::test_faults {
 
-using namespace gearpod::mc;
-using namespace gearpod::tests;
-using gearpod::test::Folder;
-using gearpod::test::Outcome;
-using gearpod::test::program;
-
-namespace {
+using namespace tests;
+using namespace gearpod::test;
 
 // Keys of each kind on a tooth of the example's sun, with the largest describable size.
 struct Example {
@@ -74,8 +65,6 @@ std::string problems_of(const std::string& text, const std::string& from, const 
 bool holds(const std::string& text, std::string_view words) {
     return text.find(words) != std::string::npos;
 }
-
-}  // namespace
 
 TEST_CASE("Every kind of fault has its own name, words and size") {
     std::set<std::string_view> names{"none"}, words, sizes;
@@ -165,7 +154,7 @@ TEST_CASE("Text about a fault names its kind and its size") {
     for (const FaultKind* kind : all_faults()) {
         const std::string text = text_with(*kind), words(kind->words());
         const std::string path = folder.file(std::string(kind->name()) + ".toml");
-        gearpod::test::write_bytes(path, text);
+        write_bytes(path, text);
         const Outcome described = program("describe " + path + " --seconds 0.1");
         INFO(described.output);
         CHECK(described.code == 0);
@@ -254,4 +243,4 @@ TEST_CASE("A crack's fraction of the critical section is reported") {
     CHECK(holds(origin, "mm is 25, 50 % of that section"));
 }
 
-}  // namespace test_faults
+}  // namespace gearpod::mc::test_faults

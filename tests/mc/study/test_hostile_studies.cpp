@@ -1,17 +1,14 @@
 // Checks hostile studies: nesting, size, extreme numbers.
-#include <catch2/catch.hpp>
-
 #include "mc/files/input/document.hpp"
 #include "mc/study/study.hpp"
 #include "tests/mc/study_example.hpp"
+#include "tests/test.hpp"
 
-namespace test_hostile_studies {
+namespace gearpod::test_hostile_studies {
 
-using gearpod::mc::format;
-using gearpod::mc::read_study_text;
-using gearpod::tests::kExampleStudy;
-
-namespace {
+using mc::format;
+using mc::read_study_text;
+using tests::kExampleStudy;
 
 std::string repeated(int count, const std::string& part) {
     std::string all;
@@ -20,8 +17,6 @@ std::string repeated(int count, const std::string& part) {
     }
     return all;
 }
-
-}  // namespace
 
 TEST_CASE("A study nested too deeply is refused before a parser recurses into it") {
     constexpr int kDeep = 60000;
@@ -88,4 +83,4 @@ TEST_CASE("A long file that makes toml++ fail is refused immediately, with its l
     CHECK(reading.problems[0].line == 20001);
 }
 
-}  // namespace test_hostile_studies
+}  // namespace gearpod::test_hostile_studies

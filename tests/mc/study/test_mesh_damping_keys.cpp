@@ -1,16 +1,9 @@
 // Checks that a study gives the parameters of its law of mesh damping, and of no other.
-#include <catch2/catch.hpp>
-
 #include "mc/study/schema/schema.hpp"
 #include "tests/mc/study_example.hpp"
 #include "tests/mc/study_file.hpp"
 
-namespace test_mesh_damping_keys {
-
-using namespace gearpod;
-using namespace gearpod::mc;
-
-namespace {
+namespace gearpod::mc::test_mesh_damping_keys {
 
 template <class Law>
 void check_law(MeshDamping kind) {
@@ -43,6 +36,4 @@ TEST_CASE("The parameters of a law of mesh damping belong to that law only") {
 #undef GEARPOD_MESH_DAMPING
 }
 
-}  // namespace
-
-}  // namespace test_mesh_damping_keys
+}  // namespace gearpod::mc::test_mesh_damping_keys

@@ -1,10 +1,4 @@
 // Checks a study file: read, converted to SI, overridden and written.
-#include <algorithm>
-#include <catch2/catch.hpp>
-#include <cmath>
-#include <iterator>
-#include <sstream>
-
 #include "mc/files/input/spelling.hpp"
 #include "mc/study/faults/crack.hpp"
 #include "mc/study/faults/fault_kind.hpp"
@@ -15,13 +9,11 @@
 #include "tests/mc/study/find_fault.hpp"
 #include "tests/mc/study_example.hpp"
 #include "tests/shipped_studies.hpp"
+#include "tests/test.hpp"
 
-namespace test_study {
+namespace gearpod::mc::test_study {
 
-using namespace gearpod::mc;
-using namespace gearpod::tests;
-
-namespace {
+using namespace tests;
 
 Study study_of(const std::string& text, const std::vector<std::string>& overrides = {}) {
     StudyReading reading = read_study_text(text, "study.toml", overrides);
@@ -71,8 +63,6 @@ instances = 1
 threshold_instances = 1
 seed = 9223372036854775807
 )";
-
-}  // namespace
 
 TEST_CASE("Values of a study file are in SI units and radians") {
     const Study study = study_of(kExampleStudy);
@@ -416,4 +406,4 @@ TEST_CASE("The help lists every key of the schema with its section") {
     CHECK(schema_help("no such word") == "");
 }
 
-}  // namespace test_study
+}  // namespace gearpod::mc::test_study

@@ -1,25 +1,17 @@
 // Checks frequency responses of universal files as lists of numbers: text and binary, even and
 // uneven, units, and what is refused.
-#include <catch2/catch.hpp>
-#include <cmath>
-#include <complex>
-#include <fstream>
-#include <numbers>
-
 #include "mc/files/input/problems.hpp"
 #include "mc/files/signal_file.hpp"
 #include "mc/study/elements/file_column.hpp"
 #include "mc/study/study.hpp"
 #include "tests/mc/ensemble/gearbox/small_runs.hpp"
 #include "tests/mc/recording_bytes.hpp"
+#include "tests/test.hpp"
 
-namespace test_uff_response {
+namespace gearpod::test_uff_response {
 
-using namespace gearpod;
 using Catch::Contains;
-using test::Folder;
-
-namespace {
+using namespace gearpod::test;
 
 // Response of one mode at the sensor, as an acceleration ratio.
 std::complex<double> response_at(double frequency_Hz) {
@@ -58,10 +50,10 @@ std::string dataset(const Form& form) {
         const std::complex<double> value = response_at(kStep_Hz * i);
         if (form.binary) {
             if (!form.even) {
-                test::append_number(text, std::bit_cast<std::uint32_t>(float(kStep_Hz * i)), 4);
+                append_number(text, std::bit_cast<std::uint32_t>(float(kStep_Hz * i)), 4);
             }
-            test::append_number(text, std::bit_cast<std::uint64_t>(value.real()), 8);
-            test::append_number(text, std::bit_cast<std::uint64_t>(value.imag()), 8);
+            append_number(text, std::bit_cast<std::uint64_t>(value.real()), 8);
+            append_number(text, std::bit_cast<std::uint64_t>(value.imag()), 8);
         } else {
             text += (form.even ? "" : fmt::format("{:13.5e}", kStep_Hz * i)) +
                     fmt::format("{:20.11e}{:20.11e}", value.real(), value.imag());
@@ -76,8 +68,6 @@ std::string file_of(const Folder& folder, const std::string& text) {
     std::ofstream(path, std::ios::binary) << text;
     return path;
 }
-
-}  // namespace
 
 TEST_CASE("Responses of universal files have frequency, gain and phase") {
     const Folder folder;
@@ -124,10 +114,10 @@ TEST_CASE("Responses of bearings are accelerations over forces") {
         return "{file='" + path + "', column='" + name + "'}";
     };
     const auto reading =
-        mc::read_study(test::kSmall, {"sensor.response_Hz=" + column("frequency"),
-                                      "sensor.response_gain=" + column("gain"),
-                                      "sensor.sun_response_gain=" + column("gain"),
-                                      "sensor.sun_response_phase_deg=" + column("phase")});
+        mc::read_study(kSmall, {"sensor.response_Hz=" + column("frequency"),
+                                "sensor.response_gain=" + column("gain"),
+                                "sensor.sun_response_gain=" + column("gain"),
+                                "sensor.sun_response_phase_deg=" + column("phase")});
     // Only the response of the housing needs a ratio of accelerations.
     CHECK(mc::format(reading.problems).find("the housing needs") != std::string::npos);
     CHECK(mc::format(reading.problems).find("a bearing needs") == std::string::npos);
@@ -157,16 +147,16 @@ TEST_CASE("A study reads its housing from a universal file") {
         return "={file=\"" + path + "\", column=\"" + name + "\"}' ";
     };
     const auto outcome =
-        test::program("describe " + test::kSmall + " --set 'sensor.response_Hz" +
-                      column("frequency") + "--set 'sensor.response_gain" + column("gain") +
-                      "--set 'sensor.response_phase_deg" + column("phase"));
+        program("describe " + kSmall + " --set 'sensor.response_Hz" + column("frequency") +
+                "--set 'sensor.response_gain" + column("gain") +
+                "--set 'sensor.response_phase_deg" + column("phase"));
     INFO(outcome.output);
     CHECK(outcome.code == 0);
     CHECK(outcome.mentions("measured at 5 frequencies from 0 to 320 Hz"));
-    const auto density = test::program("describe " + test::kSmall + " --set 'sensor.background_Hz" +
-                                       column("frequency"));
+    const auto density =
+        program("describe " + kSmall + " --set 'sensor.background_Hz" + column("frequency"));
     CHECK(density.code == 2);
     CHECK(density.mentions("only frequency responses are read"));
 }
 
-}  // namespace test_uff_response
+}  // namespace gearpod::test_uff_response

@@ -1,10 +1,8 @@
 // Datasheets of real planetary gear sets. Values not printed in a source are marked as chosen.
 #pragma once
 
-#include <string>
-#include <vector>
-
 #include "mc/study/new/datasheet.hpp"
+#include "tests/test.hpp"
 
 namespace gearpod::test {
 

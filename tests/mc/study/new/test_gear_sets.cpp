@@ -10,12 +10,9 @@
 #include "tests/mc/program.hpp"
 #include "tests/mc/study/new/gear_sets.hpp"
 
-namespace test_gear_sets {
+namespace gearpod::test_gear_sets {
 
-using namespace gearpod;
-using test::GearSet;
-
-namespace {
+using namespace gearpod::test;
 
 // True if the kernels can integrate so many tooth pairs in contact.
 bool within_kernels(const GearSet& set) {
@@ -60,10 +57,8 @@ Detection best_detection(const nlohmann::json& report) {
     return best;
 }
 
-}  // namespace
-
 TEST_CASE("new writes studies of real gear sets, or refuses what no kernel integrates") {
-    for (const GearSet& set : test::gear_sets()) {
+    for (const GearSet& set : gear_sets()) {
         INFO(set.name);
         const mc::NewStudy made = new_planetary(set.data, "new planetary");
         INFO(format(made.problems));
@@ -86,31 +81,31 @@ TEST_CASE("new writes studies of real gear sets, or refuses what no kernel integ
 TEST_CASE("The studies of real gear sets detect a crack through half of the root, or state why not",
           "[.long][gear-sets]") {
     constexpr double kDetected = 0.5;
-    for (const GearSet& set : test::gear_sets()) {
+    for (const GearSet& set : gear_sets()) {
         if (!within_kernels(set)) {
             continue;
         }
         INFO(set.name);
-        const test::Folder folder;
+        const Folder folder;
         const std::string file = folder.file("set.toml"), results = folder.file("set.h5");
         const mc::NewStudy made = new_planetary(set.data, "new planetary");
         std::ofstream(file) << with_half_crack(made.text, deepest_mm_of(made.text));
-        CHECK(test::program("describe " + file).code == 0);
-        const auto run = test::program("run " + file +
-                                       " --quiet --instances 40 --set "
-                                       "ensemble.threshold_instances=40 --out " +
-                                       results);
+        CHECK(program("describe " + file).code == 0);
+        const auto run = program("run " + file +
+                                 " --quiet --instances 40 --set "
+                                 "ensemble.threshold_instances=40 --out " +
+                                 results);
         INFO(run.output);
         REQUIRE(run.code == 0);
-        const auto report = test::program("report " + results + " --json -");
+        const auto report = program("report " + results + " --json -");
         REQUIRE(report.code == 0);
         const Detection best = best_detection(nlohmann::json::parse(report.output));
         fmt::print("| {} | {} | {:.2f} | {} |\n", set.name, best.feature, best.pd, set.missed);
         CHECK((best.pd >= kDetected) == set.missed.empty());
-        if (set.missed == test::kUnloaded) {
+        if (set.missed == kUnloaded) {
             CHECK(run.mentions("nearly unloaded"));
         }
     }
 }
 
-}  // namespace test_gear_sets
+}  // namespace gearpod::test_gear_sets

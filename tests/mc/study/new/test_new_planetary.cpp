@@ -1,18 +1,12 @@
 // Checks gearpod new planetary: a study from a datasheet.
-#include <algorithm>
-
 #include "mc/study/gears.hpp"
 #include "mc/study/new/planetary.hpp"
 #include "mc/study/study.hpp"
 #include "tests/mc/program.hpp"
 
-namespace test_new_planetary {
+namespace gearpod::test_new_planetary {
 
-using namespace gearpod;
-using test::Folder;
-using test::program;
-
-namespace {
+using namespace gearpod::test;
 
 mc::PlanetaryDatasheet wind_turbine() {
     mc::PlanetaryDatasheet data;
@@ -29,8 +23,6 @@ mc::PlanetaryDatasheet wind_turbine() {
 std::string all_of(const mc::Problems& problems) {
     return format(problems);
 }
-
-}  // namespace
 
 TEST_CASE("A study from a datasheet has its gears, their load and bodies of steel") {
     const mc::NewStudy made = new_planetary(wind_turbine(), "new planetary");
@@ -190,9 +182,9 @@ TEST_CASE("The study written by new is described and run unchanged") {
     INFO(written.output);
     REQUIRE(written.code == 0);
     CHECK(written.mentions("gearpod run " + file));
-    CHECK(test::bytes_of(file).find("/studies/study.schema.json\n# A planetary gearbox") !=
+    CHECK(bytes_of(file).find("/studies/study.schema.json\n# A planetary gearbox") !=
           std::string::npos);
-    CHECK(test::bytes_of(file).find("--module 3.2 --torque 429") != std::string::npos);
+    CHECK(bytes_of(file).find("--module 3.2 --torque 429") != std::string::npos);
     const auto again = program(command);
     CHECK(again.code == 2);
     CHECK(again.mentions("--force"));
@@ -224,4 +216,4 @@ TEST_CASE("new refuses inputs that are no gear set and writes nothing") {
     CHECK(program("new bevel --sun 21 --planet 39 --module 12").code == 2);
 }
 
-}  // namespace test_new_planetary
+}  // namespace gearpod::test_new_planetary

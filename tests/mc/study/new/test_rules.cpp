@@ -1,15 +1,7 @@
-#include <catch2/catch.hpp>
-#include <cmath>
-#include <numbers>
-
 #include "mc/study/new/rules.hpp"
+#include "tests/test.hpp"
 
-namespace test_rules {
-
-using namespace gearpod;
-using namespace gearpod::mc;
-
-namespace {
+namespace gearpod::mc::test_rules {
 
 using std::numbers::pi;
 
@@ -27,8 +19,6 @@ double rollers_N(int rollers, double length_mm, double shift_mm) {
     }
     return sum;
 }
-
-}  // namespace
 
 TEST_CASE("The stiffness of a roller bearing is that of its rollers in parallel") {
     for (const double bore : {0.04, 0.12, 0.35}) {
@@ -81,4 +71,4 @@ TEST_CASE("Masses and inertias are those of steel rings") {
     CHECK(disc.inertia_kg_m2() == Approx(0.5 * disc.mass_kg() * 0.01));
 }
 
-}  // namespace test_rules
+}  // namespace gearpod::mc::test_rules

@@ -1,17 +1,11 @@
 // Checks profile shifts and centre distance of `new planetary` and of study files in every
 // combination.
-#include <catch2/catch.hpp>
-#include <optional>
-
 #include "mc/study/gears.hpp"
 #include "mc/study/new/planetary.hpp"
 #include "mc/study/study.hpp"
+#include "tests/test.hpp"
 
-namespace test_shift_options {
-
-using namespace gearpod;
-
-namespace {
+namespace gearpod::test_shift_options {
 
 // Set of 62/17/96 teeth whose ring and planet were measured: shifts 0.2 and -0.5 give 557.089 mm
 // and a sun's shift of 0.1 (rounded).
@@ -34,8 +28,6 @@ mc::PlanetaryDatasheet measured(int subset) {
     data.centre_distance_mm = given(3, kDistance_mm);
     return data;
 }
-
-}  // namespace
 
 TEST_CASE("Ring and planet shift give the published centre distance and the sun's shift") {
     const mc::NewStudy made = new_planetary(measured(2 | 4), "new planetary");
@@ -81,4 +73,4 @@ TEST_CASE("Contradictory shifts and distances are refused with the values") {
     CHECK(ring.find("--ring-shift: leaves") != std::string::npos);
 }
 
-}  // namespace test_shift_options
+}  // namespace gearpod::test_shift_options

@@ -1,19 +1,9 @@
 // Checks that purposes of random numbers are stable and have streams of their own.
-#include <catch2/catch.hpp>
-#include <cstdint>
-#include <map>
-#include <string>
-#include <utility>
-#include <vector>
-
 #include "mc/study/random/philox.hpp"
 #include "mc/study/schema/schema.hpp"
+#include "tests/test.hpp"
 
-namespace test_stream_purpose {
-
-using namespace gearpod::mc;
-
-namespace {
+namespace gearpod::mc::test_stream_purpose {
 
 // Numbers of all purposes. Stored results depend on them: never change one.
 constexpr std::pair<StreamPurpose, std::uint64_t> kStableNumbers[] = {
@@ -49,8 +39,6 @@ constexpr std::pair<StreamPurpose, std::uint64_t> kStableNumbers[] = {
     {StreamPurpose::forecast_signals, 0x534d5b00771b0efdu},
     {StreamPurpose::forecast_rows, 0xe6c6a33f0b283f05u},
 };
-
-}  // namespace
 
 TEST_CASE("Suffixes continue the FNV-1a hash with 64 bits") {
     // Test vectors of the authors: "", "a", "foobar".
@@ -115,4 +103,4 @@ TEST_CASE("No two streams of a gearbox have the same purpose") {
     }
 }
 
-}  // namespace test_stream_purpose
+}  // namespace gearpod::mc::test_stream_purpose
