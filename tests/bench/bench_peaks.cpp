@@ -7,7 +7,7 @@
 #include <functional>
 #include <vector>
 
-#include "cache_peak.hpp"
+#include "peaks.hpp"
 
 namespace {
 

@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "bench_scene.hpp"
-#include "fma_peak.hpp"
+#include "peaks.hpp"
 #include "lockstep/kernels/kernel_table.hpp"
 #include "lockstep/tile/rigid_rotation.hpp"
 #include "lockstep/tile/tile_integrators.hpp"

@@ -20,20 +20,21 @@ int kind(int i) {
 GearpodSolver::GearpodSolver(const Options& options)
     : study_(study_of(options, {"numerics.integrator=rk4"}).study),
       scene_(study_),
-      fine_(study_of(options,
-                     {"numerics.integrator=rk4", fmt::format("numerics.steps_per_mesh={}",
-                                                             2 * scene_.plan().grid.steps.size())})
+      fine_(study_of(options, {"numerics.integrator=rk4",
+                               fmt::format("numerics.steps_per_mesh={}",
+                                           2 * scene_.solve().integration().grid.steps.size())})
                 .study),
       gearboxes_(inputs_of_gearboxes(scene_)),
-      tables_(scene_, scene_.plan(), gearboxes_),
-      fine_tables_(fine_, fine_.plan(), gearboxes_),
+      tables_(scene_, scene_.solve().integration(), gearboxes_),
+      fine_tables_(fine_, fine_.solve().integration(), gearboxes_),
       task_{scene_, gearboxes_, tables_, fine_tables_, {}, 0.0, {}} {
     task_.mesh_period_s = dynamics::mesh_period_s(gearboxes_.inputs[0]);
     start();
 }
 
 double GearpodSolver::tile_mesh_s() {
-    lockstep::MeshRecord record = lockstep::make_record(scene_.plan(), kGearboxes, false);
+    lockstep::MeshRecord record =
+        lockstep::make_record(scene_.solve().integration(), kGearboxes, false);
     const double began = mc::thread_processor_s();
     (*mesh_integrator_)({}, state_, record);
     const double seconds = mc::thread_processor_s() - began;
@@ -43,9 +44,11 @@ double GearpodSolver::tile_mesh_s() {
 
 // Integrates from rest to the periodic orbit and records the scales of the states.
 void GearpodSolver::start() {
-    mesh_integrator_ = lockstep::make_mesh_integrator<kGearboxes>(scene_.plan(), gearboxes_.inputs);
-    rotation_ = std::make_unique<lockstep::RigidRotation>(scene_.plan().layout, gearboxes_.inputs);
-    state_ = lockstep::equilibrium_state(scene_.plan(), gearboxes_.inputs);
+    mesh_integrator_ =
+        lockstep::make_mesh_integrator<kGearboxes>(scene_.solve().integration(), gearboxes_.inputs);
+    rotation_ = std::make_unique<lockstep::RigidRotation>(scene_.solve().integration().layout,
+                                                          gearboxes_.inputs);
+    state_ = lockstep::equilibrium_state(scene_.solve().integration(), gearboxes_.inputs);
     for (int k = 0; k < 5; ++k) {
         tile_mesh_s();
     }

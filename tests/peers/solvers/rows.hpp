@@ -8,6 +8,8 @@
 
 #include "mc/numerics/numerics_choice.hpp"
 #include "mc/numerics/pilot.hpp"
+#include "mc/numerics/reference.hpp"
+#include "peer_runs.hpp"
 #include "tests/bench/median.hpp"
 
 namespace gearpod::peers {
@@ -40,6 +42,11 @@ struct Row {
     double tolerance = 0.0, steps = 0.0;
     bool within = true;  // meets the requested error
 };
+
+// Error of the features of gearboxes first to last - 1 from the records, against those of
+// `reference`. The records contain the fault's whole pattern.
+mc::PilotError error_of(const mc::Study& study, const std::vector<lockstep::MeshRecord>& records,
+                        int first, int last, const mc::PilotRecord& reference);
 
 // Median and range of a row's times over another's, round by round.
 std::string ratio_text(const Row& row, const Row& to, double scale = 1.0);

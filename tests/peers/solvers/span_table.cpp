@@ -2,10 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
 #include <fstream>
 #include <stdexcept>
-
-#include "comparison.hpp"
 
 namespace gearpod::peers {
 namespace {
@@ -15,6 +14,43 @@ constexpr int kRunIn = 2;
 constexpr std::size_t kSlowRounds = 3;
 constexpr double kSlow_s = 1.0;
 
+// Limits in half decades: 10^(-n / 2).
+constexpr int kLoosest = 2, kFirst = 6, kTightest = 18;
+
+// Integrates at a tolerance; returns nothing if it did not reach the end.
+using Trial = std::function<std::optional<Attempt>(double tolerance)>;
+
+// Searches by decades from 1e-3 on, between 1e-1 and 1e-9, and then half a decade back. Returns the
+// loosest tolerance that meets the error; if none does, the tightest that reached the end, if any.
+std::optional<Attempt> loosest_tolerance(const Trial& trial) {
+    const auto at = [&](int n) { return trial(std::pow(10.0, -0.5 * n)); };
+    const auto good = [](const std::optional<Attempt>& a) { return a && a->within; };
+    int n = kFirst;
+    std::optional<Attempt> best = at(n);
+    if (good(best)) {
+        for (std::optional<Attempt> looser; n - 2 >= kLoosest; n -= 2, best = looser) {
+            if (looser = at(n - 2); !good(looser)) {
+                break;
+            }
+        }
+    } else {
+        while (best && !good(best) && n + 2 <= kTightest) {
+            const std::optional<Attempt> tighter = at(n + 2);
+            if (!tighter) {  // a tighter one would take longer
+                break;
+            }
+            n += 2;
+            best = tighter;
+        }
+    }
+    if (good(best) && n - 1 >= kLoosest) {
+        if (const std::optional<Attempt> half = at(n - 1); good(half)) {
+            best = half;
+        }
+    }
+    return best;
+}
+
 }  // namespace
 
 SpanTable::SpanTable(const Options& options, GearpodSolver& own, const mc::Pilot& pilot,
@@ -23,8 +59,7 @@ SpanTable::SpanTable(const Options& options, GearpodSolver& own, const mc::Pilot
       own_(own),
       pilot_(pilot),
       reference_(reference),
-      resolved_(study_of(options, {fmt::format("numerics.tolerance={}", options.error)})),
-      chosen_(resolved_.study) {
+      resolved_(study_of(options, {fmt::format("numerics.tolerance={}", options.error)})) {
     span_ = kRunIn + own.scene().record().span.meshes();
     const mc::PilotRecord record = pilot.run(resolved_.study.numerics);
     rows_.push_back({"gearpod, " + resolved_.choice->setting.text(),
@@ -104,7 +139,7 @@ void SpanTable::add_adaptive(const std::string& name, Way way) {
 }
 
 void SpanTable::round() {
-    rows_[0].times.push_back(pilot_.run(chosen_).integration_s);
+    rows_[0].times.push_back(pilot_.run(resolved_.study.numerics).integration_s);
     rows_[1].times.push_back(own_.tile_mesh_s() / kGearboxes * span_);
     for (std::size_t i = 0; i < ways_.size(); ++i) {
         Row& row = rows_[i + 2];

@@ -3,12 +3,20 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 
 #include "gearpod_solver.hpp"
 #include "mc/numerics/reference.hpp"
-#include "tolerance_search.hpp"
 
 namespace gearpod::peers {
+
+// Result at one tolerance.
+struct Attempt {
+    double tolerance = 0.0;
+    double steps = 0.0;  // per mesh period
+    mc::PilotError error;
+    bool within = false;  // meets the requested error
+};
 
 class SpanTable {
   public:
@@ -35,9 +43,8 @@ class SpanTable {
     GearpodSolver& own_;
     const mc::Pilot& pilot_;
     const mc::Reference& reference_;
-    const ResolvedStudy resolved_;
-    const mc::Scene chosen_;  // for the allowed error
-    double span_ = 0.0;       // mesh periods
+    const ResolvedStudy resolved_;  // for the allowed error
+    double span_ = 0.0;             // mesh periods
     std::vector<Row> rows_;
     std::vector<Way> ways_;  // of the rows except the first two
 };

@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include "comparison.hpp"
 #include "peer_operations.hpp"
 #include "tests/bench/operations.hpp"
 

@@ -7,7 +7,7 @@
 
 #include "gearpod_solver.hpp"
 #include "mc/numerics/reference.hpp"
-#include "tests/bench/fma_peak.hpp"
+#include "tests/bench/peaks.hpp"
 
 namespace gearpod::peers {
 
