@@ -25,7 +25,7 @@ SMALL = {
     "sweep": ["--instances", "7", "--set", "ensemble.threshold_instances=19"],
     "lives": ["--instances", "2", "--set", "ensemble.threshold_instances=2",
               "--set", "life.healthy_lives=2", "--set", "life.records=40",
-              "--set", "life.depth_steps=4", "--set", "life.distinct_torques=2"],
+              "--set", "life.depth_steps=2", "--set", "life.distinct_torques=2"],
     "describe": ["--seconds", "2"],
 }
 # Studies of slow gearboxes, which turn faster here: a mesh period then has fewer samples and steps.

@@ -10,6 +10,24 @@
 
 namespace gearpod::test {
 
+inline lockstep::FaultCurves no_fault(const lockstep::PairSet& pairs, int lanes) {
+    lockstep::FaultCurves f;
+    f.pairs = &pairs;
+    f.curve.resize(1);
+    f.curve[0].resize(static_cast<std::size_t>(lanes));
+    return f;
+}
+
+// Values of one lane of a tile of that many lanes.
+inline std::vector<double> lane_of(const machine::AlignedVector& values, std::size_t lane,
+                                   std::size_t lanes) {
+    std::vector<double> result;
+    for (std::size_t i = lane; i < values.size(); i += lanes) {
+        result.push_back(values[i]);
+    }
+    return result;
+}
+
 struct LiangTrain {
     static constexpr double kModule = 3.175e-3;
     static constexpr double kAngle = 20 * std::numbers::pi / 180;
@@ -88,13 +106,18 @@ struct LiangTrain {
         return in;
     }
 
-    lockstep::FaultCurves no_fault(int lanes) const {
-        lockstep::FaultCurves f;
-        f.pairs = &pairs;
-        f.curve.resize(1);
-        f.curve[0].resize(static_cast<std::size_t>(lanes));
-        return f;
+    // Inputs of gearboxes whose bearings differ: 0.8e8 N/m in the first, `step` of 1e8 N/m more in
+    // each next one.
+    std::vector<dynamics::GearboxInputs> spread(double speedup, int count = 8,
+                                                double step = 0.05) const {
+        std::vector<dynamics::GearboxInputs> all;
+        for (int l = 0; l < count; ++l) {
+            all.emplace_back(inputs(speedup, 1e8 * (0.8 + step * l)));
+        }
+        return all;
     }
+
+    lockstep::FaultCurves no_fault(int lanes) const { return test::no_fault(pairs, lanes); }
 
     // Curves for a crack of the given depths on the ring side of planet 1, one per lane; 0:
     // healthy.

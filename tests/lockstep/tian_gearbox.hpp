@@ -5,7 +5,7 @@
 #include "lockstep/integrators/facts.hpp"
 #include "lockstep/strategies/solution.hpp"
 #include "stiffness/additive_mesh.hpp"
-#include "tests/test.hpp"
+#include "tests/lockstep/liang_train.hpp"
 
 namespace gearpod::test {
 
@@ -72,13 +72,7 @@ struct TianGearbox {
         return in;
     }
 
-    lockstep::FaultCurves no_fault(int lanes) const {
-        lockstep::FaultCurves f;
-        f.pairs = &pairs;
-        f.curve.resize(1);
-        f.curve[0].resize(static_cast<std::size_t>(lanes));
-        return f;
-    }
+    lockstep::FaultCurves no_fault(int lanes) const { return test::no_fault(pairs, lanes); }
 };
 
 }  // namespace gearpod::test

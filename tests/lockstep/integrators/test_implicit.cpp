@@ -13,6 +13,7 @@ namespace gearpod::lockstep::test_implicit {
 
 using test::integrate_meshes;
 using test::Integrated;
+using test::lane_of;
 using test::largest_difference;
 using test::LiangTrain;
 using test::TianGearbox;
@@ -36,16 +37,6 @@ TileState state_at(const IntegrationPlan& plan, const Eigen::VectorXd& q) {
     return state;
 }
 
-// Values of one lane.
-std::vector<double> column(const machine::AlignedVector& values, std::size_t lane,
-                           std::size_t width) {
-    std::vector<double> result;
-    for (std::size_t i = lane; i < values.size(); i += width) {
-        result.push_back(values[i]);
-    }
-    return result;
-}
-
 // The record of a tile of eight, recomputed from tiles of W.
 template <int W, class Faults>
 void check_lanes(const IntegrationPlan& plan, const std::vector<dynamics::GearboxInputs>& inputs,
@@ -56,8 +47,8 @@ void check_lanes(const IntegrationPlan& plan, const std::vector<dynamics::Gearbo
             run_tile<W>(plan, std::span(inputs).subspan(first, W), faults(first, W), solution);
         for (std::size_t l = 0; l < W; ++l) {
             const MeshRecord &a = tile.records[record], &b = eight.records[record];
-            CHECK(column(a.acceleration, l, W) == column(b.acceleration, first + l, 8));
-            CHECK(column(a.te, l, W) == column(b.te, first + l, 8));
+            CHECK(lane_of(a.acceleration, l, W) == lane_of(b.acceleration, first + l, 8));
+            CHECK(lane_of(a.te, l, W) == lane_of(b.te, first + l, 8));
         }
     }
 }

@@ -28,14 +28,6 @@ IntegrationPlan single(IntegrationPlan plan) {
     return plan;
 }
 
-std::vector<dynamics::GearboxInputs> sixteen(double speedup) {
-    std::vector<dynamics::GearboxInputs> inputs;
-    for (int l = 0; l < 16; ++l) {
-        inputs.push_back(LiangTrain::instance().inputs(speedup, 1e8 * (0.8 + 0.025 * l)));
-    }
-    return inputs;
-}
-
 constexpr PeriodicSolution kSolution{.convergence = {.tolerance = 1e-5}};
 
 template <int W>
@@ -51,10 +43,9 @@ std::vector<double> unrolled(const TileResult& tile, machine::AlignedVector Mesh
                              std::size_t lane, std::size_t width) {
     std::vector<double> all;
     for (const int id : tile.content) {
-        const auto& values = tile.records[static_cast<std::size_t>(id)].*member;
-        for (std::size_t i = lane; i < values.size(); i += width) {
-            all.push_back(values[i]);
-        }
+        const auto own =
+            test::lane_of(tile.records[static_cast<std::size_t>(id)].*member, lane, width);
+        all.insert(all.end(), own.begin(), own.end());
     }
     return all;
 }
@@ -89,7 +80,7 @@ TEST_CASE("Sixteen singles, eight, four and one give the same bits, on every ins
     const auto integrator = GENERATE(Integrator::rk4, Integrator::central_difference);
     const IntegrationPlan plan =
         single(by(integrator, LiangTrain::instance().plan(24, 1200, kFull)));
-    const auto inputs = sixteen(10.0);
+    const auto inputs = LiangTrain::instance().spread(10.0, 16, 0.025);
     const TileResult wide = tile<16>(plan, inputs, 0);
     CHECK(wide.status == std::vector(16, LaneStatus::ok));
     check_width<8>(plan, inputs, wide);
@@ -121,7 +112,7 @@ TEST_CASE("Single precision keeps sensor signal and transmission error close to 
     for (const auto& [speedup, allowed] : {std::pair{1.0, 1e-4}, std::pair{10.0, 5e-4}}) {
         const IntegrationPlan plan =
             by(integrator, LiangTrain::instance().plan(48, speedup > 1.0 ? 1200 : steps, kFull));
-        const auto inputs = sixteen(speedup);
+        const auto inputs = LiangTrain::instance().spread(speedup, 16, 0.025);
         const TileResult exact = tile<8>(plan, inputs, 0, PeriodicSolution{});
         const TileResult rounded = tile<8>(single(plan), inputs, 0);
         CHECK(rounded.status == std::vector(8, LaneStatus::ok));
@@ -167,7 +158,7 @@ TEST_CASE(
 
 TEST_CASE("Two methods alone support single precision, and doubles have at most eight lanes") {
     const auto& train = LiangTrain::instance();
-    const auto inputs = sixteen(10.0);
+    const auto inputs = LiangTrain::instance().spread(10.0, 16, 0.025);
     IntegrationPlan plan = train.plan(24, 1200, kFull);
     CHECK_THROWS_AS(make_mesh_integrator<16>(plan, inputs), std::invalid_argument);
     for (const Integrator other : {Integrator::newmark, Integrator::sdirk3, Integrator::rk5}) {

@@ -66,9 +66,7 @@ void check_grid(const PhaseGrid& grid, const std::vector<double>& transitions) {
 Pilot liang_pilot(Integrator integrator) {
     const auto& train = LiangTrain::instance();
     Pilot pilot;
-    for (int l = 0; l < kPilotLanes; ++l) {
-        pilot.inputs.push_back(train.inputs(2.0, 1e8 * (0.8 + 0.05 * l)));
-    }
+    pilot.inputs = train.spread(2.0, kPilotLanes);
     pilot.faults = train.ring_side_cracks(std::vector<double>(kPilotLanes, 4.28e-3));
     pilot.convergence_meshes = 4;
     pilot.plan = [integrator](PhaseGrid grid) { return plan_of(std::move(grid), integrator); };

@@ -15,14 +15,6 @@ std::vector<dynamics::GearboxInputs> lanes_of(const dynamics::PlanetaryInputs& i
     return std::vector<dynamics::GearboxInputs>(static_cast<std::size_t>(lanes), in);
 }
 
-std::vector<dynamics::GearboxInputs> spread_inputs() {
-    std::vector<dynamics::GearboxInputs> inputs;
-    for (int l = 0; l < 8; ++l) {
-        inputs.emplace_back(LiangTrain::instance().inputs(1.0, 1e8 * (0.8 + 0.05 * l)));
-    }
-    return inputs;
-}
-
 // The realizations of a tile of eight, recomputed W at a time.
 template <int W>
 void check_lanes(const IntegrationPlan& plan, const std::vector<dynamics::GearboxInputs>& inputs,
@@ -104,7 +96,7 @@ TEST_CASE("The torsional TE is that of springs in series and parallel at every p
 TEST_CASE("The full model's equilibrium matches a dense orthogonal decomposition") {
     const auto& train = LiangTrain::instance();
     const IntegrationPlan plan = train.plan(12, 12, kFull, false);
-    const auto inputs = spread_inputs();
+    const auto inputs = LiangTrain::instance().spread(1.0);
     const TileResult tile = run_tile<8>(plan, inputs, train.no_fault(8),
                                         QuasiStaticSolution{StaticPattern{.with_motion = true}});
     const std::size_t degrees = 21;
@@ -184,7 +176,7 @@ TEST_CASE(
     const std::vector<double> depths{0.0, 0.5e-3, 1e-3, 2e-3, 3e-3, 4.28e-3, 6e-3, 8.5e-3};
     for (const auto motion : {kTorsional, kFull}) {
         const IntegrationPlan plan = train.plan(24, 24, motion, false);
-        auto inputs = spread_inputs();
+        auto inputs = LiangTrain::instance().spread(1.0);
         const auto faults = train.ring_side_cracks(depths);
         const TileResult wide = run_tile<8>(plan, inputs, faults, QuasiStaticSolution{});
         CHECK(wide.content.size() == 31);

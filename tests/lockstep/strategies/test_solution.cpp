@@ -7,29 +7,13 @@
 
 namespace gearpod::lockstep::test_solution {
 
+using test::lane_of;
 using test::LiangTrain;
 
 constexpr auto kFull = dynamics::Motion::translational_torsional;
 
 // Ten times the speed keeps the mesh period short; the disturbance then spans several periods.
 constexpr double kSpeedup = 10.0;
-
-std::vector<dynamics::GearboxInputs> spread_inputs(double speedup = kSpeedup) {
-    std::vector<dynamics::GearboxInputs> inputs;
-    for (int l = 0; l < 8; ++l) {
-        inputs.push_back(LiangTrain::instance().inputs(speedup, 1e8 * (0.8 + 0.05 * l)));
-    }
-    return inputs;
-}
-
-std::vector<double> lane_of(const machine::AlignedVector& values, std::size_t lane,
-                            std::size_t width) {
-    std::vector<double> result;
-    for (std::size_t i = lane; i < values.size(); i += width) {
-        result.push_back(values[i]);
-    }
-    return result;
-}
 
 // Acceleration and TE of lane `lane` over the whole pattern.
 std::vector<double> unrolled(const TileResult& tile, std::size_t lane, std::size_t width) {
@@ -64,7 +48,7 @@ void check_lanes(const IntegrationPlan& plan, const std::vector<dynamics::Gearbo
 TEST_CASE("Eight lanes, four and one give the same bits, on every instruction set") {
     const auto& train = LiangTrain::instance();
     const IntegrationPlan plan = train.plan(24, 1200, kFull);
-    const auto inputs = spread_inputs();
+    const auto inputs = LiangTrain::instance().spread(kSpeedup);
     const TileResult wide =
         run_tile<8>(plan, inputs, train.ring_side_cracks(kDepths), PeriodicSolution{});
     CHECK(wide.status == std::vector(8, LaneStatus::ok));
@@ -130,7 +114,7 @@ std::vector<double> changes(const TileResult& tile, std::size_t lane) {
 // The perturbations by deeper cracks last longer. A gearbox without a crack has none.
 TEST_CASE("The perturbation by a fault ends in each lane by itself") {
     const IntegrationPlan plan = LiangTrain::instance().plan(24, 1200, kFull);
-    const auto inputs = spread_inputs();
+    const auto inputs = LiangTrain::instance().spread(kSpeedup);
     const TileResult eight = perturbation<8>(plan, inputs, 0);
     CHECK(eight.status == std::vector(8, LaneStatus::ok));
     CHECK(changes<8>(eight, 0).empty());
@@ -151,7 +135,7 @@ TEST_CASE("The perturbation by a fault ends in each lane by itself") {
 TEST_CASE("A diverging lane is reported and its neighbours keep their bits") {
     const auto& train = LiangTrain::instance();
     const IntegrationPlan plan = train.plan(24, 1200, kFull);
-    auto inputs = spread_inputs();
+    auto inputs = LiangTrain::instance().spread(kSpeedup);
     const auto faults = train.ring_side_cracks(kDepths);
     const TileResult before = run_tile<8>(plan, inputs, faults, PeriodicSolution{});
     std::get<dynamics::PlanetaryInputs>(inputs[3]).mass_kg[dynamics::sun] =
@@ -170,7 +154,7 @@ TEST_CASE("A diverging lane is reported and its neighbours keep their bits") {
 
 TEST_CASE("Reused periodic orbits and passages agree with integration of every mesh period") {
     const auto& train = LiangTrain::instance();
-    const auto inputs = spread_inputs();
+    const auto inputs = LiangTrain::instance().spread(kSpeedup);
     // One disturbance decays within a few periods, the other outlasts the pattern.
     for (const double speedup : {kSpeedup, 60.0}) {
         const IntegrationPlan plan = train.plan(24, 1200, kFull);

@@ -64,14 +64,6 @@ struct WornTrain {
     }
 };
 
-std::vector<dynamics::GearboxInputs> trains() {
-    std::vector<dynamics::GearboxInputs> inputs;
-    for (int l = 0; l < 8; ++l) {
-        inputs.emplace_back(LiangTrain::instance().inputs(10.0, 1e8 * (0.8 + 0.05 * l)));
-    }
-    return inputs;
-}
-
 ToothErrors small_errors(const PairSet& pairs, std::size_t lanes, std::size_t first) {
     const gears::PlanetaryTrain liang{19, 31, 81, 4};
     ToothErrors errors{{}, planetary_teeth(pairs, liang, gears::PlanetSense::clockwise)};
@@ -214,7 +206,7 @@ TEST_CASE("Worn pinions and gears approach each other as springs with the gaps o
 
 TEST_CASE("Wear acts in every kernel as gaps of the same size in all tooth pairs") {
     const WornTrain train;
-    const auto inputs = trains();
+    const auto inputs = LiangTrain::instance().spread(10.0);
     const FaultCurves worn = train.worn(kDepths);
     const auto in_gaps = [](IntegrationPlan plan, double depth) {
         for (std::size_t i = 0; i < plan.nodes.tooth_gap.size(); ++i) {
@@ -268,7 +260,7 @@ TEST_CASE("Wear acts in every kernel as gaps of the same size in all tooth pairs
 
 TEST_CASE("Worn gearboxes have the same bits alone and in a tile; wear of depth 0 changes none") {
     const WornTrain train;
-    const auto inputs = trains();
+    const auto inputs = LiangTrain::instance().spread(10.0);
     const IntegrationPlan plan = train.plan(Integrator::rk4, 1200);
     const Convergence rough{1e-4, 12};
     const ToothErrors errors = small_errors(train.pairs, 8, 0);
@@ -316,7 +308,7 @@ TEST_CASE("Only the pairs of a worn planet have gaps by wear") {
 
 TEST_CASE("Strategies that need unchanged mesh periods refuse wear") {
     const WornTrain train;
-    const auto inputs = trains();
+    const auto inputs = LiangTrain::instance().spread(10.0);
     const IntegrationPlan plan = train.plan(Integrator::rk4, 1200);
     const ToothErrors errors = small_errors(train.pairs, 8, 0);
     const SpanStates states;

@@ -68,14 +68,6 @@ std::vector<IntegratedMesh> integrate_meshes(const IntegrationPlan& plan, const 
     return all;
 }
 
-std::vector<dynamics::GearboxInputs> eight_trains() {
-    std::vector<dynamics::GearboxInputs> inputs;
-    for (int l = 0; l < 8; ++l) {
-        inputs.push_back(LiangTrain::instance().inputs(kSpeedup, 1e8 * (0.8 + 0.05 * l)));
-    }
-    return inputs;
-}
-
 // Minimum of each lane over all stretches, pairs and tooth pairs.
 std::vector<double> least_of_lanes(const machine::AlignedVector& bounds) {
     std::vector<double> least(8, INFINITY);
@@ -90,7 +82,8 @@ TEST_CASE(
     for (const Integrator integrator : {Integrator::rk4, Integrator::central_difference}) {
         INFO(name(integrator));
         const IntegrationPlan plan = unilateral_plan(integrator, 24, 1200);
-        const auto all = integrate_meshes(plan, wavy_errors(8), eight_trains(), 2);
+        const auto all =
+            integrate_meshes(plan, wavy_errors(8), LiangTrain::instance().spread(kSpeedup), 2);
         const std::size_t size =
             8U * static_cast<std::size_t>(dynamics::degrees_of_freedom(plan.layout));
         const MeshRecord& record = all[1].record;
@@ -106,7 +99,8 @@ TEST_CASE(
         // step.
         double largest = 0.0, deviation = 0.0;
         for (std::size_t s = 0; s < plan.grid.steps.size(); ++s) {
-            const double h = plan.grid.steps[s].length * dynamics::mesh_period_s(eight_trains()[0]);
+            const double h = plan.grid.steps[s].length *
+                             dynamics::mesh_period_s(LiangTrain::instance().spread(kSpeedup)[0]);
             const double* now = record.step_states.data() + 2 * s * size;
             for (std::size_t i = 0; i < size; i += 8) {
                 const double step = 0.5 * h * (now[size + i] + now[3 * size + i]);
@@ -120,7 +114,7 @@ TEST_CASE(
 
 TEST_CASE("A contact bound from long steps holds for the state that short steps find") {
     const ToothErrors errors = wavy_errors(8);
-    const auto inputs = eight_trains();
+    const auto inputs = LiangTrain::instance().spread(kSpeedup);
     for (const Integrator integrator : {Integrator::rk4, Integrator::central_difference}) {
         INFO(name(integrator));
         const IntegrationPlan coarse = unilateral_plan(integrator, 24, 1200),
@@ -144,7 +138,7 @@ TEST_CASE("A contact bound from long steps holds for the state that short steps 
 
 TEST_CASE("Bounds of parts add up to a bound of their sum") {
     const IntegrationPlan plan = unilateral_plan(Integrator::rk4, 24, 1200);
-    const auto inputs = eight_trains();
+    const auto inputs = LiangTrain::instance().spread(kSpeedup);
     const ToothContact contact(plan, dynamics::mesh_periods_s(inputs));
     const auto none = integrate_meshes(plan, wavy_errors(8), inputs, 1);
     const auto all = integrate_meshes(plan, wavy_errors(8), inputs, 4);
@@ -214,7 +208,7 @@ TEST_CASE(
 
 TEST_CASE("The share of time out of contact keeps its bits for any lanes and is zero under load") {
     const IntegrationPlan plan = unilateral_plan(Integrator::rk4, 24, 1200);
-    auto inputs = eight_trains();
+    auto inputs = LiangTrain::instance().spread(kSpeedup);
     for (dynamics::GearboxInputs& in : inputs) {
         auto& train = std::get<dynamics::PlanetaryInputs>(in);
         for (double& force : train.force_N) {

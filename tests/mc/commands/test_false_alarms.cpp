@@ -10,7 +10,8 @@ using namespace test;
 
 const std::string kSmall = study("planet-crack-ideal.toml") +
                            " --set ensemble.threshold_instances=30"
-                           " --set ensemble.instances=28 --set sensor.noise_levels=[0,1]";
+                           " --set ensemble.instances=28 --set sensor.noise_levels=[0,1]"
+                           " --set 'features.use=[\"window_ratio\"]'";
 
 TEST_CASE(
     "A sample without a threshold is reported before the run, and no fault counts as missed") {
