@@ -1,6 +1,7 @@
 // Checks neighbouring stages: their vibration at the sensor against a Fourier series of their own
 // signal, their gearboxes, records with their fault, and what is refused.
 #include <boost/random/uniform_01.hpp>
+#include <kissfft/kissfft.hh>
 
 #include "mc/ensemble/coupling/neighbour_stages.hpp"
 #include "mc/ensemble/gearbox/other_sources.hpp"
@@ -25,16 +26,14 @@ std::vector<double> sensor_signal(const mc::TilePlan& plan, const mc::Realizatio
 std::vector<double> series_at(const std::vector<double>& period,
                               const std::vector<double>& positions) {
     const auto n = static_cast<double>(period.size());
+    std::vector<std::complex<double>> samples(period.begin(), period.end()), lines(period.size());
+    kissfft<double>(period.size(), false).transform(samples.data(), lines.data());
     std::vector<double> values(positions.size(), 0.0);
     for (std::size_t k = 0; 2 * k < period.size(); ++k) {
         const double turn = 2.0 * std::numbers::pi * static_cast<double>(k) / n;
-        std::complex<double> coefficient = 0.0;
-        for (std::size_t i = 0; i < period.size(); ++i) {
-            coefficient += period[i] * std::polar(1.0, -turn * static_cast<double>(i));
-        }
         for (std::size_t p = 0; p < positions.size(); ++p) {
-            values[p] += (k == 0 ? 1.0 : 2.0) / n *
-                         (coefficient * std::polar(1.0, turn * positions[p])).real();
+            values[p] +=
+                (k == 0 ? 1.0 : 2.0) / n * (lines[k] * std::polar(1.0, turn * positions[p])).real();
         }
     }
     return values;

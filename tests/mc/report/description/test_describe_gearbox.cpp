@@ -21,8 +21,11 @@ TEST_CASE("describe shows torque and speed of every member") {
 }
 
 TEST_CASE("The description of a study fits 80 columns") {
-    for (const char* name : {"planet-life.toml", "gusts.toml", "planet-crack.toml"}) {
-        const auto description = require_success("describe " + study(name) +
+    // Slow gearboxes turn faster here: their mesh periods then have fewer steps.
+    const std::string faster = " --set operation.carrier_speed_rpm=60";
+    for (const std::string& words : {study("planet-life.toml") + faster, study("gusts.toml"),
+                                     study("planet-crack.toml") + faster}) {
+        const auto description = require_success("describe " + words +
                                                  " --set ensemble.instances=8 --set "
                                                  "ensemble.threshold_instances=20");
         // The resolved study before this text is TOML, whose inline tables cannot be broken.
