@@ -1,9 +1,6 @@
 #include "mc/files/foreign_file.hpp"
 
-#include <fcntl.h>
 #include <fmt/format.h>
-#include <signal.h>
-#include <spawn.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -20,6 +17,7 @@
 #include "mc/files/hdf5_index.hpp"
 #include "mc/files/input/file_text.hpp"
 #include "mc/files/input/terminal_text.hpp"
+#include "mc/files/python_process.hpp"
 #include "python_sources.hpp"
 
 namespace gearpod::mc {
@@ -88,62 +86,6 @@ class OutputFile {
   private:
     std::string name_;
 };
-
-// Output of Python, which writes the recording to the file `to`; and its status.
-std::string python_output(const std::string& path, const std::string& reader, const std::string& to,
-                          int& status) {
-    const char* given = std::getenv("GEARPOD_PYTHON");
-    const std::string python = given != nullptr && *given != '\0' ? given : "/usr/bin/python3";
-    std::array<int, 2> ends{-1, -1};
-    if (::pipe2(ends.data(), O_CLOEXEC) != 0) {
-        throw SignalError(fmt::format("{}: cannot be read: {}", path, std::strerror(errno)));
-    }
-    const Descriptor here(ends[0]);
-    Descriptor there(ends[1]);
-    // -B: write no compiled files; -s: ignore the user's own packages.
-    std::vector<std::string> words{python, "-Bs", "-c", kSignalFilesSource, reader, path, to};
-    std::vector<char*> arguments;
-    for (std::string& word : words) {
-        arguments.push_back(word.data());
-    }
-    arguments.push_back(nullptr);
-    posix_spawn_file_actions_t streams;
-    posix_spawn_file_actions_init(&streams);
-    posix_spawn_file_actions_adddup2(&streams, there.get(), STDOUT_FILENO);
-    posix_spawn_file_actions_addopen(&streams, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
-    posix_spawn_file_actions_addopen(&streams, STDERR_FILENO, "/dev/null", O_WRONLY, 0);
-    // Signals that the program handles or blocks must act in the process as usual.
-    posix_spawnattr_t attributes;
-    posix_spawnattr_init(&attributes);
-    sigset_t none;
-    ::sigemptyset(&none);
-    posix_spawnattr_setsigmask(&attributes, &none);
-    posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETSIGMASK);
-    pid_t child = -1;
-    const int error =
-        posix_spawn(&child, python.c_str(), &streams, &attributes, arguments.data(), environ);
-    posix_spawn_file_actions_destroy(&streams);
-    posix_spawnattr_destroy(&attributes);
-    there.close();
-    if (error != 0) {
-        throw SignalError(fmt::format(
-            "{}: this kind of file is read by Python, but {} cannot be started ({}); install "
-            "python3 with numpy, h5py, scipy and soundfile, or name another one in GEARPOD_PYTHON",
-            path, python, std::strerror(error)));
-    }
-    std::string output;
-    std::array<char, 4096> block{};
-    for (ssize_t got = 1; got != 0;) {
-        got = ::read(here.get(), block.data(), block.size());
-        if (got < 0 && errno != EINTR) {
-            break;
-        }
-        output.append(block.data(), static_cast<std::size_t>(std::max<ssize_t>(0, got)));
-    }
-    while (::waitpid(child, &status, 0) < 0 && errno == EINTR) {
-    }
-    return output;
-}
 
 ForeignChannel channel_of(hid_t dataset) {
     ForeignChannel channel;
@@ -232,17 +174,21 @@ std::string unknown_format_text(const std::string& path) {
 
 ForeignFile::ForeignFile(const std::string& path, const std::string& reader) : path_(path) {
     const OutputFile temporary(path);
-    int status = 0;
-    const std::string output = python_output(path, reader, temporary.name(), status);
-    if (WIFEXITED(status) && WEXITSTATUS(status) == kRefused) {
-        throw SignalError(path + printable(output));
+    PythonOutput output;
+    try {
+        // -B: write no compiled files; -s: ignore the user's own packages.
+        output =
+            run_python({"-Bs", "-c", kSignalFilesSource, reader, path, temporary.name()}, "", true);
+    } catch (const PythonError& error) {
+        throw SignalError(
+            fmt::format("{}: this kind of file is read by Python: {}", path, error.what()));
     }
-    if (!WIFEXITED(status) || WEXITSTATUS(status) != 0) {
-        throw SignalError(fmt::format(
-            "{}: is damaged: reading it {}", path,
-            WIFSIGNALED(status)
-                ? fmt::format("was ended by a signal ({})", ::strsignal(WTERMSIG(status)))
-                : fmt::format("ended with exit code {}", WEXITSTATUS(status))));
+    if (WIFEXITED(output.status) && WEXITSTATUS(output.status) == kRefused) {
+        throw SignalError(path + printable(output.text));
+    }
+    if (output.status != 0) {
+        throw SignalError(
+            fmt::format("{}: is damaged: reading it {}", path, ended_text(output.status)));
     }
     const SilentHdf5 silent;
     try {

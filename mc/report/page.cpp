@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "mc/files/atomic_file.hpp"
-#include "mc/files/python/python_program.hpp"
+#include "mc/files/python_process.hpp"
 
 namespace gearpod::mc {
 namespace {
@@ -44,10 +44,10 @@ std::string build_page_output(const std::string& json, const std::vector<std::st
     words.insert(words.end(), arguments.begin(), arguments.end());
     try {
         PythonOutput output = run_python(words, json);
-        if (output.code == 0 && !output.text.empty()) {
+        if (output.status == 0 && !output.text.empty()) {
             return std::move(output.text);
         }
-        fail(python_interpreter() + " " + program + " ended with " + std::to_string(output.code));
+        fail(python_interpreter() + " " + program + " " + ended_text(output.status));
     } catch (const PythonError& error) {
         fail(error.what());
     }

@@ -298,7 +298,7 @@ class OwnFeatures(PythonStudyCase):
         self.program("describe", self.study("raise SystemExit(0)\n"), code=2)
         self.assertIn("own.py:1: SystemExit: 0", self.output)
         self.program("describe", self.study(COUNTERPARTS), code=2, GEARPOD_PYTHON="/no/python")
-        self.assertIn("/no/python: cannot be started", self.output)
+        self.assertIn("/no/python cannot be started", self.output)
 
     def test_output_cannot_disturb_the_protocol(self):
         source = ("import os, sys\ndef f(record):\n"

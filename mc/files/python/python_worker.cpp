@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 #include <poll.h>
 #include <signal.h>
-#include <spawn.h>
 #include <sys/socket.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -31,62 +30,17 @@ constexpr int kPoll_ms = 100;
 
 std::atomic<double> waited_total_s{0.0};
 
-// Environment of this process, with a fixed order of Python's sets.
-std::vector<std::string> worker_environment() {
-    std::vector<std::string> all;
-    for (char** entry = environ; *entry != nullptr; ++entry) {
-        if (std::string_view(*entry).substr(0, 15) != "PYTHONHASHSEED=") {
-            all.emplace_back(*entry);
-        }
-    }
-    all.emplace_back("PYTHONHASHSEED=0");
-    return all;
-}
-
-std::vector<char*> pointers_to(std::vector<std::string>& texts) {
-    std::vector<char*> pointers;
-    for (std::string& text : texts) {
-        pointers.push_back(text.data());
-    }
-    pointers.push_back(nullptr);
-    return pointers;
-}
-
 }  // namespace
 
 PythonWorker::PythonWorker() {
-    const std::string python = python_interpreter();
     std::array<int, 2> ends{-1, -1};
     if (::socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends.data()) != 0) {
-        throw PythonError(
-            fmt::format("{}: creating a socket failed ({})", python, std::strerror(errno)));
+        throw PythonError(fmt::format("creating a socket failed ({})", std::strerror(errno)));
     }
     here_ = Descriptor(ends[0]);
     const Descriptor there(ends[1]);
     // -B: write no compiled files next to the user's; -u: show at once what features print.
-    std::vector<std::string> words{python, "-Bu", "-c", kWorkerSource};
-    std::vector<std::string> environment = worker_environment();
-    posix_spawn_file_actions_t streams;
-    posix_spawn_file_actions_init(&streams);
-    posix_spawn_file_actions_adddup2(&streams, there.get(), STDIN_FILENO);
-    posix_spawn_file_actions_adddup2(&streams, STDERR_FILENO, STDOUT_FILENO);
-    // Signals that the program handles or blocks must act in the worker as usual.
-    posix_spawnattr_t attributes;
-    posix_spawnattr_init(&attributes);
-    sigset_t none;
-    ::sigemptyset(&none);
-    posix_spawnattr_setsigmask(&attributes, &none);
-    posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETSIGMASK);
-    const int error = posix_spawn(&child_, python.c_str(), &streams, &attributes,
-                                  pointers_to(words).data(), pointers_to(environment).data());
-    posix_spawn_file_actions_destroy(&streams);
-    posix_spawnattr_destroy(&attributes);
-    if (error != 0) {
-        child_ = -1;
-        throw PythonError(
-            fmt::format("{}: cannot be started ({}); name a Python 3 with numpy in GEARPOD_PYTHON",
-                        python, std::strerror(error)));
-    }
+    child_ = start_python({"-Bu", "-c", kWorkerSource}, there.get(), STDERR_FILENO, STDERR_FILENO);
 }
 
 std::vector<double> PythonWorker::ask(const nlohmann::json& request, std::span<const double> values,
@@ -140,12 +94,7 @@ void PythonWorker::wait_for_reply(const std::string& work) {
 }
 
 void PythonWorker::report_end(const std::string& work) {
-    const int status = end();
-    const std::string how = WIFSIGNALED(status)
-                                ? fmt::format("was ended by signal {} ({})", WTERMSIG(status),
-                                              ::strsignal(WTERMSIG(status)))
-                                : fmt::format("ended with exit code {}", WEXITSTATUS(status));
-    throw PythonError(fmt::format("{}: the Python process {}", work, how));
+    throw PythonError(fmt::format("{}: the Python process {}", work, ended_text(end())));
 }
 
 int PythonWorker::end() {
@@ -165,8 +114,7 @@ int PythonWorker::end() {
     }
     if (ended == 0) {
         ::kill(child_, SIGKILL);
-        while (::waitpid(child_, &status, 0) < 0 && errno == EINTR) {
-        }
+        status = wait_for_end(child_);
     }
     child_ = -1;
     return status;

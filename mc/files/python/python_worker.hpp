@@ -12,7 +12,7 @@
 
 #include "mc/files/file_descriptor.hpp"
 #include "mc/files/input/python_hashes.hpp"
-#include "mc/files/python/python_program.hpp"
+#include "mc/files/python_process.hpp"
 
 namespace gearpod::mc {
 

@@ -10,7 +10,7 @@
 #include <utility>
 
 #include "mc/files/input/terminal_text.hpp"
-#include "mc/files/python/python_program.hpp"
+#include "mc/files/python_process.hpp"
 #include "mc/study/new/pair.hpp"
 #include "mc/study/new/planetary.hpp"
 #include "python_sources.hpp"
@@ -107,9 +107,9 @@ NewStudy new_from_rexs(const std::string& path, nlohmann::json options,
         const PythonOutput output =
             run_python({"-IB", "-c", kRexsSource, path},
                        options.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace));
-        if (output.code != 0) {
-            throw PythonError(
-                fmt::format("cannot be read: {} ended with {}", python_interpreter(), output.code));
+        if (output.status != 0) {
+            throw PythonError(fmt::format("cannot be read: {} {}", python_interpreter(),
+                                          ended_text(output.status)));
         }
         reply = nlohmann::json::parse(output.text);
     } catch (const PythonError& error) {
