@@ -9,6 +9,8 @@
 #include <cmath>
 #include <iterator>
 #include <numbers>
+#include <span>
+#include <utility>
 
 #include "mc/files/input/file_text.hpp"
 #include "mc/files/input/terminal_text.hpp"
@@ -19,68 +21,78 @@ namespace {
 constexpr double kDegree = std::numbers::pi / 180.0;  // rad
 constexpr double kGravity = 9.80665;                  // m/s^2, standard gravity (ISO 80000-3)
 
+// Spellings of a symbol, separated by blanks. Those in lower case are read in any case.
 struct Symbol {
-    const char* names;  // separated by blanks
-    double factor;      // to m, s, rad, turns, V and their products
-    Dimensions dimensions;
-    bool any_case = true;  // false if other letter cases are, or may be, another unit
+    const char* name;
+    std::string_view spellings;
 };
-
 constexpr Symbol kSymbols[] = {
-    {"m meter meters metre metres", 1.0, kLengthUnit},
-    {"mm", 1e-3, kLengthUnit},
-    {"cm", 1e-2, kLengthUnit},
-    {"um micron microns", 1e-6, kLengthUnit},
-    {"nm", 1e-9, kLengthUnit, false},
-    {"km", 1e3, kLengthUnit},
-    {"in inch inches", 0.0254, kLengthUnit},
-    {"ft foot feet", 0.3048, kLengthUnit},
-    {"s sec secs second seconds", 1.0, kTimeUnit},
-    {"ms msec msecs millisecond milliseconds", 1e-3, kTimeUnit},
-    {"us usec usecs microsecond microseconds", 1e-6, kTimeUnit},
-    {"ns nsec nanosecond nanoseconds", 1e-9, kTimeUnit},
-    {"min mins minute minutes", 60.0, kTimeUnit},
-    {"h hr hrs hour hours", 3600.0, kTimeUnit},
-    {"d day days", 86400.0, kTimeUnit},
-    {"rad rads radian radians", 1.0, kRadianUnit},
-    {"mrad", 1e-3, kRadianUnit, false},
-    {"urad", 1e-6, kRadianUnit},
-    {"deg degs degree degrees °", kDegree, kRadianUnit},
-    {"arcmin arcminute arcminutes", kDegree / 60.0, kRadianUnit},
-    {"arcsec arcsecond arcseconds", kDegree / 3600.0, kRadianUnit},
-    {"turn turns rev revs revolution revolutions cycle cycles r tr", 1.0, kTurnUnit},
-    {"U", 1.0, kTurnUnit, false},  // German "U/min"
-    {"rpm", 1.0 / 60.0, kTurnRateUnit},
-    {"rps", 1.0, kTurnRateUnit},
-    {"Hz hertz", 1.0, kTurnRateUnit},
-    {"kHz", 1e3, kTurnRateUnit},
-    {"g gn g_n gee gees", kGravity, kAccelerationUnit},  // "G" is common for accelerometers
-    {"mg mG", 9.80665e-3, kAccelerationUnit, false},
-    {"ug", 9.80665e-6, kAccelerationUnit, false},
-    {"Gal", 1e-2, kAccelerationUnit, false},
-    {"mGal", 1e-5, kAccelerationUnit, false},
-    {"V volt volts", 1.0, kVoltageUnit},
-    {"mV millivolt millivolts", 1e-3, kVoltageUnit, false},
-    {"uV microvolt microvolts", 1e-6, kVoltageUnit, false},
-    {"kV", 1e3, kVoltageUnit, false},
-    // Units that are only recognized.
-    {"N kN MN Nm kNm mNm Pa kPa MPa GPa bar mbar psi W kW MW J kJ kg t lb lbf K °C degC °F degF A "
-     "mA uA Ohm ohm % dB ppm F pF C pC kph mph",
-     1.0, kOtherUnit, false},
+    {"m", "meter meters metre metres"},
+    {"mm", ""},
+    {"cm", ""},
+    {"um", "micron microns"},
+    {"in", "inch inches"},
+    {"ft", "foot feet"},
+    {"s", "sec secs second seconds"},
+    {"ms", "msec msecs millisecond milliseconds"},
+    {"us", "usec usecs microsecond microseconds"},
+    {"min", "mins minute minutes"},
+    {"h", "hr hrs hour hours"},
+    {"rad", "rads radian radians"},
+    {"urad", ""},
+    {"deg", "degs degree degrees °"},
+    {"arcmin", "arcminute arcminutes"},
+    {"arcsec", "arcsecond arcseconds"},
+    {"turns", "turn r tr rev revs revolution revolutions U"},  // German "U/min"
+    {"rpm", ""},
+    {"Hz", "hz hertz rps"},
+    {"kHz", "khz"},
+    {"g", "gn g_n g0"},  // "G" is common for accelerometers
+    {"mg", "mG"},
+    {"V", "v volt volts"},
+    {"mV", "millivolt millivolts"},
+    {"uV", "microvolt microvolts"},
 };
+// Symbols that are another unit in other letter cases.
+constexpr std::string_view kExact = "mrad mg mV uV";
 
-const Symbol* symbol_of(std::string_view word) {
-    const auto exact = std::ranges::find_if(
-        kSymbols, [&](const Symbol& symbol) { return is_among(word, symbol.names); });
-    if (exact != std::end(kSymbols)) {
-        return &*exact;
-    }
-    const std::string lower = lower_case(word);
-    const auto found = std::ranges::find_if(kSymbols, [&](const Symbol& symbol) {
-        return symbol.any_case && is_among(lower, lower_case(symbol.names));
-    });
-    return found == std::end(kSymbols) ? nullptr : &*found;
-}
+struct KnownUnit {
+    const char* name;
+    double factor;  // to the unit of the quantity
+};
+constexpr KnownUnit kLengthUnits[] = {{"m", 1.0},   {"mm", 1e-3},   {"cm", 1e-2},
+                                      {"um", 1e-6}, {"in", 0.0254}, {"ft", 0.3048}};
+constexpr std::string_view kPerSecondSquared[] = {"/s2", " s-2", "/s/s", "/s s"};
+constexpr KnownUnit kAccelerationUnits[] = {{"g", kGravity}, {"mg", 9.80665e-3}};
+constexpr KnownUnit kAngleUnits[] = {{"rad", 1.0},
+                                     {"mrad", 1e-3},
+                                     {"urad", 1e-6},
+                                     {"deg", kDegree},
+                                     {"arcmin", kDegree / 60.0},
+                                     {"arcsec", kDegree / 3600.0},
+                                     {"turns", 2.0 * std::numbers::pi}};
+constexpr KnownUnit kTimeUnits[] = {
+    {"s", 1.0}, {"ms", 1e-3}, {"us", 1e-6}, {"min", 60.0}, {"h", 3600.0}};
+// A number per minute counts turns.
+constexpr KnownUnit kSpeedUnits[] = {{"rpm", 1.0},
+                                     {"/min", 1.0},
+                                     {"min-1", 1.0},
+                                     {"turns/min", 1.0},
+                                     {"turns min-1", 1.0},
+                                     {"turns/s", 60.0},
+                                     {"Hz", 60.0},
+                                     {"kHz", 60e3},
+                                     {"rad/s", 30.0 / std::numbers::pi},
+                                     {"rad s-1", 30.0 / std::numbers::pi},
+                                     {"deg/s", 30.0 / std::numbers::pi* kDegree},
+                                     {"deg s-1", 30.0 / std::numbers::pi* kDegree}};
+constexpr KnownUnit kVoltageUnits[] = {{"V", 1.0}, {"mV", 1e-3}, {"uV", 1e-6}};
+constexpr KnownUnit kPhaseUnits[] = {{"1", 1.0}};
+// Units that are only recognized. One per second may be turns or radians.
+constexpr std::string_view kOtherUnits =
+    ";/s;s-1;m/s;mm/s;cm/s;um/s;in/s;ft/s;m s-1;mm s-1;rad/s2;rad s-2;deg/s2;N;kN;MN;Nm;kNm;mNm;"
+    "N m;kN m;Pa;kPa;MPa;GPa;bar;mbar;psi;W;kW;MW;J;kJ;kg;t;lb;lbf;K;°C;degC;°F;degF;A;mA;uA;Ohm;"
+    "ohm;%;dB;ppm;pC;nm;km;kV;kph;mph;ug;Gal;";
 
 // Characters with the same meaning and their ASCII spelling. "Â" precedes characters of UTF-8 text
 // that was read as Latin-1 and saved again.
@@ -90,8 +102,8 @@ constexpr std::array<std::string_view, 2> kSpellings[] = {
     {"×", "*"},     {"−", "-"},      {"–", "-"},      {"‐", "-"},       {"µ", "u"},
     {"μ", "u"},     {"º", "°"},      {"˚", "°"},      {" \u030a", "°"}, {"∕", "/"},
     {"⁄", "/"},     {"\u00a0", " "}, {"\u2009", " "}, {"\u202f", " "},  {"\u200b", ""},
-    {"\ufeff", ""}, {"\t", " "},     {"**", "^"},     {"\\", ""},       {"{", "("},
-    {"}", ")"},     {"℃", "°C"},
+    {"\ufeff", ""}, {"\t", " "},     {"**", "^"},     {" per ", "/"},   {" squared", "^2"},
+    {"\\", ""},     {"{", "("},      {"}", ")"},      {"℃", "°C"},
 };
 
 void replace_all(std::string& text, std::string_view from, std::string_view to) {
@@ -101,118 +113,105 @@ void replace_all(std::string& text, std::string_view from, std::string_view to) 
     }
 }
 
-// Parses products, quotients and powers of symbols, from the left to the right: m/s^2, m s-2,
-// 1/min.
-class UnitParser {
-  public:
-    explicit UnitParser(std::string_view text) : text_(text) {}
+std::string symbol_of(const std::string& word) {
+    const std::string lower = lower_case(word);
+    for (const Symbol& symbol : kSymbols) {
+        if (word == symbol.name || is_among(word, symbol.spellings) ||
+            is_among(lower, symbol.spellings) ||
+            (lower == symbol.name && !is_among(lower, kExact))) {
+            return symbol.name;
+        }
+    }
+    return word;
+}
 
-    std::optional<ParsedUnit> parse() {
-        const auto unit = product(0);
-        return unit && text_.empty() ? unit : std::nullopt;
-    }
+bool is_letter(char c) {
+    return std::isalpha(static_cast<unsigned char>(c)) != 0 || c == '_' ||
+           static_cast<unsigned char>(c) >= 0x80;
+}
 
-  private:
-    static constexpr int kDeepest = 8;
+// One spelling of a unit: symbols, "/", powers without a sign of their own and blanks for products,
+// as "m/s2" and "m s-2". Empty if its parentheses do not match, or if an operator lacks a symbol.
+std::string one_spelling(std::string_view ascii) {
+    std::string text;
+    int depth = 0;
+    for (std::size_t at = 0; at < ascii.size();) {
+        const std::size_t first = at;
+        while (at < ascii.size() && is_letter(ascii[at])) {
+            ++at;
+        }
+        if (at > first) {
+            const bool zero = ascii.substr(first, at - first + 1) == "g0";
+            at += zero ? 1 : 0;
+            text += symbol_of(std::string(ascii.substr(first, at - first)));
+            continue;
+        }
+        const char c = ascii[at++];
+        depth += c == '(' ? 1 : c == ')' ? -1 : 0;
+        if (depth < 0 || (c == '^' && at == ascii.size())) {
+            return "";
+        }
+        if (c == '*' || c == '.') {
+            text += ' ';
+        } else if (c != '(' && c != ')') {
+            text += c;
+        }
+    }
+    for (const auto& [from, to] :
+         {std::pair{"  ", " "}, {" ^", "^"}, {"^ ", "^"}, {" /", "/"}, {"/ ", "/"}}) {
+        replace_all(text, from, to);
+    }
+    replace_all(text, "^", "");
+    std::string_view plain = without_blanks(text);
+    if (plain.starts_with("1/")) {
+        plain.remove_prefix(1);
+    }
+    return depth == 0 ? std::string(plain) : "";
+}
 
-    bool take(char c) {
-        const bool there = !text_.empty() && text_.front() == c;
-        text_.remove_prefix(there ? 1 : 0);
-        return there;
-    }
-    void skip_blanks() {
-        while (take(' ')) {
-        }
-    }
-    std::string_view word() {
-        std::size_t end = 0;
-        while (end < text_.size() &&
-               (std::isalpha(static_cast<unsigned char>(text_[end])) != 0 || text_[end] == '_' ||
-                text_[end] == '%' || static_cast<unsigned char>(text_[end]) >= 0x80)) {
-            ++end;
-        }
-        const std::string_view found = text_.substr(0, end);
-        text_.remove_prefix(end);
-        return found;
-    }
-    // Power after a symbol: ^2, ^-2, ^(-2), 2, -2 or " squared"; 1 if there is none.
-    std::optional<int> power() {
-        const std::string_view before = text_;
-        skip_blanks();
-        if (lower_case(text_.substr(0, 7)) == "squared") {
-            text_.remove_prefix(7);
-            return 2;
-        }
-        const bool marked = take('^');
-        text_ = marked ? text_ : before;
-        if (marked) {
-            skip_blanks();
-        }
-        const bool bracket = marked && take('(');
-        int value = 0;
-        const std::size_t sign = take('+') ? 1 : 0;
-        const auto result = std::from_chars(text_.data(), text_.data() + text_.size(), value);
-        if (result.ec != std::errc{}) {
-            return marked || sign > 0 ? std::nullopt : std::optional(1);
-        }
-        text_.remove_prefix(static_cast<std::size_t>(result.ptr - text_.data()));
-        const bool closed = !bracket || take(')');
-        return closed && value != 0 && std::abs(value) < 10 ? std::optional(value) : std::nullopt;
-    }
-    std::optional<ParsedUnit> factor(int depth) {
-        ParsedUnit base;
-        if (take('(')) {
-            const auto inner = depth < kDeepest ? product(depth + 1) : std::nullopt;
-            if (!inner || !take(')')) {
-                return std::nullopt;
-            }
-            base = *inner;
-        } else if (take('1')) {
-            return base;
-        } else {
-            const Symbol* const symbol = symbol_of(word());
-            if (symbol == nullptr) {
-                return std::nullopt;
-            }
-            base = {symbol->factor, symbol->dimensions};
-        }
-        const auto exponent = power();
-        if (!exponent) {
-            return std::nullopt;
-        }
-        ParsedUnit raised;
-        raised.multiply(base, *exponent);
-        return raised;
-    }
-    std::optional<ParsedUnit> product(int depth) {
-        ParsedUnit all;
-        for (bool first = true;; first = false) {
-            skip_blanks();
-            if (!first && (text_.empty() || text_.front() == ')')) {
-                return all;
-            }
-            bool divided = take('/');
-            if (!divided && !first) {
-                divided = text_.starts_with("per ");
-                text_.remove_prefix(divided ? 4 : 0);
-            }
-            const bool multiplied = !divided && (take('*') || take('.'));
-            skip_blanks();
-            if (multiplied && !first && text_.empty()) {
-                return all;  // the dot of an abbreviation
-            }
-            // Parentheses after a blank are a remark.
-            const bool remark = !first && !divided && !multiplied && text_.starts_with('(');
-            const auto next = remark ? std::nullopt : factor(depth);
-            if (!next) {
-                return std::nullopt;
-            }
-            all.multiply(*next, divided ? -1 : 1);
-        }
-    }
+std::optional<double> factor_in(std::span<const KnownUnit> known, std::string_view unit) {
+    const auto found = std::ranges::find(known, unit, &KnownUnit::name);
+    return found == known.end() ? std::nullopt : std::optional(found->factor);
+}
 
-    std::string_view text_;
-};
+std::optional<double> acceleration_factor(std::string_view unit) {
+    for (const std::string_view ending : kPerSecondSquared) {
+        if (unit.ends_with(ending)) {
+            return factor_in(kLengthUnits, unit.substr(0, unit.size() - ending.size()));
+        }
+    }
+    return factor_in(kAccelerationUnits, unit);
+}
+
+// Factor of a unit in one_spelling().
+std::optional<double> quantity_factor(Quantity quantity, std::string_view unit) {
+    switch (quantity) {
+        case Quantity::acceleration:
+            return acceleration_factor(unit);
+        case Quantity::angle:
+            return factor_in(kAngleUnits, unit);
+        case Quantity::time:
+            return factor_in(kTimeUnits, unit);
+        case Quantity::speed:
+            return factor_in(kSpeedUnits, unit);
+        case Quantity::voltage:
+            return factor_in(kVoltageUnits, unit);
+        case Quantity::phase:
+            return factor_in(kPhaseUnits, unit);
+        case Quantity::any:
+            break;
+    }
+    return 1.0;
+}
+
+bool is_known(std::string_view unit) {
+    constexpr Quantity kAll[] = {Quantity::acceleration, Quantity::angle,   Quantity::time,
+                                 Quantity::speed,        Quantity::voltage, Quantity::phase};
+    return factor_in(kLengthUnits, unit) ||
+           kOtherUnits.find(fmt::format(";{};", unit)) != kOtherUnits.npos ||
+           std::ranges::any_of(kAll,
+                               [&](Quantity q) { return quantity_factor(q, unit).has_value(); });
+}
 
 }  // namespace
 
@@ -261,16 +260,12 @@ std::string ascii_unit(std::string_view bytes) {
     return std::string(inner);
 }
 
-std::optional<ParsedUnit> parse_unit(std::string_view unit) {
-    return UnitParser(unit == "g0" ? "gn" : unit).parse();
-}
-
 namespace {
 
 // A unit, or "" if there is none, and the remark after it.
 struct SplitUnit {
     std::string unit, remark;
-    std::optional<ParsedUnit> parsed;
+    std::string spelling;  // one_spelling() of a known unit; "" if it is unknown
 };
 
 // Words after a unit that are a remark without parentheses.
@@ -278,24 +273,30 @@ constexpr std::string_view kPeakRemarks = "pk peak 0-pk 0-p 0-peak zero-peak zer
 constexpr std::string_view kOtherValues =
     "rms pk-pk pkpk p-p pp p2p peak-peak peak-to-peak peak2peak db log ln log10";
 
+std::string known_spelling(std::string_view ascii) {
+    std::string spelling = one_spelling(ascii);
+    return is_known(spelling) ? spelling : "";
+}
+
 SplitUnit split_unit(std::string_view text) {
     const std::string whole = ascii_unit(text);
-    SplitUnit split{whole, "", parse_unit(whole)};
-    if (split.parsed) {
+    SplitUnit split{whole, "", known_spelling(whole)};
+    if (!split.spelling.empty()) {
         return split;
     }
     const auto try_at = [&](std::size_t end, std::string_view remark) {
         const std::string unit(without_blanks(std::string_view(whole).substr(0, end)));
-        auto parsed = parse_unit(unit);
-        if (!unit.empty() && parsed) {
-            split = {unit, std::string(without_blanks(remark)), parsed};
+        const std::string spelling = known_spelling(unit);
+        if (!spelling.empty()) {
+            split = {unit, std::string(without_blanks(remark)), spelling};
         }
     };
     const std::size_t open = opening_of_last(whole);
     if (open != std::string::npos && open > 0) {
         try_at(open, std::string_view(whole).substr(open + 1, whole.size() - open - 2));
     }
-    for (std::size_t at = whole.find_first_of(" _,"); !split.parsed && at != std::string::npos;
+    for (std::size_t at = whole.find_first_of(" _,");
+         split.spelling.empty() && at != std::string::npos;
          at = whole.find_first_of(" _,", at + 1)) {
         const std::string rest = lower_case(without_blanks(std::string_view(whole).substr(at + 1)));
         if (is_among(rest, kPeakRemarks) || is_among(rest, kOtherValues) ||
@@ -332,33 +333,6 @@ bool states_other_values(const std::string& remark) {
            lower.find_first_of("0123456789*%") != std::string::npos;
 }
 
-std::optional<double> quantity_factor(Quantity quantity, const ParsedUnit& unit) {
-    const Dimensions& has = unit.dimensions;
-    switch (quantity) {
-        case Quantity::acceleration:
-            return has == kAccelerationUnit ? std::optional(unit.factor) : std::nullopt;
-        case Quantity::angle:
-            return has == kRadianUnit ? std::optional(unit.factor)
-                   : has == kTurnUnit ? std::optional(2.0 * std::numbers::pi * unit.factor)
-                                      : std::nullopt;
-        case Quantity::time:
-            return has == kTimeUnit ? std::optional(unit.factor) : std::nullopt;
-        case Quantity::speed:
-            // "1/min" counts turns. "1/s" may be turns or radians, and stays unknown.
-            return has == kTurnRateUnit || (has == kRateUnit && unit.factor == 1.0 / 60.0)
-                       ? std::optional(60.0 * unit.factor)
-                   : has == kRadianRateUnit ? std::optional(30.0 / std::numbers::pi * unit.factor)
-                                            : std::nullopt;
-        case Quantity::voltage:
-            return has == kVoltageUnit ? std::optional(unit.factor) : std::nullopt;
-        case Quantity::phase:
-            return has == kNoUnit ? std::optional(unit.factor) : std::nullopt;
-        case Quantity::any:
-            break;
-    }
-    return 1.0;
-}
-
 const char* quantity_name(Quantity quantity) {
     switch (quantity) {
         case Quantity::acceleration:
@@ -389,11 +363,11 @@ UnitReading read_unit(Quantity quantity, std::string_view text) {
         return {1.0, "", ""};
     }
     const std::string shown = printable(text);
-    if (!split.parsed) {
+    if (split.spelling.empty()) {
         return {std::nullopt, "",
                 fmt::format("unknown unit {}; known units are {}", shown, known_units(quantity))};
     }
-    const auto factor = quantity_factor(quantity, *split.parsed);
+    const auto factor = quantity_factor(quantity, split.spelling);
     if (!factor) {
         return {std::nullopt, "",
                 fmt::format("unit {} is not that of {}; known units are {}", shown,
@@ -413,7 +387,7 @@ std::optional<double> unit_factor(Quantity quantity, std::string_view unit) {
 }
 
 bool is_unit(std::string_view text) {
-    return split_unit(text).parsed.has_value();
+    return !split_unit(text).spelling.empty();
 }
 
 std::string plain_unit(std::string_view unit) {
@@ -423,13 +397,13 @@ std::string plain_unit(std::string_view unit) {
 std::string known_units(Quantity quantity) {
     switch (quantity) {
         case Quantity::acceleration:
-            return "m/s^2, mm/s^2, g, mg";
+            return "m/s^2, mm/s^2, cm/s^2, um/s^2, ft/s^2, in/s^2, g, mg";
         case Quantity::angle:
             return "rad, mrad, urad, deg, arcmin, arcsec, turns";
         case Quantity::time:
-            return "s, ms, us, min";
+            return "s, ms, us, min, h";
         case Quantity::speed:
-            return "rpm, Hz, rad/s";
+            return "rpm, 1/min, Hz, kHz, rad/s, deg/s";
         case Quantity::phase:
             return "mesh periods";
         case Quantity::voltage:
@@ -444,15 +418,18 @@ std::optional<double> sensor_sensitivity(std::string_view text) {
     const std::string plain = ascii_unit(text);
     double value = 0.0;
     const auto number = std::from_chars(plain.data(), plain.data() + plain.size(), value);
-    const auto unit = parse_unit(without_blanks(
-        std::string_view(plain).substr(static_cast<std::size_t>(number.ptr - plain.data()))));
-    constexpr Dimensions kPerAcceleration{.length = -1, .time = 2, .voltage = 1},
-        kWithoutBrackets{.length = -1, .time = -2, .voltage = 1};  // "mV/m/s^2"
-    if (number.ec != std::errc{} || !unit ||
-        (unit->dimensions != kPerAcceleration && unit->dimensions != kWithoutBrackets)) {
+    const std::string unit = one_spelling(
+        std::string_view(plain).substr(static_cast<std::size_t>(number.ptr - plain.data())));
+    const std::size_t end = std::min(unit.find_first_of(" /"), unit.size());
+    const auto volts = factor_in(kVoltageUnits, unit.substr(0, end));
+    const std::string rest = unit.substr(end);  // "mV s2/m" is "mV/(m/s2)"
+    const auto acceleration = rest.starts_with(" s2/")
+                                  ? factor_in(kLengthUnits, std::string_view(rest).substr(4))
+                                  : acceleration_factor(rest.empty() ? rest : rest.substr(1));
+    if (number.ec != std::errc{} || !volts || !acceleration) {
         return std::nullopt;
     }
-    const double sensitivity = value * unit->factor;
+    const double sensitivity = value * (*volts / *acceleration);
     return sensitivity > 0.0 && std::isfinite(sensitivity) && std::isfinite(1.0 / sensitivity)
                ? std::optional(sensitivity)
                : std::nullopt;

@@ -91,7 +91,7 @@ TEST_CASE("Units are converted, and unknown ones refused with those that are kno
                 plain, 1e-9);
     const Outcome outcome = features(s.write("time,sensor [parsec]", {s.time, s.sensor}));
     CHECK(outcome.code == 2);
-    CHECK(outcome.mentions("unknown unit parsec; known units are m/s^2, mm/s^2, g, mg"));
+    CHECK(outcome.mentions("unknown unit parsec; known units are m/s^2, mm/s^2, cm/s^2, um/s^2"));
 }
 
 TEST_CASE("The options for the unit take precedence over the file, with a note") {

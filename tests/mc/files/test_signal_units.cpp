@@ -99,15 +99,17 @@ TEST_CASE("Units of other quantities and unknown units are refused by name") {
     };
     CHECK(problem(Quantity::acceleration, "mm/s").find("mm/s is not that of an acceleration") !=
           std::string::npos);
-    CHECK(problem(Quantity::acceleration, "rear") ==
-          "unknown unit rear; known units are m/s^2, mm/s^2, g, mg");
+    CHECK(
+        problem(Quantity::acceleration, "rear") ==
+        "unknown unit rear; known units are m/s^2, mm/s^2, cm/s^2, um/s^2, ft/s^2, in/s^2, g, mg");
     CHECK(problem(Quantity::acceleration, "V").find("not that of an acceleration") !=
           std::string::npos);
     // One per second may be turns or radians per second; an M before V is not that of mV.
     CHECK(!problem(Quantity::speed, "1/s").empty());
     CHECK(!problem(Quantity::voltage, "MV").empty());
-    for (const char* unit : {"m/s^", "m//s", "m/s^2)", "(m/s", "m/s^99", "2 m/s^2", "1", "*", "g g",
-                             "m^2/s^2", "\xFF\xFE", "((((((((((m))))))))))/s^2 x"}) {
+    for (const char* unit :
+         {"m/s^", "m//s", "m^-2/s", "nm/s^2", "ug", "m/s^2)", "(m/s", "m/s^99", "2 m/s^2", "1", "*",
+          "g g", "m^2/s^2", "\xFF\xFE", "((((((((((m))))))))))/s^2 x"}) {
         INFO(unit);
         CHECK(!problem(Quantity::acceleration, unit).empty());
     }
