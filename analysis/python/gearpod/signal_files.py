@@ -8,7 +8,10 @@ read, the process prints the reason and ends with exit code 3. Memory and time a
 
 # mypy: ignore-errors
 
+import collections
 import dataclasses
+import itertools
+import math
 import mmap
 import os
 import re
@@ -19,6 +22,12 @@ import sys
 import warnings
 
 os.environ["OPENBLAS_NUM_THREADS"] = "1"
+
+try:
+    import h5py
+    import numpy as np
+except ImportError:
+    pass  # main() names what is missing
 
 FREE_MEMORY, MEMORY_PER_BYTE = 256 << 20, 1000
 FREE_SECONDS, BYTES_PER_SECOND = 20, 10_000_000
@@ -81,13 +90,8 @@ def shown(values):
 # MAT files
 
 
-class NotNumbers:
-    """Array of a MAT file that is not a numeric matrix. `kind` describes it in lists of channels."""
-
-    def __init__(self, kind, problem=""):
-        self.kind, self.problem = kind, problem
-
-
+# Array of a MAT file that is not a numeric matrix. `kind` describes it in lists of channels.
+NotNumbers = collections.namedtuple("NotNumbers", "kind problem", defaults=("",))
 OBJECT = NotNumbers("table or object", "is a table, timetable or object, which is not supported; in MATLAB, save its columns as a "
                     "struct: s = table2struct(T, 'ToScalar', true); save('FILE', 's')")
 ELSEWHERE = NotNumbers("in another file", "is stored in another file, which is not supported; copy it into this file")
@@ -135,8 +139,12 @@ def level5_arrays(path):
 
 def level73_arrays(path):
     """Names and arrays of the variables of MATLAB 7.3, which are HDF5 datasets. Links are not followed."""
-    import h5py
-    import numpy as np
+
+    def elements(name, dataset, depth, field=""):
+        references = dataset[()].flatten()
+        for e, reference in enumerate(references, 1):
+            element = elements_name(name, len(references), e) + field if field else f"{name}{{{e}}}"
+            yield from arrays(element, dataset.file[reference], depth + 1)
 
     def arrays(name, item, depth):
         kind = item.attrs.get("MATLAB_class", b"")
@@ -145,15 +153,12 @@ def level73_arrays(path):
             if "MATLAB_sparse" in item.attrs:
                 yield name, SPARSE
             elif depth < DEEPEST:
-                yield from fields(name, item, depth)
-            return
-        if item.external or item.is_virtual:
+                yield from members(item, name + ".", depth)
+        elif item.external or item.is_virtual:
             yield name, ELSEWHERE
         elif item.dtype == h5py.ref_dtype and depth < DEEPEST:
-            for e, reference in enumerate(item[()].flatten(), 1):
-                yield from arrays(f"{name}{{{e}}}", file[reference], depth + 1)
-        elif "MATLAB_object_decode" in item.attrs or kind not in ("", "double", "single", "logical", "char", "cell") and \
-                not re.fullmatch("u?int(8|16|32|64)", kind):
+            yield from elements(name, item, depth)
+        elif "MATLAB_object_decode" in item.attrs or not re.fullmatch("|double|single|logical|char|cell|u?int(8|16|32|64)", kind):
             yield name, OBJECT
         elif item.attrs.get("MATLAB_empty", 0):
             yield name, np.empty([int(n) for n in item[()].flatten()])
@@ -161,86 +166,54 @@ def level73_arrays(path):
             yield name, "".join(map(chr, item[()].flatten().tolist())) if item.size <= 1000 else NotNumbers("text")
         elif item.dtype.names:
             yield name, np.empty(item.shape[::-1], complex)
-        elif item.dtype.kind in "fiub":
-            yield name, item[()].T
         else:
-            yield name, NotNumbers("not numbers")
+            yield name, item[()].T if item.dtype.kind in "fiub" else NotNumbers("not numbers")
 
-    def fields(name, group, depth):
-        """Fields of a struct. Those of an array of structs are references, in the order of its elements."""
-        inner = {}
+    def members(group, prefix, depth):
+        """Variables, or fields of a struct. Those of an array of structs are references, in the order of its elements."""
         for key in group:
-            if isinstance(group.get(key, getlink=True), h5py.HardLink):
-                inner[key] = group[key]
-            else:
-                yield f"{name}.{key}", ELSEWHERE
-        for key, item in inner.items():
-            if isinstance(item, h5py.Dataset) and item.dtype == h5py.ref_dtype and "MATLAB_class" not in item.attrs:
-                references = item[()].flatten()
-                for e, reference in enumerate(references, 1):
-                    yield from arrays(f"{elements_name(name, len(references), e)}.{key}", file[reference], depth + 1)
-            else:
-                yield from arrays(f"{name}.{key}", item, depth + 1)
+            if not isinstance(group.get(key, getlink=True), h5py.HardLink):
+                yield prefix + key, ELSEWHERE
+            elif prefix and isinstance(group[key], h5py.Dataset) and group[key].dtype == h5py.ref_dtype and \
+                    "MATLAB_class" not in group[key].attrs:
+                yield from elements(prefix[:-1], group[key], depth, "." + key)
+            elif prefix or not key.startswith("#"):
+                yield from arrays(prefix + key, group[key], depth + bool(prefix))
 
     def variables():
-        nonlocal file
         with h5py.File(path, "r") as file:
-            for name in file:
-                if not isinstance(file.get(name, getlink=True), h5py.HardLink):
-                    yield name, ELSEWHERE
-                elif not name.startswith("#"):
-                    yield from arrays(name, file[name], 0)
+            yield from members(file, "", 0)
 
-    file = None
     return variables(), []
 
 
-def is_truncated_mat(data):
-    """True if the last element of a MAT file of level 5 is incomplete. Source: MathWorks, "MAT-File Level 5 File Format"."""
-    order = {b"IM": "<", b"MI": ">"}.get(data[126:128])
-    if order is None or struct.unpack(order + "H", data[124:126])[0] >> 8 != 1:
-        return False
-    at = 128
-    while len(data) - at >= 8:
-        length = struct.unpack_from(order + "I", data, at + 4)[0]
-        if length > len(data) - at - 8:
-            return True
-        at += 8 + length
-    return False
-
-
-def matrix_of(name, shape):
+def matrix_of(shape):
     """Dimensions of time and of columns of an array, or None. Of two dimensions larger than 1, the longer one is time."""
     wide = [d for d, size in enumerate(shape) if size != 1]
     if not shape or len(wide) > 2 or (len(wide) == 2 and shape[wide[0]] == shape[wide[1]]):
         return None
-    if len(wide) < 2:
-        return wide[0] if wide else 0, None
-    return tuple(wide) if shape[wide[0]] > shape[wide[1]] else tuple(wide[::-1])
+    return (*wide, *[None] * 2)[:2] if len(wide) < 2 else sorted(wide, key=lambda d: -shape[d])
 
 
 def mat_channel(name, value):
     """Channel of an array of numbers or of another kind, with its values as rows."""
-    import numpy as np
-
     if isinstance(value, str):
         value = NotNumbers("text")
+    elif isinstance(value, np.ndarray) and value.dtype.kind not in "fiubc":
+        value = NotNumbers("not numbers")
     if isinstance(value, NotNumbers):
         text = f"{name} ({value.kind})"
         return Channel(name, text=text, problem=f"{name} {value.problem}" if value.problem else f"{text} is not a column of numbers")
     shape = " x ".join(map(str, value.shape))
-    text = f"{name} ({shape})"
+    form = matrix_of(value.shape)
     if np.iscomplexobj(value):
         return Channel(name, text=f"{name} (complex, {shape})", problem=f"{name} is complex; save a real, full vector")
-    if value.dtype.kind not in "fiub":
-        return Channel(name, text=f"{name} (not numbers)", problem=f"{name} (not numbers) is not a column of numbers")
-    form = matrix_of(name, value.shape)
     if form is None:
-        return Channel(name, text=text, problem=f"{name} has the shape {shape}; a column must be a vector, or a column of a matrix "
-                       "whose longer dimension is time")
+        return Channel(name, text=f"{name} ({shape})", problem=f"{name} has the shape {shape}; a column must be a vector, or a "
+                       "column of a matrix whose longer dimension is time")
     time, columns = form
     if columns is None:
-        return Channel(name, value.flatten(), text=text)
+        return Channel(name, value.flatten(), text=f"{name} ({shape})")
     count = value.shape[columns]
     rows = np.moveaxis(value, (columns, time), (0, 1)).reshape(count, -1)
     return Channel(name, rows, text=f"{name} ({shape}; {name}:1 to {name}:{count})",
@@ -248,51 +221,38 @@ def mat_channel(name, value):
 
 
 def read_mat(path):
-    import h5py
-    import numpy as np
-
     with open(path, "rb") as file:
-        head = file.read(64)
-        file.seek(0)
-        if head == bytes(64):
+        if file.read(64) == bytes(64):
             raise Refusal("begins with zeros, as if it had not been written to its end")
-        if is_truncated_mat(mmap.mmap(file.fileno(), 0, access=mmap.ACCESS_READ)):
-            raise Refusal("is truncated")
     try:
         found, repeated = (level73_arrays if h5py.is_hdf5(path) else level5_arrays)(path)
-        arrays = []
-        for pair in found:
-            arrays.append(pair)
-            if len(arrays) > MOST_ARRAYS:
-                raise Refusal(f"contains more than {MOST_ARRAYS} arrays")
+        arrays = list(itertools.islice(found, MOST_ARRAYS + 1))
         if not arrays:
             raise ValueError("no variables")
-    except (Refusal, MemoryError):
+    except MemoryError:
         raise
     except Exception as error:
         raise Refusal(f"is not a MAT file, or is damaged ({type(error).__name__}: {shown(str(error))[:200]})") from error
-    if not any(isinstance(value, np.ndarray) for _, value in arrays) and any(value is OBJECT for _, value in arrays):
-        name = next(name for name, value in arrays if value is OBJECT)
-        raise Refusal(f"{name} {OBJECT.problem}")
-    channels, texts, signals = [], {}, {}
+    if len(arrays) > MOST_ARRAYS:
+        raise Refusal(f"contains more than {MOST_ARRAYS} arrays")
+    objects = [name for name, value in arrays if value is OBJECT]
+    if objects and not any(isinstance(value, np.ndarray) for _, value in arrays):
+        raise Refusal(f"{objects[0]} {OBJECT.problem}")
+    channels = [mat_channel(name, value) for name, value in arrays]
+    texts, signals = collections.defaultdict(dict), collections.Counter()
     for name, value in arrays:
-        channels.append(mat_channel(name, value))
         group, leaf = parts_of(name)
         if isinstance(value, str):
-            texts.setdefault(group, {})[plain(leaf)] = name, value
-        elif isinstance(value, np.ndarray) and value.size > 1:
-            signals[group] = signals.get(group, 0) + 1
+            texts[group][plain(leaf)] = name, value
+        signals[group] += isinstance(value, np.ndarray) and value.size > 1
     for channel in channels:
         group, leaf = parts_of(channel.name)
         notes = [f"the variable {variable} occurs more than once; the last one is used, as in MATLAB" for variable in repeated
                  if re.match(re.escape(variable) + r"($|[.({])", channel.name)]
-        stated = texts.get(group, {})
-        own = [stated[plain(leaf) + end] for end in ("unit", "units") if plain(leaf) + end in stated]
-        of_group = [stated[end] for end in ("unit", "units") if end in stated]
-        if own:
-            channel.unit = own[0][1]
-        elif of_group and signals.get(group) == 1:
-            channel.unit = of_group[0][1]
+        own, of_group = ([texts[group][start + end] for end in ("unit", "units") if start + end in texts[group]]
+                         for start in (plain(leaf), ""))
+        if own or of_group and signals[group] == 1:
+            channel.unit = (own or of_group)[0][1]
         elif of_group and of_group[0][1]:
             notes.append("{} = {} is not used, because it may belong to several columns".format(*of_group[0]))
         channel.note = "\n".join(notes)
@@ -345,7 +305,6 @@ def missing_bytes(path):
 
 def read_sound(path):
     """Integers are fractions of the full scale."""
-    import numpy as np
     import soundfile
 
     lossless = {"PCM_S8", "PCM_U8", "PCM_16", "PCM_24", "PCM_32", "FLOAT", "DOUBLE", "ALAC_16", "ALAC_20", "ALAC_24", "ALAC_32"}
@@ -401,42 +360,41 @@ class Damage(Exception):
         self.unsupported = unsupported
 
 
+def time_type(order):
+    """Seconds since 1904, and fractions of a second as multiples of 2^-64."""
+    names = [("fraction", order + "u8"), ("seconds", order + "i8")]
+    return np.dtype(names if order == "<" else names[::-1])
+
+
 class Cursor:
     """Reads metadata of a TDMS segment."""
 
     def __init__(self, data, order):
         self.data, self.order, self.at = data, order, 0
 
-    def number(self, code="I"):
-        width = struct.calcsize("=" + code)
-        if width > len(self.data) - self.at:
-            raise Damage("its metadata end too early")
-        value = struct.unpack_from(self.order + code, self.data, self.at)[0]
-        self.at += width
-        return value
-
-    def text(self):
-        length = self.number()
+    def bytes(self, length):
         if length > len(self.data) - self.at:
             raise Damage("its metadata end too early")
         self.at += length
-        return file_text(self.data[self.at - length:self.at])
+        return self.data[self.at - length:self.at]
 
-    def time(self):
-        """Seconds since 1904 and 2^-64 of a second."""
-        first, second = (self.number("Q"), self.number("q")) if self.order == "<" else (self.number("q"), self.number("Q"))
-        return (second, first) if self.order == "<" else (first, second)
+    def number(self, code="u4"):
+        return np.frombuffer(self.bytes(int(code[1:])), self.order + code)[0].item()
+
+    def text(self):
+        return file_text(self.bytes(self.number()))
 
     def property(self):
+        """A text, a number as float, or a time in 2^-64 s as int."""
         kind = self.number()
         if kind == TDMS_STRING:
             return self.text()
         if kind == TDMS_TIME:
-            return self.time()
+            time = np.frombuffer(self.bytes(16), time_type(self.order))[0]
+            return int(time["seconds"]) * 2**64 + int(time["fraction"])
         if kind not in TDMS_TYPES:
             raise Damage(f"a property has the unknown type {kind:#x}")
-        codes = {"i1": "b", "i2": "h", "i4": "i", "i8": "q", "u1": "B", "u2": "H", "u4": "I", "u8": "Q", "f4": "f", "f8": "d"}
-        return float(self.number(codes[TDMS_TYPES[kind]]))
+        return float(self.number(TDMS_TYPES[kind]))
 
 
 @dataclasses.dataclass
@@ -463,7 +421,7 @@ class TdmsChannel:
 
 
 def read_index(cursor, length):
-    kind, dimensions, count = cursor.number(), cursor.number(), cursor.number("Q")
+    kind, dimensions, count = cursor.number(), cursor.number(), cursor.number("u8")
     if dimensions != 1:
         raise Damage("a channel has arrays of several dimensions")
     if length == DIGITAL_LINE:
@@ -479,7 +437,7 @@ def read_index(cursor, length):
         index.buffers = [cursor.number() for _ in range(cursor.number())]
         return index
     if kind == TDMS_STRING:
-        return Index(kind, count, cursor.number("Q"))
+        return Index(kind, count, cursor.number("u8"))
     if kind not in TDMS_WIDTHS:
         raise Damage(f"a channel has the type {kind:#x}, which is not supported", True)
     return Index(kind, count, count * TDMS_WIDTHS[kind])
@@ -626,29 +584,19 @@ class TdmsFile:
         blocks.append([first, stride, count, kind, self.order])
 
     def arrays(self, blocks):
-        import numpy as np
-
         for first, stride, count, kind, order in blocks:
-            if kind == TDMS_TIME:
-                names = [("fraction", order + "u8"), ("seconds", order + "i8")]
-                dtype = np.dtype(names if order == "<" else names[::-1])
-            else:
-                dtype = np.dtype(order + TDMS_TYPES[kind])
+            dtype = time_type(order) if kind == TDMS_TIME else np.dtype(order + TDMS_TYPES[kind])
             yield np.ndarray(count, dtype, self.data, first, stride)
 
     def numbers(self, blocks):
-        import numpy as np
-
         return np.concatenate([array.astype(np.float64) for array in self.arrays(blocks)])
 
     def times(self, blocks):
         """Seconds from the first time."""
-        import numpy as np
-
-        seconds = np.concatenate([array["seconds"].astype(np.int64) for array in self.arrays(blocks)])
-        fraction = np.concatenate([array["fraction"].astype(np.uint64) for array in self.arrays(blocks)])
-        parts = np.where(fraction >= fraction[0], (fraction - fraction[0]).astype(float), -(fraction[0] - fraction).astype(float))
-        return seconds.astype(float) - float(seconds[0]) + np.ldexp(parts, -64)
+        seconds, fraction = (np.concatenate([array[part].astype(code) for array in self.arrays(blocks)])
+                             for part, code in (("seconds", "i8"), ("fraction", "u8")))
+        parts = (fraction >> np.uint64(11)).astype(np.float64)  # 53 bits are exact
+        return seconds.astype(float) - float(seconds[0]) + np.ldexp(parts - parts[0], -53)
 
     def scaled(self, channel):
         """Values after the last of the channel's scales."""
@@ -727,12 +675,9 @@ def sampling_of(properties, first_start):
     """Rate and start of a waveform; the rate is None if its abscissa is not time, the start counts from the first waveform."""
     step, second = number_of(properties, "wf_increment"), TIME_UNITS.get(text_of(properties, "wf_xunit_string").strip().lower())
     offset, start = number_of(properties, "wf_start_offset"), properties.get("wf_start_time")
-    since = None
-    if offset is not None or isinstance(start, tuple):
-        since = offset or 0.0
-        if isinstance(start, tuple):
-            parts = float(abs(start[1] - first_start[1]))
-            since = float(start[0]) - float(first_start[0]) + (parts if start[1] >= first_start[1] else -parts) * 2.0**-64 + since
+    since = offset
+    if isinstance(start, int):
+        since = (start - first_start) / 2**64 + (offset or 0.0)
     if not step or second is None:
         return None, since
     seconds = step * second
@@ -742,8 +687,6 @@ def sampling_of(properties, first_start):
 
 
 def read_tdms(path):
-    import numpy as np
-
     with open(path, "rb") as file:
         if not os.fstat(file.fileno()).st_size:
             raise Refusal("is empty")
@@ -754,7 +697,7 @@ def read_tdms(path):
         raise Refusal(f"has no channel with numbers or times; its channels are {others}")
     names = [f"{c.group}/{c.name}" for c in tdms.channels.values()]
     starts = [c.properties.get("wf_start_time") for c in tdms.channels.values()]
-    first_start = next((start for start in starts if isinstance(start, tuple)), None)
+    first_start = next((start for start in starts if isinstance(start, int)), None)
     channels = []
     for source in numeric:
         name = f"{source.group}/{source.name}"
@@ -796,6 +739,9 @@ def quantity_name(kind):
 def fortran_number(text):
     """Number whose exponent may begin with D, or have no letter if it has three digits. Raises ValueError."""
     return float(re.sub(r"(?<=[0-9.])([+-][0-9]+)$", r"E\1", text.strip().upper().replace("D", "E")))
+
+
+FORTRAN_NUMBER = re.compile(rb"[+-]?([0-9]+\.?[0-9]*|\.[0-9]+)(E[+-]?[0-9]+|[+-][0-9]{3}(?![0-9.]))?")
 
 
 def rounding_of(number):
@@ -939,57 +885,38 @@ class UniversalFile:
             first, step, rounding = self.number(form[30:43]), self.number(form[43:56]), rounding_of(form[43:56].strip())
         function = Function(stated(records[0]), self.whole(records[5][:5]), int(direction) if abs(direction) <= 6 else 0, kind >= 5,
                             spacing == 1, first, step, rounding, *axes)
-        width = 4 if kind in (2, 5) else 8
-        (self.read_bytes if binary else self.read_text)(function, count, width, binary)
+        if binary:
+            self.read_bytes(function, count, 4 if kind in (2, 5) else 8, binary)
+        else:
+            self.read_text(function, count, 1 + function.complex + (not function.even))
         return function
 
-    def line_numbers(self, line, widths):
-        """Numbers separated by blanks, or else in fields of the format's widths."""
+    def read_text(self, function, count, parts):
+        """Numbers separated by blanks, or next to each other in the formats E13.5 and E20.12."""
+        wanted = count * parts
+        end = re.compile(rb"\n *-1 *\r?(\n|$)").search(self.data, self.at - 1)
+        text = self.data[self.at:end.start() if end else len(self.data)].upper().replace(b"D", b"E")
         try:
-            return [fortran_number(text) for text in line.split()]
+            numbers = np.array(text.split()).astype(np.float64)
         except ValueError:
-            found, line, at = [], line.rstrip(), 0
-            while at < len(line):
-                width = widths[len(found) % len(widths)]
-                found.append(self.number(line[at:at + width]))
-                at += width
-            return found
-
-    def read_text(self, function, count, width, _):
-        """E13.5 for single precision and abscissae, E20.12 for double precision."""
-        import numpy as np
-
-        widths = ([] if function.even else [13]) + [13 if width == 4 else 20] * (2 if function.complex else 1)
-        wanted, found = count * len(widths), []
-        end = self.data.find(b"\n    -1", self.at)
-        text = self.data[self.at:end if end >= 0 else len(self.data)]
-        try:  # the usual form, at once
-            numbers = np.array(text.upper().replace(b"D", b"E").split()).astype(np.float64) if b"_" not in text else []
-        except ValueError:
-            numbers = []
-        if len(numbers) == wanted:
-            self.line += text.count(b"\n") + 1
-            self.at += len(text) + 1
-        else:
-            while len(found) < wanted:
-                line = self.next()
-                if line is None or line.strip() == "-1":
-                    problem = f"only {len(found) // len(widths)} of {count} values are present"
-                    if not function.complex:
-                        self.refuse(problem)
-                    function.unreadable = problem  # complex functions do not decide whether time histories are accepted
-                    return
-                found += self.line_numbers(line, widths)
-            numbers = np.array(found[:wanted])
-        columns = list(numbers.reshape(count, len(widths)).T)
-        if not function.even:
-            function.abscissae = columns.pop(0)
-        function.values, function.imaginary = columns[0], columns[-1] if function.complex else ()
-        self.end_dataset(count)
+            numbers = np.array([fortran_number(n.group().decode()) for n in FORTRAN_NUMBER.finditer(text)])
+            other = re.search(rb"\S+", FORTRAN_NUMBER.sub(lambda number: b" " * len(number.group()), text))
+            if other:
+                self.line += text.count(b"\n", 0, other.start()) + 1
+                self.refuse(f'"{file_text(other.group())[:40]}" is not part of a number')
+        self.line += text.count(b"\n") + 1
+        self.at = end.end() if end else len(self.data)
+        problem = (f"only {len(numbers) // parts} of {count} values are present" if len(numbers) < wanted else
+                   f"more than the {count} declared values are present" if len(numbers) > wanted else "")
+        if problem and not function.complex:
+            self.refuse(problem)
+        function.unreadable = problem  # complex functions do not decide whether time histories are accepted
+        if not problem:
+            columns = list(numbers.reshape(count, parts).T)
+            function.abscissae = () if function.even else columns.pop(0)
+            function.values, function.imaginary = columns[0], columns[-1] if function.complex else ()
 
     def read_bytes(self, function, count, width, head):
-        import numpy as np
-
         order, form, declared = self.whole(head[7:13]), self.whole(head[13:19]), self.number(head[31:43])
         parts = 2 if function.complex else 1
         # Abscissae are in single precision; some programs write them as the values.
@@ -1026,8 +953,6 @@ class UniversalFile:
 
 def ibm_numbers(raw, width):
     """Hexadecimal numbers of IBM 370: an exponent to the base 16 and a fraction."""
-    import numpy as np
-
     raw, bits = raw.astype(np.uint64), 8 * width - 8
     exponent = (raw >> np.uint64(bits) & np.uint64(127)).astype(int) - 64
     size = np.ldexp((raw & np.uint64(2**bits - 1)).astype(float), 4 * exponent - bits)
@@ -1036,8 +961,6 @@ def ibm_numbers(raw, width):
 
 def dec_numbers(raw):
     """F_floating numbers of DEC VAX: two little-endian words, the more significant one first."""
-    import numpy as np
-
     raw = (raw & 0xFFFF).astype(np.int64) << 16 | raw.astype(np.int64) >> 16
     exponent = raw >> 23 & 255
     size = np.ldexp((raw & 0x7FFFFF | 0x800000).astype(float), exponent - 128 - 24)
@@ -1058,8 +981,6 @@ def other_kind(function):
 
 def unrounded_rate(step, rounding):
     """Whole number of Hz that rounds to this step, if there is exactly one; otherwise the step's rate."""
-    import math
-
     if not rounding < step:
         return 1.0 / step
     margin = 1e-9
@@ -1114,8 +1035,6 @@ def state_sampling(channel, function):
 
 
 def read_uff(path):
-    import numpy as np
-
     functions = UniversalFile(path).functions
     kinds = [other_kind(function) for function in functions]
     if all(kinds):
@@ -1145,8 +1064,6 @@ def read_uff(path):
 
 def read_uff_responses(path):
     """Frequency responses: rows are the frequency, the real and the imaginary part."""
-    import numpy as np
-
     functions = [f for f in UniversalFile(path).functions if f.kind in (4, 5)]
     if not functions:
         raise Refusal("contains no frequency response")
@@ -1169,9 +1086,6 @@ READERS = {"mat": read_mat, "sound": read_sound, "tdms": read_tdms, "uff": read_
 
 
 def write_recording(recording, path):
-    import h5py
-    import numpy as np
-
     with h5py.File(path, "w") as file:
         file.attrs["separator"], file.attrs["note"] = recording.separator, recording.note
         for i, channel in enumerate(recording.channels):
