@@ -784,6 +784,11 @@ class Function:
     imaginary: object = ()
     unreadable: str = ""
 
+    def take(self, columns):
+        """Takes the columns of a dataset: abscissae unless even, values, and the imaginary parts of complex ones."""
+        self.abscissae = () if self.even else columns.pop(0)
+        self.values, self.imaginary = columns[0], columns[-1] if self.complex else ()
+
 
 def stated(text):
     """Text of a field; NONE means that it is not used."""
@@ -912,17 +917,13 @@ class UniversalFile:
             self.refuse(problem)
         function.unreadable = problem  # complex functions do not decide whether time histories are accepted
         if not problem:
-            columns = list(numbers.reshape(count, parts).T)
-            function.abscissae = () if function.even else columns.pop(0)
-            function.values, function.imaginary = columns[0], columns[-1] if function.complex else ()
+            function.take(list(numbers.reshape(count, parts).T))
 
     def read_bytes(self, function, count, width, head):
         order, form, declared = self.whole(head[7:13]), self.whole(head[13:19]), self.number(head[31:43])
         parts = 2 if function.complex else 1
         # Abscissae are in single precision; some programs write them as the values.
-        abscissa = 0 if function.even else 4
-        if not function.even and declared == count * width * (parts + 1):
-            abscissa = width
+        abscissa = 0 if function.even else width if declared == count * width * (parts + 1) else 4
         row = abscissa + parts * width
         if declared not in (0, count * row):
             self.refuse(f"declares {declared:g} bytes, but its {count} values take {count * row}")
@@ -930,25 +931,17 @@ class UniversalFile:
             self.refuse(f"only {(len(self.data) - self.at) // row} of {count} values are present")
         start, self.at = self.at, self.at + count * row
         self.end_dataset(count)
-        if order not in (1, 2):
-            function.unreadable = f"{order} is not a valid byte order (1 or 2)"
-        elif form not in (1, 2, 3):
-            function.unreadable = f"{form} is not a valid format of binary numbers"
-        elif form == 1 and (width == 8 or order == 2):
-            function.unreadable = ("its values are DEC VMS numbers of double precision or in reverse byte order, which are not "
-                                   "supported")
-        if function.unreadable:
-            return
-
-        def part(offset, size):
-            code = ("<" if order == 1 else ">") + ("f" if form == 2 else "u") + str(size)
-            raw = np.ndarray(count, code, self.data, start + offset, row)
-            return raw.astype(np.float64) if form == 2 else ibm_numbers(raw, size) if form == 3 else dec_numbers(raw)
-
-        if abscissa:
-            function.abscissae = part(0, abscissa)
-        function.values = part(abscissa, width)
-        function.imaginary = part(abscissa + width, width) if function.complex else ()
+        function.unreadable = (
+            f"{order} is not a valid byte order (1 or 2)" if order not in (1, 2) else
+            f"{form} is not a valid format of binary numbers" if form not in (1, 2, 3) else
+            "its values are DEC VMS numbers of double precision or in reverse byte order, which are not supported"
+            if form == 1 and (width == 8 or order == 2) else "")
+        if not function.unreadable:
+            code = (">" if order == 2 else "<") + ("f" if form == 2 else "u")
+            widths = [abscissa] * (not function.even) + [width] * parts
+            rows = np.frombuffer(self.data, [(str(i), f"{code}{w}") for i, w in enumerate(widths)], count, start)
+            convert = {1: dec_numbers, 2: lambda raw, _: raw.astype(np.float64), 3: ibm_numbers}[form]
+            function.take([convert(rows[str(i)], w) for i, w in enumerate(widths)])
 
 
 def ibm_numbers(raw, width):
@@ -959,7 +952,7 @@ def ibm_numbers(raw, width):
     return np.where(raw >> np.uint64(bits + 7) & np.uint64(1), -size, size)
 
 
-def dec_numbers(raw):
+def dec_numbers(raw, _):
     """F_floating numbers of DEC VAX: two little-endian words, the more significant one first."""
     raw = (raw & 0xFFFF).astype(np.int64) << 16 | raw.astype(np.int64) >> 16
     exponent = raw >> 23 & 255
