@@ -183,12 +183,12 @@ class Command {
             print_problems(made.problems);
             return kBadInput;
         }
-        CalibrationTask task;
-        task.inputs = inputs_;
-        task.lengths = set_.lengths;
-        task.measured = set_.values;
-        task.integrated = static_cast<std::size_t>(options_.sets);
-        const SetSummary summary(set_.features, set_.values);
+        check_calibration_python();
+        const CalibrationTask task{.inputs = inputs_,
+                                   .measured = set_,
+                                   .integrated = static_cast<std::size_t>(options_.sets),
+                                   .study = text_without_distributions(*written.study, inputs_),
+                                   .seed = scene->draw().seed};
         std::vector<SimulatedSet> first;
         print_cost_of_rounds(task);
         const auto report_time = [&](double seconds) {
@@ -199,13 +199,10 @@ class Command {
                     seconds, seconds / threads, threads);
             }
         };
-        const CalibrationResult result =
-            calibrate(task, summary, first, [&](const PriorRegion& region, const SetPlan& plan) {
-                return simulate_sets(scene->tile(), inputs_, region, plan, set_.lengths, summary,
-                                     threads, report_time);
-            });
-        return finish(text_without_distributions(*written.study, inputs_),
-                      calibration_intro(scene->draw().seed, set_, result), task, result);
+        return finish(calibrate(task, first, [&](const PriorRegion& region, const SetPlan& plan) {
+            return simulate_sets(scene->tile(), inputs_, region, plan, set_.lengths, set_.features,
+                                 threads, report_time);
+        }));
     }
 
     void print_cost_of_rounds(const CalibrationTask& task) const {
@@ -220,16 +217,13 @@ class Command {
         }
     }
 
-    int finish(std::string study, const std::vector<std::string>& intro,
-               const CalibrationTask& task, const CalibrationResult& result) {
+    int finish(const CalibrationResult& result) const {
         if (options_.json != "-" && options_.out != "-") {
-            fmt::print("{}", calibration_text(result));
+            fmt::print("{}", result.text);
         }
-        const std::string text = calibrated_study(std::move(study), result, intro);
-        const bool out = options_.out.empty() || write_text_to(options_.out, text);
+        const bool out = options_.out.empty() || write_text_to(options_.out, result.study);
         const bool json =
-            options_.json.empty() ||
-            write_text_to(options_.json, json_text(calibration_json(set_, task, result), 2) + "\n");
+            options_.json.empty() || write_text_to(options_.json, json_text(result.json, 2) + "\n");
         return out && json ? kDone : kBadInput;
     }
 
@@ -289,7 +283,7 @@ void add_calibrate(CLI::App& app, int& code) {
     add_number(*command, "--draws", options->sets,
                "parameter sets simulated in each of two rounds (default: 200); each set integrates "
                "every gearbox once",
-               from_to(50, 100000));
+               from_to(50, 10000));
     require_file_name(command->add_option("--out", options->out,
                                           "write a study file (TOML) with the calibrated inputs in "
                                           "[random], or - for standard output"));

@@ -1,4 +1,4 @@
-// Sets of records of healthy gearboxes, measured or simulated, and their summary statistics.
+// Sets of records of healthy gearboxes, measured or simulated.
 #pragma once
 
 #include <span>
@@ -16,31 +16,7 @@ using RecordLengths = std::vector<std::vector<int>>;
 
 // [gearbox][record][feature], in the order of the set's features.
 using RecordValues = std::vector<std::vector<std::vector<double>>>;
-
-// Summary statistics of a set, for each feature: the mean over the gearboxes; the standard
-// deviation between gearboxes if there are at least three; and the standard deviation between
-// records if a gearbox has at least three. Taken of the logarithm if all measured values are
-// positive.
-class SetSummary {
-  public:
-    SetSummary(std::vector<const features::Feature*> features, const RecordValues& measured);
-
-    const std::vector<const features::Feature*>& features() const { return features_; }
-    // Names such as "sensor_rms", "sensor_rms between gearboxes", "sensor_rms between records".
-    const std::vector<std::string>& names() const { return names_; }
-    // Statistics in the order of the names. Empty if a value is not finite, or not positive
-    // although its logarithm is needed.
-    std::vector<double> of(const RecordValues& values) const;
-    // True if names()[i] is a mean; in_unit() converts such a mean to the unit of the feature.
-    bool is_mean(std::size_t i) const { return i < features_.size(); }
-    double in_unit(std::size_t i, double mean) const;
-
-  private:
-    std::vector<const features::Feature*> features_;
-    std::vector<char> logarithmic_;
-    bool between_gearboxes_, between_records_;
-    std::vector<std::string> names_;
-};
+using UsedFeatures = std::vector<const features::Feature*>;
 
 // Records with which a study is calibrated: their gearbox, length and features.
 
@@ -64,7 +40,7 @@ inline constexpr std::size_t kMostGearboxes = 16, kMostRecords = 8;
 struct HealthySet {
     RecordLengths lengths;
     RecordValues values;  // in the order of `features`
-    std::vector<const features::Feature*> features;
+    UsedFeatures features;
     std::size_t records = 0, left_out = 0;  // number selected, and number not selected
 
     // Mean over the selected records; 0 without the feature.

@@ -31,11 +31,11 @@ struct Item {
 
 class Simulator {
   public:
-    Simulator(const TilePlan& tile, const RecordLengths& lengths, const SetSummary& summary)
+    Simulator(const TilePlan& tile, const RecordLengths& lengths, const UsedFeatures& features)
         : tile_(tile),
           plan_{tile.record, tile.features, tile.gearbox->nominal},
           lengths_(lengths),
-          summary_(summary) {}
+          features_(features) {}
 
     int lanes() const { return tile_.solve->settings.numerics.lanes; }
 
@@ -97,7 +97,7 @@ class Simulator {
                                                            fmt::format("{}.{}", k, record)));
                 values.back().push_back(measured_values(
                     plan_, record_with_background(bare, tones, inputs, lengths[record], engine),
-                    summary_.features()));
+                    features_));
             }
         }
         return values;
@@ -135,7 +135,7 @@ class Simulator {
     const TilePlan& tile_;
     const MeasurementPlan plan_;
     const RecordLengths& lengths_;
-    const SetSummary& summary_;
+    const UsedFeatures& features_;
 };
 
 // Quantiles of the inputs in the priors, for each background of one integrated set. Inputs of the
@@ -163,7 +163,7 @@ std::vector<std::vector<double>> prior_quantiles(std::uint64_t seed,
 std::vector<SimulatedSet> simulate_sets(const TilePlan& tile,
                                         std::span<const CalibratedInput> inputs,
                                         const PriorRegion& region, const SetPlan& plan,
-                                        const RecordLengths& lengths, const SetSummary& summary,
+                                        const RecordLengths& lengths, const UsedFeatures& features,
                                         int threads,
                                         const std::function<void(double)>& report_time) {
     const std::size_t gearboxes = lengths.size();
@@ -182,7 +182,7 @@ std::vector<SimulatedSet> simulate_sets(const TilePlan& tile,
             items.push_back({number, g, given});
         }
     }
-    const Simulator simulator(tile, lengths, summary);
+    const Simulator simulator(tile, lengths, features);
     std::vector<RecordValues> set_records(items.size());
     const auto lanes = static_cast<std::size_t>(simulator.lanes());
     const std::size_t tiles = (items.size() + lanes - 1) / lanes;
@@ -205,36 +205,15 @@ std::vector<SimulatedSet> simulate_sets(const TilePlan& tile,
             continue;
         }
         for (std::size_t k = 0; k < plan.backgrounds; ++k) {
-            RecordValues values;
+            std::vector<double>& values = sets[d * plan.backgrounds + k].values;
             for (const RecordValues& gearbox : of_set) {
-                values.push_back(gearbox[k]);
+                for (const std::vector<double>& record : gearbox[k]) {
+                    values.insert(values.end(), record.begin(), record.end());
+                }
             }
-            sets[d * plan.backgrounds + k].summary = summary.of(values);
         }
     }
     return sets;
-}
-
-RecordValues simulate_set(const TilePlan& tile, std::span<const GivenInput> given,
-                          std::size_t number, const RecordLengths& lengths,
-                          const SetSummary& summary) {
-    const Simulator simulator(tile, lengths, summary);
-    RecordValues values;
-    std::vector<Item> items;
-    for (std::size_t g = 0; g < lengths.size(); ++g) {
-        items.push_back({number, g, {{given.begin(), given.end()}}});
-    }
-    const auto lanes = static_cast<std::size_t>(simulator.lanes());
-    for (std::size_t first = 0; first < items.size(); first += lanes) {
-        for (RecordValues& gearbox : simulator.run(
-                 std::span(items).subspan(first, std::min(lanes, items.size() - first)))) {
-            if (gearbox.empty()) {
-                return {};
-            }
-            values.push_back(std::move(gearbox.front()));
-        }
-    }
-    return values;
 }
 
 }  // namespace gearpod::mc

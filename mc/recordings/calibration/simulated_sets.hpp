@@ -30,7 +30,7 @@ struct SetPlan {
 struct SimulatedSet {
     std::vector<double> unit;     // quantile of each input in its prior
     std::size_t integration = 0;  // number of its integrated sample
-    std::vector<double> summary;  // empty if a gearbox failed or a feature has no value
+    std::vector<double> values;   // [record][feature]; empty if a gearbox failed
 };
 
 // Simulates the sets of a plan. Each input must be random in the study of `tile`. `report_time` is
@@ -39,14 +39,8 @@ struct SimulatedSet {
 std::vector<SimulatedSet> simulate_sets(const TilePlan& tile,
                                         std::span<const CalibratedInput> inputs,
                                         const PriorRegion& region, const SetPlan& plan,
-                                        const RecordLengths& lengths, const SetSummary& summary,
+                                        const RecordLengths& lengths, const UsedFeatures& features,
                                         int threads,
                                         const std::function<void(double)>& report_time);
-
-// Features of one set: records of simulated gearboxes with `given` inputs and the random numbers of
-// set `number`. Empty if a gearbox failed.
-RecordValues simulate_set(const TilePlan& tile, std::span<const GivenInput> given,
-                          std::size_t number, const RecordLengths& lengths,
-                          const SetSummary& summary);
 
 }  // namespace gearpod::mc

@@ -53,17 +53,19 @@ TEST_CASE("Calibration uses the given level") {
     const std::vector<const features::Feature*> used{features::find_feature("sensor_rms"),
                                                      features::find_feature("window_ratio")};
     const mc::RecordLengths lengths(2, {quiet.scene->record().span.meshes()});
-    const mc::RecordValues ones(2, {std::vector<double>(used.size(), 1.0)});
-    const mc::SetSummary summary(used, ones);
-    const std::vector<mc::GivenInput> given{{mc::input_id("sensor.tone_level"), 3.0}};
-    const auto by_level = simulate_set(quiet.scene->tile(), given, 7, lengths, summary);
-    const auto by_amplitude = simulate_set(loud.scene->tile(), {}, 7, lengths, summary);
-    REQUIRE(!by_level.empty());
+    const auto values = [&](const mc::StudyScene& study,
+                            const std::vector<mc::CalibratedInput>& inputs,
+                            const mc::PriorRegion& region) {
+        return simulate_sets(study.scene->tile(), inputs, region, {1, 1, 7}, lengths, used, 1,
+                             [](double) {})[0]
+            .values;
+    };
+    const auto by_level = values(quiet, {{"sensor.tone_level", 0.0, 6.0}}, {{0.5}, {0.5}});
+    const auto by_amplitude = values(loud, {}, {});
+    REQUIRE(by_level.size() == 2 * used.size());
     REQUIRE(by_level.size() == by_amplitude.size());
-    for (std::size_t gearbox = 0; gearbox < by_level.size(); ++gearbox) {
-        for (std::size_t f = 0; f < used.size(); ++f) {
-            CHECK(by_level[gearbox][0][f] == Approx(by_amplitude[gearbox][0][f]).epsilon(1e-12));
-        }
+    for (std::size_t i = 0; i < by_level.size(); ++i) {
+        CHECK(by_level[i] == Approx(by_amplitude[i]).epsilon(1e-12));
     }
     const std::vector<mc::CalibratedInput> usual =
         make_calibration_plan(*mc::read_study(kStudy, random).study, "").default_inputs(2.0);

@@ -38,9 +38,7 @@ const std::vector<std::string> kUsed{
 // Three gearboxes with a record of the whole span each.
 struct Synthetic {
     CalibrationTask task;
-    std::vector<const features::Feature*> used;
     std::unique_ptr<const Scene> scene;
-    std::unique_ptr<const SetSummary> summary;
 
     explicit Synthetic(std::size_t integrated) {
         Problems problems;
@@ -56,26 +54,28 @@ struct Synthetic {
         REQUIRE(made);
         scene = std::move(made.scene);
         for (const std::string& name : kUsed) {
-            used.push_back(features::find_feature(name));
+            task.measured.features.push_back(features::find_feature(name));
         }
-        task.lengths.assign(3, {scene->record().span.meshes()});
-        // Scales for the features, all of which are positive.
-        const RecordValues ones(3, {std::vector<double>(used.size(), 1.0)});
-        summary = std::make_unique<SetSummary>(used, ones);
+        task.measured.lengths.assign(3, {scene->record().span.meshes()});
         task.integrated = integrated;
     }
 
     // Calibration result of the set at `truth` (positions in the priors).
     CalibrationResult find(const std::vector<double>& truth, std::size_t number,
                            std::vector<SimulatedSet>& first) {
-        task.measured = simulate_set(scene->tile(), given_at(task.inputs, truth), 1000000 + number,
-                                     task.lengths, *summary);
-        REQUIRE(!task.measured.empty());
-        return calibrate(task, *summary, first,
-                         [&](const PriorRegion& region, const SetPlan& plan) {
-                             return simulate_sets(scene->tile(), task.inputs, region, plan,
-                                                  task.lengths, *summary, 2, [](double) {});
-                         });
+        const auto simulate = [&](const PriorRegion& region, const SetPlan& plan) {
+            return simulate_sets(scene->tile(), task.inputs, region, plan, task.measured.lengths,
+                                 task.measured.features, 2, [](double) {});
+        };
+        const std::vector<double> values =
+            simulate({truth, truth}, {1, 1, 1000000 + number})[0].values;
+        REQUIRE(!values.empty());
+        task.measured.values.clear();
+        const std::size_t count = task.measured.features.size();
+        for (std::size_t at = 0; at < values.size(); at += count) {
+            task.measured.values.push_back({{&values[at], &values[at] + count}});
+        }
+        return calibrate(task, first, simulate);
     }
 };
 
@@ -95,10 +95,11 @@ Coverage coverage_of(Synthetic& synthetic, std::size_t sets) {
         }
         const CalibrationResult result = synthetic.find(truth, set, first);
         for (std::size_t p = 0; p < truth.size(); ++p) {
-            const double value = result.found[p].input.at(truth[p]);
-            const bool inside = result.found[p].low <= value && value <= result.found[p].high;
+            const nlohmann::ordered_json& found = result.json["inputs"][p];
+            const double value = synthetic.task.inputs[p].at(truth[p]);
+            const bool inside = found["low"] <= value && value <= found["high"];
             coverage.held[p] += (inside ? 1.0 : 0.0) / static_cast<double>(sets);
-            coverage.width_ratio[p] += result.found[p].width_ratio / static_cast<double>(sets);
+            coverage.width_ratio[p] += found["left"].get<double>() / static_cast<double>(sets);
         }
     }
     return coverage;
@@ -291,6 +292,12 @@ TEST_CASE("Bad input to calibrate gives one message each and exit code 2") {
         CHECK(outcome.code == 2);
         CHECK(outcome.mentions(one.message));
     }
+    write_bytes(folder.file("loud.csv"), "sensor_rms,window_ratio\n20,40\n");
+    const Outcome without_python =
+        shell("GEARPOD_PYTHON=/none " GEARPOD_PROGRAM " calibrate " + kSmallStudy + fast() +
+              " --draws 50 --features " + folder.file("loud.csv"));
+    CHECK(without_python.code == 2);
+    CHECK(without_python.mentions("/none cannot be started"));
     // A prior beyond a key's range is a problem of the study.
     write_bytes(folder.file("good.csv"), "sensor_rms,window_ratio\n1,1.2\n1.1,1.3\n");
     const Outcome outcome = program("calibrate " + kSmallStudy + " --features " +
