@@ -5,8 +5,9 @@
     python3 build_page.py F.json > F.html       (- reads the JSON from standard input)
 
 With a final --figures FOLDER the figures are also written there, each as SVG and PNG. With a final
---pdf (for a report) its summary on one sheet is written instead, as PDF. With a final --evidence
-the document of its evidence pack is written instead, as PDF.
+--pdf (for a report) its summary on one sheet is written instead, as PDF. With a final --csv, --evidence
+or --dataset the files of these folders are written instead: a line with their names and sizes (JSON),
+then the files.
 
 gearpod report F.h5 --html F.html does both. Everything on the page comes from the JSON; the page
 loads nothing and runs no script.
@@ -16,12 +17,17 @@ import json
 import pathlib
 import sys
 
+from tables import Number
 from words import escape
 
 
-def missing_packages():
+DRAWING = (("numpy", "python3-numpy"), ("matplotlib", "python3-matplotlib"))
+HDF5 = (("numpy", "python3-numpy"), ("h5py", "python3-h5py"))
+
+
+def missing_packages(needed):
     packages = []
-    for module, package in (("numpy", "python3-numpy"), ("matplotlib", "python3-matplotlib")):
+    for module, package in needed:
         try:
             __import__(module)
         except ImportError:
@@ -100,30 +106,56 @@ def summary_pdf(data):
     return summary_sheet.pdf(Report(data))
 
 
-def evidence_pdf(data):
-    from evidence import evidence_document
+def csv_tables(data):
+    import tables
 
-    return evidence_document.pdf(data)
+    return framed(tables.files(data))
+
+
+def evidence_pack(data):
+    from evidence import evidence
+
+    return framed(evidence.files(data))
+
+
+def dataset_folder(data):
+    import dataset
+
+    return framed(dataset.files(data))
+
+
+def framed(files):
+    """Files, texts or bytes by their names, as one text: names and sizes in the first line."""
+    contents = {name: text if isinstance(text, bytes) else text.encode()
+                for name, text in files.items()}
+    sizes = [[name, len(content)] for name, content in contents.items()]
+    return json.dumps(sizes).encode() + b"\n" + b"".join(contents.values())
+
+
+# Document, and the packages that it needs.
+DOCUMENTS = {"--pdf": (summary_pdf, DRAWING), "--csv": (csv_tables, ()),
+             "--evidence": (evidence_pack, DRAWING), "--dataset": (dataset_folder, HDF5)}
 
 
 def main(arguments):
     figures = None
-    documents = {"--pdf": summary_pdf, "--evidence": evidence_pdf}
-    document = documents.get(arguments[1]) if len(arguments) == 2 else None
+    document, needed = None, DRAWING
+    if len(arguments) == 2:
+        document, needed = DOCUMENTS.get(arguments[1], (None, ()))
     if len(arguments) == 3 and arguments[1] == "--figures":
         figures = pathlib.Path(arguments[2])
     elif len(arguments) != 1 and not document:
         print(__doc__, file=sys.stderr)
         return 2
-    missing = missing_packages()
+    missing = missing_packages(needed)
     if missing:
-        print(f"{sys.executable} lacks packages for drawing figures: apt-get install "
+        print(f"{sys.executable} lacks packages for this output: apt-get install "
               + " ".join(missing), file=sys.stderr)
         return 2
-    if arguments[0] == "-":
-        data = json.load(sys.stdin)
-    else:
-        data = json.loads(pathlib.Path(arguments[0]).read_text(encoding="utf-8"))
+    text = (sys.stdin.buffer.read() if arguments[0] == "-" else
+            pathlib.Path(arguments[0]).read_bytes()).decode("utf-8")
+    # Tables keep the digits of the JSON.
+    data = json.loads(text, parse_float=Number if document else None)
     if document:
         sys.stdout.buffer.write(document(data))
         return 0

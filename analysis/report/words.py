@@ -9,6 +9,11 @@ def escape(text):
     return html.escape(str(text))
 
 
+def printable(text):
+    """Text without control characters."""
+    return "".join(c if c.isprintable() else " " if c in "\n\t\r" else "?" for c in text)
+
+
 def number(value, digits=3):
     """Number with significant digits and a complete integer part; with an exponent only where that
     is shorter."""

@@ -5,11 +5,13 @@
 
 #include <chrono>
 #include <exception>
+#include <map>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
+#include "analysis/report/json_values.hpp"
 #include "machine/clocks.hpp"
 #include "mc/commands/commands.hpp"
 #include "mc/commands/options/options.hpp"
@@ -25,10 +27,11 @@
 #include "mc/lives/campaign.hpp"
 #include "mc/lives/interpolation.hpp"
 #include "mc/plan/scene_error.hpp"
-#include "mc/report/evidence.hpp"
+#include "mc/plan/study_facts.hpp"
 #include "mc/report/lives_report.hpp"
 #include "mc/report/numerical_quality.hpp"
 #include "mc/report/page.hpp"
+#include "mc/report/run_report.hpp"
 #include "mc/results/provenance.hpp"
 #include "mc/results/result_rows.hpp"
 
@@ -43,6 +46,18 @@ struct LivesOutputs {
     bool force = false;
 };
 
+// The JSON of lives with the definitions of the features, the fault and the provenance.
+nlohmann::json with_origin(nlohmann::json json, const CampaignPlan& plan, const Results& frame) {
+    for (const features::Feature* feature : plan.ensemble.features) {
+        json["features"].push_back(definition_json(feature->name, feature->unit, feature->alarm));
+    }
+    const auto facts = run_facts(frame.provenance_value("study"));
+    json["fault"] = facts ? analysis::text_or_null(facts->fault.words) : nullptr;
+    json["provenance"] = nlohmann::json(
+        std::map<std::string, std::string>(frame.provenance.begin(), frame.provenance.end()));
+    return json;
+}
+
 // Evaluates the rows and writes the requested outputs. Returns kBadInput after printing a problem,
 // or if the results are withheld.
 int write_outputs(const CampaignPlan& plan, const Results& frame, const RowSource& rows,
@@ -51,22 +66,15 @@ int write_outputs(const CampaignPlan& plan, const Results& frame, const RowSourc
     const LifeMonitor monitor(plan, campaign);
     if (!outputs.json.empty() || !outputs.html.empty() || !outputs.figures.empty() ||
         !outputs.evidence.empty()) {
-        auto json = lives_json(monitor, outputs.shows_withheld);
-        if (!outputs.evidence.empty()) {
-            std::vector<std::string> features;
-            for (const features::Feature* feature : plan.ensemble.features) {
-                features.emplace_back(feature->name);
-            }
-            json["evidence"] = evidence_json(analysis::EvidenceKind::lives,
-                                             lives_report(monitor, outputs.shows_withheld),
-                                             features, outputs.results, &frame);
-            if (!write_evidence(outputs.evidence, json,
-                                {{"the results file", outputs.results},
-                                 {"--json", outputs.json},
-                                 {"--html", outputs.html}},
-                                outputs.force)) {
-                return kBadInput;
-            }
+        const auto json = lives_json(monitor, outputs.shows_withheld);
+        if (!outputs.evidence.empty() &&
+            !write_evidence(outputs.evidence,
+                            evidence_files(with_origin(json, plan, frame), outputs.results),
+                            {{"the results file", outputs.results},
+                             {"--json", outputs.json},
+                             {"--html", outputs.html}},
+                            outputs.force)) {
+            return kBadInput;
         }
         if (!outputs.json.empty() && !write_text_to(outputs.json, json_text(json, 2) + "\n")) {
             return kBadInput;

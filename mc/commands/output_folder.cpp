@@ -3,14 +3,19 @@
 #include <fmt/core.h>
 
 #include <filesystem>
+#include <span>
+#include <stdexcept>
 
 #include "mc/files/atomic_file.hpp"
 #include "mc/files/input/terminal_text.hpp"
 #include "mc/library/run/command_files.hpp"
-#include "mc/report/evidence.hpp"
 
 namespace gearpod::mc {
 namespace {
+
+std::string path_in(const std::string& folder, const std::string& name) {
+    return (std::filesystem::path(folder) / name).string();
+}
 
 OutputKind kind_in_folder(const std::string& role, const NamedFile& file) {
     const auto extension = std::filesystem::path(file.name).extension();
@@ -51,9 +56,19 @@ bool can_write_folder(const FileRole& folder, const std::vector<NamedFile>& file
     return good;
 }
 
-bool write_evidence(const std::string& folder, const nlohmann::json& report,
+void write_files(const std::string& folder, const std::vector<NamedFile>& files) {
+    std::error_code failed;
+    std::filesystem::create_directories(folder, failed);
+    if (failed) {
+        throw std::runtime_error(folder + ": " + failed.message());
+    }
+    for (const NamedFile& file : files) {
+        write_file(path_in(folder, file.name), std::as_bytes(std::span(file.bytes)));
+    }
+}
+
+bool write_evidence(const std::string& folder, const std::vector<NamedFile>& files,
                     const std::vector<FileRole>& others, bool force) {
-    const auto files = evidence_files(report);
     if (!can_write_folder({"--evidence", folder}, files, others, force)) {
         return false;
     }

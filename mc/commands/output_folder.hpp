@@ -1,12 +1,11 @@
 // Folders that a command writes several files into.
 #pragma once
 
-#include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <vector>
 
 #include "mc/library/run/command_files.hpp"
-#include "mc/report/tables.hpp"
+#include "mc/report/page.hpp"
 
 namespace gearpod::mc {
 
@@ -16,9 +15,13 @@ namespace gearpod::mc {
 bool can_write_folder(const FileRole& folder, const std::vector<NamedFile>& files,
                       const std::vector<FileRole>& others, bool force);
 
-// Writes the evidence pack of a report into a folder: evidence_files(report). Returns false after
-// printing a problem if can_write_folder() refuses a file.
-bool write_evidence(const std::string& folder, const nlohmann::json& report,
+// Writes the files into the folder, which it creates if necessary. Throws std::runtime_error like
+// write_file().
+void write_files(const std::string& folder, const std::vector<NamedFile>& files);
+
+// Writes the files into the folder of option --evidence. Returns false after printing a problem if
+// can_write_folder() refuses a file.
+bool write_evidence(const std::string& folder, const std::vector<NamedFile>& files,
                     const std::vector<FileRole>& others, bool force);
 
 }  // namespace gearpod::mc

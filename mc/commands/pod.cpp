@@ -14,7 +14,6 @@
 #include "mc/files/signal_file.hpp"
 #include "mc/library/inspection_table.hpp"
 #include "mc/library/run/command_files.hpp"
-#include "mc/report/evidence.hpp"
 #include "mc/report/page.hpp"
 
 namespace gearpod::mc {
@@ -35,17 +34,12 @@ int pod_command(const PodOptions& options) {
     }
     try {
         const InspectedTable inspected = inspect_table(read_text_table(options.table), options);
-        nlohmann::json all = inspection_json(inspected);
-        if (!options.evidence.empty()) {
-            all["evidence"] = evidence_json(
-                analysis::EvidenceKind::inspections,
-                inspection_report(inspected.request, inspected.result, inspected.names), {},
-                options.table, nullptr);
-            if (!write_evidence(options.evidence, all,
-                                {read, {"--json", options.json}, {"--html", options.html}},
-                                options.force)) {
-                return kBadInput;
-            }
+        const nlohmann::json all = inspection_json(inspected);
+        if (!options.evidence.empty() &&
+            !write_evidence(options.evidence, evidence_files(all, options.table),
+                            {read, {"--json", options.json}, {"--html", options.html}},
+                            options.force)) {
+            return kBadInput;
         }
         if (!options.html.empty() && !write_text_to(options.html, report_page(json_text(all)))) {
             return kBadInput;

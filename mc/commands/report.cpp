@@ -20,11 +20,9 @@
 #include "mc/files/json_text.hpp"
 #include "mc/library/run/command_files.hpp"
 #include "mc/report/dataset.hpp"
-#include "mc/report/evidence.hpp"
 #include "mc/report/numerical_quality.hpp"
 #include "mc/report/page.hpp"
 #include "mc/report/run_report.hpp"
-#include "mc/report/tables.hpp"
 #include "mc/results/reliability_of_results.hpp"
 #include "mc/results/result_rows.hpp"
 
@@ -39,14 +37,6 @@ std::vector<FileRole> other_files(const ReportOptions& options) {
             {"--pdf", options.pdf}};
 }
 
-std::vector<std::string> feature_names(const Results& results) {
-    std::vector<std::string> names;
-    for (const FeatureResult& feature : results.features) {
-        names.push_back(feature.name);
-    }
-    return names;
-}
-
 // Writes the requested JSON, tables, page, sheet, figures and evidence. Returns false after
 // printing a problem.
 bool write_report_files(const ReportOptions& options, const Results& results, const RowSource& rows,
@@ -54,21 +44,18 @@ bool write_report_files(const ReportOptions& options, const Results& results, co
                         const RunFindings& run) {
     nlohmann::json json = report_json(results, rows, reliability, run);
     json["results"] = options.results;
-    const auto tables =
-        options.csv.empty() ? std::vector<NamedFile>{} : table_files(report_tables(json));
-    std::vector<NamedFile> evidence;
-    if (!options.evidence.empty()) {
-        const bool recorded = subject_of(results) == analysis::Subject::recordings;
-        json["evidence"] = evidence_json(
-            recorded ? analysis::EvidenceKind::recordings : analysis::EvidenceKind::gearboxes,
-            run.report, feature_names(results), options.results, &results);
-        evidence = evidence_files(json);
-    }
+    const auto tables = options.csv.empty() ? std::vector<NamedFile>{} : table_files(json);
+    const auto evidence =
+        options.evidence.empty() ? std::vector<NamedFile>{} : evidence_files(json, options.results);
     const auto others = other_files(options);
     const bool tables_good =
         can_write_folder({"--csv", options.csv}, tables, others, options.force);
-    const auto dataset = options.dataset.empty() ? std::vector<NamedFile>{}
-                                                 : dataset_files(results, rows, options.results);
+    std::vector<NamedFile> dataset;
+    if (!options.dataset.empty()) {
+        nlohmann::json source = json;
+        source["dataset"] = dataset_json(results, rows.rows(), options.results);
+        dataset = dataset_files(source);
+    }
     const bool dataset_good =
         can_write_folder({"--dataset", options.dataset}, dataset, others, options.force);
     if (!can_write_folder({"--evidence", options.evidence}, evidence, others, options.force) ||

@@ -8,9 +8,9 @@
 #include "mc/files/atomic_file.hpp"
 #include "mc/files/hdf5_data.hpp"
 #include "mc/files/input/problems.hpp"
+#include "mc/files/signal_file.hpp"
 #include "mc/library/open_study.hpp"
 #include "mc/library/run/command_files.hpp"
-#include "mc/report/tables.hpp"
 #include "mc/results/layout.hpp"
 #include "mc/results/provenance.hpp"
 
@@ -51,6 +51,23 @@ void write_hdf5(const std::string& path, const Simulation& simulation, const Ens
         }
     }
     write_file(path, file_bytes(file));
+}
+
+// Signals as CSV, "name [unit]" in the header; all columns have the same length.
+std::string signals_csv(const std::vector<SignalColumn>& columns) {
+    std::string text;
+    for (const SignalColumn& column : columns) {
+        text += fmt::format("{}{} [{}]", text.empty() ? "" : ",", column.name, column.unit);
+    }
+    text += "\n";
+    for (std::size_t row = 0; row < columns[0].values.size(); ++row) {
+        for (std::size_t c = 0; c < columns.size(); ++c) {
+            fmt::format_to(std::back_inserter(text), "{}{:.17g}", c == 0 ? "" : ",",
+                           columns[c].values[row]);
+        }
+        text += "\n";
+    }
+    return text;
 }
 
 void print_summary(const Simulation& simulation, const std::string& out) {

@@ -3,12 +3,12 @@
 #pragma once
 
 #include <cstdint>
+#include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "mc/plan/study_facts.hpp"
-#include "mc/report/tables.hpp"
 #include "mc/results/result_rows.hpp"
 
 namespace gearpod::mc {
@@ -43,15 +43,11 @@ class RowIdentities {
     std::vector<std::string> recorded_;  // name of the gearbox of each row; may be empty
 };
 
-// Dataset of results for machine learning: features with labels, severity, identity of the gearbox
-// and splits by gearbox (CSV), stored signals (CSV) and a data card (Markdown).
-
-// All files: README.md, columns.csv, train.csv, validation.csv, test.csv, study.toml, and
-// signals_ROW.csv for each row whose signals are stored. `file`: results file of `rows`. All rows
-// of a gearbox are in one split. The split depends on the seed and the gearbox only, or on the name
-// of a recorded gearbox. Failed rows are left out. Throws std::runtime_error naming the file if
-// its study or its signals cannot be read.
-std::vector<NamedFile> dataset_files(const Results& frame, const RowSource& rows,
-                                     const std::string& file);
+// What the Python program that writes a dataset for machine learning needs in addition to the
+// report: "file", "recorded", "computed_by", "written_by", "inputs" with their meanings, and "rows"
+// with [row in the whole study, gearbox, record, split] of each of `rows` rows. All rows of a
+// gearbox are in one split, which depends on the seed and the gearbox only, or on the name of a
+// recorded gearbox. Throws std::runtime_error naming the file if its study cannot be read.
+nlohmann::json dataset_json(const Results& frame, std::size_t rows, const std::string& file);
 
 }  // namespace gearpod::mc

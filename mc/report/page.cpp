@@ -2,19 +2,21 @@
 
 #include <cstdlib>
 #include <filesystem>
+#include <nlohmann/json.hpp>
 #include <span>
 #include <stdexcept>
 #include <utility>
-#include <vector>
 
 #include "mc/files/atomic_file.hpp"
+#include "mc/files/json_text.hpp"
 #include "mc/files/python_process.hpp"
+#include "mc/results/provenance.hpp"
 
 namespace gearpod::mc {
 namespace {
 
 [[noreturn]] void fail(const std::string& what) {
-    throw std::runtime_error("the page cannot be created: " + what);
+    throw std::runtime_error("a file of the report cannot be created: " + what);
 }
 
 // Folder of the Python scripts, relative to the running program. In a build folder the scripts are
@@ -53,6 +55,19 @@ std::string build_page_output(const std::string& json, const std::vector<std::st
     }
 }
 
+// Files that build_page.py makes: a line with their names and sizes (JSON), then their bytes.
+std::vector<NamedFile> build_files(const nlohmann::json& report, const std::string& kind) {
+    const std::string output = build_page_output(json_text(report), {kind});
+    std::vector<NamedFile> files;
+    std::size_t begin = output.find('\n') + 1;
+    for (const auto& [name, size] : nlohmann::json::parse(output.substr(0, begin))
+                                        .get<std::vector<std::pair<std::string, std::size_t>>>()) {
+        files.push_back({name, output.substr(begin, size)});
+        begin += size;
+    }
+    return files;
+}
+
 }  // namespace
 
 std::filesystem::path schema_path() {
@@ -88,8 +103,17 @@ std::string report_summary(const std::string& json) {
     return build_page_output(json, {"--pdf"});
 }
 
-std::string report_evidence(const std::string& json) {
-    return build_page_output(json, {"--evidence"});
+std::vector<NamedFile> table_files(const nlohmann::json& report) {
+    return build_files(report, "--csv");
+}
+
+std::vector<NamedFile> dataset_files(const nlohmann::json& report) {
+    return build_files(report, "--dataset");
+}
+
+std::vector<NamedFile> evidence_files(nlohmann::json report, const std::string& file) {
+    report["evidence"] = {{"file", file}, {"report_by", version_text()}};
+    return build_files(report, "--evidence");
 }
 
 }  // namespace gearpod::mc

@@ -1,9 +1,11 @@
-// HTML page, one-page PDF summary and evidence document of a report, made by the Python program in
-// analysis/report.
+// Documents of a report, made by the Python program in analysis/report: page (HTML), summary (PDF),
+// tables (CSV), evidence pack and dataset.
 #pragma once
 
 #include <filesystem>
+#include <nlohmann/json_fwd.hpp>
 #include <string>
+#include <vector>
 
 namespace gearpod::mc {
 
@@ -28,8 +30,22 @@ std::filesystem::path schema_path();
 // report_json(). Throws like report_page().
 std::string report_summary(const std::string& json);
 
-// Returns the document of an evidence pack (PDF). `json` must have evidence_json() under
-// "evidence". Throws like report_page().
-std::string report_evidence(const std::string& json);
+// File of a folder.
+struct NamedFile {
+    std::string name;
+    std::string bytes;
+};
+
+// Tables of a report with all digits (CSV). Column names contain units; a missing number is an
+// empty field. Throws like report_page().
+std::vector<NamedFile> table_files(const nlohmann::json& report);
+
+// Dataset for machine learning: features with labels, stored signals (CSV) and a data card.
+// `report` has dataset_json() under "dataset". Throws like report_page().
+std::vector<NamedFile> dataset_files(const nlohmann::json& report);
+
+// Evidence pack of a report: document (PDF), tables, JSON, study, and the hashes of these files.
+// `file`: results or table of inspections behind it. Throws like report_page().
+std::vector<NamedFile> evidence_files(nlohmann::json report, const std::string& file);
 
 }  // namespace gearpod::mc

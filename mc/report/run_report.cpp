@@ -322,12 +322,7 @@ Json other_fault_json(const Results& frame, const std::vector<OtherFaultAlarms>&
 Json features_json(const Results& frame) {
     Json json = Json::array();
     for (const FeatureResult& result : frame.features) {
-        const features::Feature* feature = features::find_feature(result.name);
-        json.push_back({{"name", result.name},
-                        {"title", feature != nullptr ? std::string(feature->title) : ""},
-                        {"unit", result.unit},
-                        {"alarm", analysis::alarm_name(result.alarm)},
-                        {"doc", feature != nullptr ? std::string(feature->doc) : ""}});
+        json.push_back(definition_json(result.name, result.unit, result.alarm));
     }
     return json;
 }
@@ -347,12 +342,24 @@ Json noise_json(const Results& frame, const std::optional<RunFacts>& facts) {
 
 }  // namespace
 
+nlohmann::json definition_json(std::string_view name, std::string_view unit,
+                               analysis::Alarm alarm) {
+    const features::Feature* feature = features::find_feature(name);
+    return {{"name", name},
+            {"title", feature != nullptr ? std::string(feature->title) : ""},
+            {"unit", unit},
+            {"alarm", analysis::alarm_name(alarm)},
+            {"doc", feature != nullptr ? std::string(feature->doc) : ""}};
+}
+
 nlohmann::json report_json(const Results& frame, const RowSource& rows,
                            const std::optional<analysis::Reliability>& reliability,
                            const RunFindings& run) {
     Json json = examples_json(frame, rows);
     const std::optional<RunFacts>& facts = run.facts;
-    json["title"] = facts ? facts->ensemble.title : "";
+    const auto measured =
+        facts ? std::nullopt : measuring_facts(frame.provenance_value("measured_by_study"));
+    json["title"] = facts ? facts->ensemble.title : measured ? measured->title : "";
     json["assumptions"] = facts ? facts->conditions : "";
     json["fault"] = facts && facts->fault.given() ? Json(facts->fault.words) : Json(nullptr);
     json["detection"] = analysis::detection_json(frame.detection, frame.request, subject_of(frame));

@@ -3,6 +3,7 @@
 
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
+#include <string_view>
 
 #include "analysis/reliability.hpp"
 #include "analysis/report/report.hpp"
@@ -51,6 +52,10 @@ std::string headline_text(const analysis::Report& report);
 void print_computing_times(const EnsembleOutcome& outcome);
 
 // Complete report of a run as JSON, for other programs and for the page (analysis/report).
+
+// Definition of a feature: {"name", "title", "unit", "alarm", "doc"}; title and doc are "" for a
+// feature that is not the program's.
+nlohmann::json definition_json(std::string_view name, std::string_view unit, analysis::Alarm alarm);
 
 // Returns the report; docs/reference/report-json.md lists the keys. The arguments are those of
 // findings_of_run(), and its result. Computes two gearboxes again for their signals

@@ -15,7 +15,7 @@ CASES, PROGRAM, SOURCES = (pathlib.Path(argument) for argument in sys.argv[1:4])
 sys.path.insert(0, str(SOURCES / "analysis" / "report"))
 
 try:
-    from evidence import evidence_document
+    from evidence import evidence, evidence_document
     from words import typeset
 except ImportError as error:
     print(f"skipped: {error} (Debian: python3-matplotlib)")
@@ -27,7 +27,7 @@ SUBJECTS = ["scope", "definition", "threshold", "false_alarms", "detection", "li
 
 
 def case(name):
-    return json.loads((CASES / f"{name}.json").read_text())
+    return evidence.with_evidence(json.loads((CASES / f"{name}.json").read_text()))
 
 
 def areas_of(page):

@@ -1,0 +1,264 @@
+"""Tables of a report as CSV: its numbers with all digits, one line for each entry of its lists."""
+
+import csv
+import io
+
+
+class Number(float):
+    """Number of the JSON that keeps its text, so that tables have the same digits."""
+
+    def __new__(cls, text):
+        number = super().__new__(cls, text)
+        number.text = text
+        return number
+
+    def __str__(self):
+        return self.text
+
+
+def at(value, *path):
+    """Value at keys and places of nested objects and lists; None without one."""
+    for step in path:
+        try:
+            value = value[step]
+        except (KeyError, IndexError, TypeError):
+            return None
+    return value
+
+
+def lines(report, *lists):
+    """Every combination of an element of the first list (keys from the report), an element of the
+    next one (keys from the first element), and so on. An object counts as its values."""
+    def walk(element, paths, found):
+        if not paths:
+            yield found
+            return
+        values = at(element, *paths[0].split()) or []
+        for value in values.values() if isinstance(values, dict) else values:
+            yield from walk(value, paths[1:], found + [value])
+    return walk(report, lists, [])
+
+
+def take(value, names):
+    return {name: at(value, name) for name in names.split()}
+
+
+def size_text(estimate, name, unit):
+    return {name + unit: at(estimate, "size"), name + "_where": at(estimate, "where")}
+
+
+RATES = "tested detected failed pd lower upper"
+
+
+def groups(cell, unit):
+    return {f"size_low{unit}": cell["size_low"], f"size_high{unit}": cell["size_high"],
+            **take(cell, RATES)}
+
+
+def features(report, _unit):
+    for feature, in lines(report, "features"):
+        # Results have features; those of lives have the table in their evidence only.
+        yield {"feature": feature["name"], **take(feature, "title unit alarm"),
+               "definition": feature["doc"]}
+
+
+def detection(report, unit):
+    for feature, level, cell in lines(report, "detection features", "levels", "sizes"):
+        yield {"feature": feature["name"], "alarm": feature["alarm"],
+               **take(level, "noise_level threshold threshold_sample threshold_alarms healthy_rate"),
+               **groups(cell, unit), "exact_lower": at(cell, "exact", 0),
+               "exact_upper": at(cell, "exact", 1)}
+
+
+def smallest_fault(report, unit):
+    for place, found in enumerate(report.get("smallest_fault") or []):
+        yield {"noise_level": report["noise"]["levels"][place], "feature": at(found, "feature"),
+               "size" + unit: at(found, "size"), "from_curve": at(found, "from_curve"),
+               "source_feature": at(found, "source", "feature"),
+               "source_noise_level": at(found, "source", "noise_level")}
+
+
+def pod(report, unit):
+    for feature, level in lines(report, "reliability features", "levels"):
+        fit = level["hit_miss"]
+        yield {"feature": feature["name"], "noise_level": level["noise_level"],
+               **take(fit, "tests hits"), **size_text(at(fit, "a50", "estimate"), "a50", unit),
+               **size_text(at(fit, "a90", "estimate"), "a90", unit),
+               **size_text(at(fit, "a90", "upper"), "a90_upper", unit),
+               **take(fit, "model intercept slope floor ceiling"),
+               "fit_p_value": at(fit, "fit", "p_value"), "doubtful": at(fit, "doubtful"),
+               "auc": at(level, "auc", "auc"), "auc_lower": at(level, "auc", "lower"),
+               "auc_upper": at(level, "auc", "upper"), "no_curve": at(fit, "refusal")}
+
+
+def pod_band(report, unit):
+    for feature, level in lines(report, "reliability features", "levels"):
+        band = at(level, "hit_miss", "band")
+        for place, size in enumerate(at(band, "size") or []):
+            yield {"feature": feature["name"], "noise_level": level["noise_level"],
+                   "size" + unit: size, **{name: at(band, name, place)
+                                           for name in ("pod", "lower", "upper")}}
+
+
+def roc(report, _unit):
+    for feature, level in lines(report, "reliability features", "levels"):
+        for place, rate in enumerate(at(level, "roc", "detection_rate") or []):
+            yield {"feature": feature["name"], "noise_level": level["noise_level"],
+                   "false_alarm_rate": at(level, "roc", "false_alarm_rate", place),
+                   "detection_rate": rate}
+
+
+def ranking(report, _unit):
+    for level, in lines(report, "reliability levels"):
+        for place, rank in enumerate(at(level, "ranking", "ranks") or []):
+            yield {"noise_level": level["noise_level"], "rank": place + 1, "feature": rank["name"],
+                   **take(rank, "auc lower upper"), "p_value_from_first": at(rank, "p_values", 0)}
+
+
+def misses(report, _unit):
+    for feature, level, entry in lines(report, "reliability features", "levels", "misses inputs"):
+        yield {"feature": feature["name"], "noise_level": level["noise_level"],
+               **take(level["misses"], "misses hits"), "input": entry["name"],
+               **take(entry, "unit larger_in_misses lower upper p_value")}
+
+
+def inputs(report, _unit):
+    for name, entry in (at(report, "reliability", "robustness") or {}).items():
+        for feature, level, part in lines(entry, "features", "levels", "bins"):
+            yield {"input": name, "unit": entry["unit"], "feature": feature["name"],
+                   "noise_level": level["noise_level"],
+                   **take(part, "low high tested detected pd lower upper"),
+                   "p_value": level["p_value"]}
+
+
+def a90_by_input(report, unit):
+    for name, entry in (at(report, "reliability", "a90_maps") or {}).items():
+        for feature, in lines(entry, "features"):
+            for n, level in enumerate(feature["levels"]):
+                for place, found in enumerate(level["a90"]):
+                    yield {"input": name, "unit": entry["unit"], "feature": feature["name"],
+                           "noise_level": at(entry, "noise_levels", n),
+                           "value": at(level, "values", place),
+                           "a90" + unit: at(found, "estimate", "size"),
+                           "a90_lower" + unit: at(found, "lower", "size"),
+                           "a90_upper" + unit: at(found, "upper", "size")}
+
+
+def conditions(report, unit):
+    for condition, level, cell in lines(report, "reliability conditions", "levels", "sizes"):
+        yield {**take(condition, "input unit feature"), "noise_level": level["noise_level"],
+               **groups(cell, unit)}
+
+
+def numerical(report, unit):
+    for part, in lines(report, "numerical shares"):
+        yield {**take(part, "feature noise_level rms healthy_spread pd pd_half_width"),
+               "a90" + unit: at(part, "a90"), "larger": at(part, "larger")}
+
+
+def over_time(report, _unit):
+    for group, in lines(report, "over_time"):
+        for name, alarms in group["alarms"].items():
+            yield {**take(group, "first last recordings"), "feature": name,
+                   "values": at(group, "values", name), "alarms": alarms,
+                   "median": at(group, "medians", name)}
+
+
+def monitoring(report, _unit):
+    for entry, machine in lines(report, "monitoring watched", "gearboxes"):
+        healthy, held_out = entry["healthy"], at(entry, "held_out")
+        yield {**take(entry, "feature detector threshold"),
+               **{"healthy_" + name: at(healthy, name)
+                  for name in ("recordings", "alarms", "sustained")},
+               "rate": at(healthy, "rate"), "rate_lower": at(healthy, "lower"),
+               "rate_upper": at(healthy, "upper"),
+               **{"held_out_" + name: at(held_out, name)
+                  for name in ("recordings", "alarms", "lower", "upper")},
+               "gearbox": machine["name"], **take(machine, "recordings alarms"),
+               "first_time": at(machine, "first", "time"),
+               "first_recording": at(machine, "first", "recording"),
+               "sustained_time": at(machine, "sustained", "time"),
+               "sustained_recording": at(machine, "sustained", "recording"),
+               **take(at(machine, "sustained"), "confirmed_by recordings_left time_left"),
+               "tooth": at(machine, "tooth", "number"), "tooth_same": at(machine, "tooth", "same"),
+               "tooth_recordings": at(machine, "tooth", "recordings")}
+
+
+def lives(report, _unit):
+    for entry, in lines(report, "monitored"):
+        alarms, share = entry["false_alarms"], entry["share_bounds"]
+        yield {**take(entry, "feature detector threshold threshold_hours"),
+               "false_alarms": alarms["count"], "healthy_hours": alarms["hours"],
+               "per_1000_h": alarms["per_1000_h"], "per_1000_h_lower": at(alarms, "bounds", 0),
+               "per_1000_h_upper": at(alarms, "bounds", 1), **take(entry, "ended found share"),
+               "share_lower": at(share, 0), "share_upper": at(share, 1),
+               **take(entry, "share_by_chance net_share depth_50_m depth_50_bound_m depth_90_m "
+                             "depth_90_bound_m warning_50_h warning_90_h unranked")}
+
+
+def trade_offs(report, _unit):
+    for entry, point in lines(report, "trade_offs", "points"):
+        yield {**take(entry, "feature detector"),
+               **take(point, "stated_per_1000_h per_1000_h share depth_50_m depth_90_m")}
+
+
+def inspections(report, unit):
+    for size, value in zip(at(report, "data", "size") or [], at(report, "data", "value") or []):
+        yield {"size" + unit: size, "value": value}
+
+
+def thresholds(report, unit):
+    for point, in lines(report, "trade_off"):
+        yield {**take(point, "threshold false_calls"), "a50" + unit: at(point, "a50", "estimate", "size"),
+               "a90" + unit: at(point, "a90", "estimate", "size"),
+               "a90_upper" + unit: at(point, "a90", "upper", "size")}
+
+
+def failures(report, _unit):
+    for what in ("gearboxes", "diverged", "not_settled"):
+        if (count := at(report, "failures", what)) is not None:
+            yield {"what": what, "gearboxes": count}
+
+
+def provenance(report, _unit):
+    for name, value in (report.get("provenance") or {}).items():
+        yield {"name": name, "value": value}
+
+
+TABLES = (features, detection, pod, pod_band, roc, misses, smallest_fault, ranking, inputs,
+          a90_by_input, conditions, numerical, over_time, monitoring, lives, trade_offs, inspections,
+          thresholds, failures, provenance)
+
+
+def safe(value):
+    """Field of a table: empty for None; text that a spreadsheet would compute begins with '."""
+    if value is None:
+        return ""
+    if isinstance(value, bool):
+        return str(value).lower()
+    text = str(value)
+    seen = text.strip()
+    if len(seen) > 1 and seen[0] in "=+-@":
+        try:
+            float(seen)
+        except ValueError:
+            return "'" + text
+    return text
+
+
+def csv_text(rows):
+    """CSV of lists of fields."""
+    text = io.StringIO()
+    csv.writer(text, lineterminator="\n").writerows([safe(field) for field in row] for row in rows)
+    return text.getvalue()
+
+
+def files(report):
+    """Name and text of each table that has rows."""
+    size = at(report, "detection", "size", "unit") or at(report, "size", "unit") or "1"
+    unit = "" if size == "1" else "_" + size  # as in the results file: fault_depth_m
+    found = {}
+    for table in TABLES:
+        if rows := list(table(report, unit)):
+            found[table.__name__ + ".csv"] = csv_text([list(rows[0])] + [row.values() for row in rows])
+    return found
