@@ -39,10 +39,10 @@ StudyScene make_scene(const std::string& name, StudyReading reading) {
         return refused(std::move(reading.problems));
     }
     if (!has_gears(*reading.study)) {
-        return refused({{name, 0, "gearbox.sun_teeth",
+        return refused({{name, 0, "gearbox.sun.teeth",
                          "no tooth numbers or no module (only the commands modes and describe work "
                          "without them)",
-                         "give sun_teeth, planet_teeth, ring_teeth and module_mm"}});
+                         "give the teeth of sun, planet and ring, and module_mm"}});
     }
     try {
         lockstep::choose_instruction_set(reading.study->numerics.instruction_set);

@@ -12,6 +12,7 @@
 #include "mc/study/housing.hpp"
 #include "mc/study/noise.hpp"
 #include "mc/study/other_sources.hpp"
+#include "mc/study/reading/former_keys.hpp"
 #include "mc/study/schema/schema.hpp"
 #include "signals/noise/coloured_noise.hpp"
 
@@ -41,7 +42,7 @@ class ParameterReader {
         if (equals == std::string::npos) {
             return reject("no range", "write KEY=LOW:HIGH or KEY=LOW:HIGH:log");
         }
-        const Key* key = find_key(name);
+        const Key* key = find_key(current_path(name));
         if (key == nullptr || !key->may_be_random() || key->section == "fault") {
             const std::vector<std::string> known = random_keys();
             return reject(key == nullptr            ? "unknown key"
@@ -49,7 +50,7 @@ class ParameterReader {
                                                     : "may not be random",
                           suggest(name, {known.begin(), known.end()}));
         }
-        CalibratedInput input{name, 0.0, 0.0, false, key->unit.to_si};
+        CalibratedInput input{key->path(), 0.0, 0.0, false, key->unit.to_si};
         const std::vector<std::string> parts = split(text.substr(equals + 1), ':');
         const auto low = number_of(parts.front(), false);
         const auto high = parts.size() > 1 ? number_of(parts[1], false) : std::nullopt;
@@ -64,7 +65,8 @@ class ParameterReader {
         if (input.logarithmic && *low <= 0.0) {
             return reject("LOW must be > 0 on a logarithmic scale", "");
         }
-        if (std::ranges::any_of(inputs, [&](const auto& other) { return other.key == name; })) {
+        if (std::ranges::any_of(inputs,
+                                [&](const auto& other) { return other.key == key->path(); })) {
             return reject("is given twice", "");
         }
         input.low = *low;

@@ -494,7 +494,7 @@ class Describer {
              planetary ? std::vector{Member::sun, Member::planet, Member::ring, Member::carrier}
                        : std::vector{Member::pinion, Member::gear}) {
             const std::string name(member_name(member));
-            if (!study_.effects.torsional() && none("gearbox." + name + "_bearing_damping_N_s_m",
+            if (!study_.effects.torsional() && none(member_key(member, "bearing_damping_N_s_m"),
                                                     g.bodies[member].bearing_damping_N_s_m)) {
                 bearings.push_back(name);
             }
@@ -574,7 +574,7 @@ class Describer {
 
     // Lists the tooth errors, for example "ISO 1328 grade 6, ring 8; pitch 2 um rms".
     std::string tooth_errors() {
-        const MeshErrors& e = study_.errors;
+        const ToothErrors& e = study_.errors;
         std::vector<std::string> parts, members;
         for (const Member member : kAllMembers) {
             if (const auto& grade = study_.gearbox.bodies[member].quality) {

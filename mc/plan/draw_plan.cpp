@@ -5,6 +5,7 @@
 
 #include "mc/study/faults/fault_kind.hpp"
 #include "mc/study/gears.hpp"
+#include "mc/study/keys/key.hpp"
 
 namespace gearpod::mc {
 namespace {
@@ -26,7 +27,8 @@ std::vector<StreamPurpose> purposes(const Study& study, const std::vector<int>& 
     std::vector<StreamPurpose> all;
     for (std::size_t i = 0; i < dimension.size(); ++i) {
         if (dimension[i] >= 0) {
-            all.push_back(with_suffix(StreamPurpose::sobol_scrambling, study.random[i].key));
+            all.push_back(
+                with_suffix(StreamPurpose::sobol_scrambling, flat_path(study.random[i].key)));
         }
     }
     return all;
@@ -40,7 +42,7 @@ bool is_fault_size(const RandomInput& input) {
 StreamPurpose purpose_of(const RandomInput& input) {
     const int table = input.distribution.rows().group;
     return table > 0 ? with_suffix(StreamPurpose::table_row, std::to_string(table))
-                     : with_suffix(StreamPurpose::random_input, input.key);
+                     : with_suffix(StreamPurpose::random_input, flat_path(input.key));
 }
 
 std::uint64_t product_or_most(std::uint64_t a, std::uint64_t b) {
@@ -83,8 +85,8 @@ std::vector<DrawnInput> drawn_inputs(const Study& study) {
     for (std::size_t i = 0; i < strides.size(); ++i) {
         const RandomInput& input = study.random[i];
         inputs.push_back({input_id(input.key), input.kind, input.distribution,
-                          with_suffix(StreamPurpose::random_input, input.key), purpose_of(input),
-                          strides[i]});
+                          with_suffix(StreamPurpose::random_input, flat_path(input.key)),
+                          purpose_of(input), strides[i]});
     }
     return inputs;
 }

@@ -78,15 +78,13 @@ Planets given_planets(const Study& study) {
 }
 
 InputsRecipe::Body body_recipe(const Study& study, Member member) {
-    const auto id = [&](const char* name) {
-        return find_input_id("gearbox." + std::string(member_name(member)) + name);
-    };
-    InputsRecipe::Body body{id("_mass_kg"),
-                            id("_inertia_kg_m2"),
-                            id("_inertia_over_r2_kg"),
-                            id("_bearing_stiffness_N_m"),
-                            id("_bearing_damping_N_s_m"),
-                            id("_quality")};
+    const auto id = [&](const char* label) { return find_input_id(member_key(member, label)); };
+    InputsRecipe::Body body{id("mass_kg"),
+                            id("inertia_kg_m2"),
+                            id("inertia_over_r2_kg"),
+                            id("bearing_stiffness_N_m"),
+                            id("bearing_damping_N_s_m"),
+                            id("quality")};
     if (study.gearbox.kind == GearboxKind::fixed_shaft) {
         body.radius_m = has_toothed_member(study.gearbox.kind, member)
                             ? gear_of(study, member).pitch_radius()

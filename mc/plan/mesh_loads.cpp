@@ -69,12 +69,6 @@ double sum_of(const std::vector<double>& amplitudes) {
                            [](double sum, double one) { return sum + std::abs(one); });
 }
 
-double static_error_m(const MeshErrors& errors, MeshKind mesh) {
-    return sum_of(mesh == MeshKind::sun_planet    ? errors.sun_planet_m
-                  : mesh == MeshKind::ring_planet ? errors.ring_planet_m
-                                                  : errors.mesh_m);
-}
-
 double largest_root_Pa(const stiffness::ToothStress& stress) {
     return std::fmax(stress.root_1_Pa, stress.root_2_Pa);
 }
@@ -154,7 +148,7 @@ std::vector<MeshLoad> mesh_loads(const Study& study) {
         if (const double k = mean_stiffness(study, members, geometry, material); k > 0.0) {
             load.deflection_m = force_N / k;
         }
-        load.error_m = static_error_m(study.errors, members.kind) +
+        load.error_m = sum_of(study.gearbox.meshes[members.kind].error_m) +
                        pitch_error_m(study, members.member_1) +
                        pitch_error_m(study, members.member_2);
         loads.push_back(load);

@@ -289,13 +289,13 @@ class PlanBuilder {
     // Static transmission errors of one kind of mesh are the same for all planets, shifted by their
     // mesh phases.
     lockstep::MeshError first_errors() const {
-        const MeshErrors& e = study_.errors;
-        return gearbox_.kind == GearboxKind::fixed_shaft
-                   ? lockstep::MeshError{e.mesh_m, e.mesh_phase_rad}
-                   : lockstep::MeshError{e.sun_planet_m, e.sun_planet_phase_rad};
+        return error_of(gearbox_.kind == GearboxKind::fixed_shaft ? MeshKind::pinion_gear
+                                                                  : MeshKind::sun_planet);
     }
-    lockstep::MeshError second_errors() const {
-        return {study_.errors.ring_planet_m, study_.errors.ring_planet_phase_rad};
+    lockstep::MeshError second_errors() const { return error_of(MeshKind::ring_planet); }
+    lockstep::MeshError error_of(MeshKind kind) const {
+        const MeshValues& mesh = study_.gearbox.meshes[kind];
+        return {mesh.error_m, mesh.error_phase_rad};
     }
 
     // Pilot sample: the nominal gearbox and the first test gearboxes. All have the largest fault,

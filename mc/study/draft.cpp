@@ -11,8 +11,11 @@ Position StudyDraft::position(const std::string& path) const {
     if (const auto found = given_random.find(path); found != given_random.end()) {
         return found->second;
     }
-    if (const auto found = sections.find(path.substr(0, path.find('.'))); found != sections.end()) {
-        return found->second;
+    for (std::size_t dot = path.rfind('.'); dot != std::string::npos && dot > 0;
+         dot = path.rfind('.', dot - 1)) {
+        if (const auto found = sections.find(path.substr(0, dot)); found != sections.end()) {
+            return found->second;
+        }
     }
     return sections.at("");
 }

@@ -41,6 +41,22 @@ std::string_view member_name(Member member) {
     return "";
 }
 
+std::string member_key(Member member, std::string_view label) {
+    return fmt::format("gearbox.{}.{}", member_name(member), label);
+}
+
+std::string_view mesh_table(MeshKind mesh) {
+    switch (mesh) {
+        case MeshKind::sun_planet:
+            return "sun_planet";
+        case MeshKind::ring_planet:
+            return "ring_planet";
+        case MeshKind::pinion_gear:
+            return "mesh";
+    }
+    return "";
+}
+
 bool has_shaft(GearboxKind kind, Member shaft) {
     return (kind == GearboxKind::fixed_shaft) == (shaft == Member::pinion || shaft == Member::gear);
 }
@@ -84,8 +100,8 @@ bool any_random(const Study& study, std::initializer_list<const char*> keys) {
 }  // namespace
 
 bool has_static_errors(const Study& study) {
-    const MeshErrors& e = study.errors;
-    return !e.sun_planet_m.empty() || !e.ring_planet_m.empty() || !e.mesh_m.empty();
+    return std::ranges::any_of(study.gearbox.meshes.values,
+                               [](const MeshValues& mesh) { return !mesh.error_m.empty(); });
 }
 
 dynamics::MeshLaw mesh_law(const Study& study) {
@@ -117,7 +133,7 @@ bool has_measured_teeth(const Study& study) {
 }
 
 bool has_tooth_errors(const Study& study) {
-    const MeshErrors& e = study.errors;
+    const ToothErrors& e = study.errors;
     return has_tooth_quality(study) || has_measured_teeth(study) || e.pitch_error_m > 0.0 ||
            e.index_wave_m > 0.0 || e.eccentricity_m > 0.0 || e.profile_slope_m > 0.0 ||
            any_random(study, {"gearbox.pitch_error_um", "gearbox.index_wave_um",
@@ -201,7 +217,7 @@ std::vector<std::string> shift_keys() {
     for (const Member member : kAllMembers) {
         if (member != Member::carrier) {
             for (const char* what : {"shift", "tip_mm"}) {
-                keys.push_back(fmt::format("gearbox.{}_{}", member_name(member), what));
+                keys.push_back(member_key(member, what));
             }
         }
     }

@@ -19,6 +19,10 @@
 namespace gearpod::mc {
 
 std::string_view member_name(Member member);
+// Key in the member's table: "gearbox.sun.teeth".
+std::string member_key(Member member, std::string_view label);
+// Name of the table of the meshes of a kind in [gearbox].
+std::string_view mesh_table(MeshKind mesh);
 
 // Two meshing members; the first one drives and is external.
 struct MeshMembers {

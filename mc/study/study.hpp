@@ -146,7 +146,7 @@ enum class InputKind { other, sensor, fault_size };
 enum class RecordQuantity { torque, speed, gain, noise };
 
 struct RandomInput {
-    std::string key;            // "gearbox.planet_bearing_stiffness_N_m"
+    std::string key;            // "gearbox.planet.bearing_stiffness_N_m"
     std::string unit;           // of the key, e.g. "N/m"
     Distribution distribution;  // SI
     InputKind kind = InputKind::other;
@@ -216,10 +216,13 @@ struct MemberValues {
     bool operator==(const MemberValues&) const = default;
 };
 
-// Given mesh stiffness of the meshes of one kind.
+// Given stiffness and static transmission error of the meshes of one kind.
 struct MeshValues {
     std::optional<double> stiffness_N_m;                                         // constant
     std::optional<double> low_stiffness_N_m, high_stiffness_N_m, contact_ratio;  // square wave
+    // Error along the line of action: amplitude and phase of mesh harmonics 1, 2, ...; phases are
+    // as many as amplitudes, or none (all 0).
+    std::vector<double> error_m = {}, error_phase_rad = {};
 
     bool operator==(const MeshValues&) const = default;
 };
@@ -273,18 +276,13 @@ struct FixedShaft {
     bool operator==(const FixedShaft&) const = default;
 };
 
-// Static transmission errors along the line of action. Element i of a list is the amplitude or
-// phase of mesh harmonic i + 1; lists of phases are empty (all 0) or as long as those of
-// amplitudes.
-struct MeshErrors {
-    std::vector<double> sun_planet_m, sun_planet_phase_rad, ring_planet_m, ring_planet_phase_rad;
-    std::vector<double> mesh_m, mesh_phase_rad;  // fixed-shaft
-    // Random tooth deviations: an ISO 1328 grade, and additional rms deviations along the line of
-    // action (gears::DeviationScales).
+// Random tooth deviations: an ISO 1328 grade, and additional rms deviations along the line of
+// action (gears::DeviationScales).
+struct ToothErrors {
     std::optional<double> tooth_quality;
     double pitch_error_m = 0.0, index_wave_m = 0.0, eccentricity_m = 0.0, profile_slope_m = 0.0;
 
-    bool operator==(const MeshErrors&) const = default;
+    bool operator==(const ToothErrors&) const = default;
 };
 
 // Differences between the planets of a planetary gearbox: given for each planet (empty: none), and
@@ -446,7 +444,7 @@ struct Study {
     std::string title;
     Gearbox gearbox;
     FixedShaft fixed_shaft;
-    MeshErrors errors;
+    ToothErrors errors;
     PlanetDifferences planets;
     Operation operation;
     Fluctuations fluctuations;

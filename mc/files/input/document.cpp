@@ -298,6 +298,27 @@ void uncorrelate(Entry& random, const std::string& key) {
     }
 }
 
+// Removes the distributions in a table of [random] that an override of the same key in `given`
+// replaces, and adds the paths of these keys.
+void drop_overridden(Value& random, const Value& given, const std::string& prefix,
+                     std::vector<std::string>& keys) {
+    std::erase_if(random.entries, [&](Entry& key) {
+        const Entry* value = given.find(key.name);
+        if (value == nullptr) {
+            return false;
+        }
+        if (value->value.kind == Value::Kind::table && key.value.kind == Value::Kind::table) {
+            drop_overridden(key.value, value->value, prefix + key.name + ".", keys);
+            return false;
+        }
+        const bool dropped = value->position.file == kOverrideFile && !overridden(key);
+        if (dropped) {
+            keys.push_back(prefix + key.name);
+        }
+        return dropped;
+    });
+}
+
 }  // namespace
 
 std::string quoted_text(const std::string& text) {
@@ -407,25 +428,11 @@ void apply_override(Value& document, const std::string& assignment, Problems& pr
 
 std::vector<std::string> drop_overridden_random(Value& document) {
     std::vector<std::string> keys;
-    Entry* random = find_entry(document, "random");
-    if (random == nullptr) {
-        return keys;
-    }
-    for (Entry& section : random->value.entries) {
-        const Entry* plain = document.find(section.name);
-        if (plain == nullptr) {
-            continue;
+    if (Entry* random = find_entry(document, "random")) {
+        drop_overridden(random->value, document, "", keys);
+        for (const std::string& key : keys) {
+            uncorrelate(*random, key);
         }
-        std::erase_if(section.value.entries, [&](const Entry& key) {
-            const Entry* value = plain->value.find(key.name);
-            const bool dropped =
-                value != nullptr && value->position.file == kOverrideFile && !overridden(key);
-            if (dropped) {
-                keys.push_back(section.name + "." + key.name);
-                uncorrelate(*random, keys.back());
-            }
-            return dropped;
-        });
     }
     return keys;
 }

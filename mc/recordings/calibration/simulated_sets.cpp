@@ -10,6 +10,7 @@
 #include "mc/ensemble/gearbox/gearbox_tile.hpp"
 #include "mc/ensemble/gearbox/realization_signals.hpp"
 #include "mc/recordings/measured_features.hpp"
+#include "mc/study/keys/key.hpp"
 #include "mc/study/noise.hpp"
 #include "mc/study/random/philox.hpp"
 #include "signals/noise/normals.hpp"
@@ -148,7 +149,7 @@ std::vector<std::vector<double>> prior_quantiles(std::uint64_t seed,
     for (std::size_t p = 0; p < inputs.size(); ++p) {
         Philox engine =
             gearbox_stream(seed, {Group::threshold, number},
-                           with_suffix(StreamPurpose::calibration_prior, inputs[p].key));
+                           with_suffix(StreamPurpose::calibration_prior, flat_path(inputs[p].key)));
         for (std::size_t k = 0; k < backgrounds; ++k) {
             all[k][p] = k > 0 && !inputs[p].independent_of_motion()
                             ? all[0][p]

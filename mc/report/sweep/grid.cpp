@@ -11,7 +11,9 @@
 
 #include "mc/files/input/document.hpp"
 #include "mc/files/input/terminal_text.hpp"
+#include "mc/study/keys/key.hpp"
 #include "mc/study/random/fnv.hpp"
+#include "mc/study/reading/former_keys.hpp"
 
 namespace gearpod::mc {
 namespace {
@@ -105,8 +107,10 @@ void name_point(const std::vector<VariedKey>& keys, SweepPoint& point) {
 }  // namespace
 
 std::string short_key(const std::string& key) {
-    const std::size_t dot = key.find_last_of('.');
-    return dot == std::string::npos ? key : key.substr(dot + 1);
+    // A key of a member is named with the member.
+    const std::string name = key.starts_with("gearbox.") ? flat_path(key) : key;
+    const std::size_t dot = name.find_last_of('.');
+    return dot == std::string::npos ? name : name.substr(dot + 1);
 }
 
 std::vector<std::string> value_labels(const std::vector<std::string>& toml) {
@@ -202,10 +206,10 @@ std::vector<VariedKey> read_varied(const std::vector<std::string>& texts, Proble
         const auto reject = [&](const std::string& what, const std::string& remedy) {
             problems.push_back({"--vary", 0, text.substr(0, text.find('=')), what, remedy});
         };
-        const std::string key = text.substr(0, text.find('='));
+        const std::string key = current_path(text.substr(0, text.find('=')));
         Value document;
         Problems own;
-        apply_override(document, text, own);
+        apply_override(document, FormerKeys().replace(text), own);
         if (!own.empty()) {
             reject(own.front().what, "write section.key=[a, b, c]");
             continue;

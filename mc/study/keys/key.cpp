@@ -2,19 +2,42 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <iterator>
+
 namespace gearpod::mc {
 
 std::string Key::path() const {
     return fmt::format("{}.{}", section, name);
 }
 
+std::string Key::table() const {
+    const std::string whole = path();
+    return whole.substr(0, whole.rfind('.'));
+}
+
+std::string_view Key::label() const {
+    return std::string_view(name).substr(name.rfind('.') + 1);
+}
+
 std::string_view Key::stem() const {
-    return unit.suffix.empty() ? name : name.substr(0, name.size() - unit.suffix.size() - 1);
+    const std::string_view whole = name;
+    return unit.suffix.empty() ? whole : whole.substr(0, whole.size() - unit.suffix.size() - 1);
 }
 
 std::string Key::column() const {
-    return unit.si_suffix.empty() ? std::string(stem())
-                                  : fmt::format("{}_{}", stem(), unit.si_suffix);
+    std::string column(stem());
+    std::ranges::replace(column, '.', '_');
+    return unit.si_suffix.empty() ? column : fmt::format("{}_{}", column, unit.si_suffix);
+}
+
+std::string flat_path(std::string_view path) {
+    std::string flat(path);
+    const std::size_t dot = std::min(flat.find('.'), flat.size());
+    std::replace(
+        std::next(flat.begin(), static_cast<std::ptrdiff_t>(std::min(dot + 1, flat.size()))),
+        flat.end(), '.', '_');
+    return flat;
 }
 
 }  // namespace gearpod::mc

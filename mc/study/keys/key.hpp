@@ -88,20 +88,26 @@ using PresenceRule = std::function<Presence(const Study&)>;
 
 struct Key {
     std::string_view section;
-    std::string_view name;
+    std::string name;  // with the table of the section that holds it: "sun.mass_kg"
     AnyAccess access;
     Unit unit;
     Range range;
     PresenceRule presence;
     std::string_view fixed_because;  // why the key may not be random; "" if it may
-    std::string_view doc;
+    std::string doc;
 
-    std::string path() const;       // "gearbox.module_mm"
-    std::string_view stem() const;  // "module"
-    std::string column() const;     // of results, in SI: "module_m"
+    std::string path() const;        // "gearbox.sun.mass_kg"
+    std::string table() const;       // that holds it in a file: "gearbox.sun"
+    std::string_view label() const;  // in that table: "mass_kg"
+    std::string_view stem() const;   // of its name: "sun.mass"
+    std::string column() const;      // of results, in SI: "sun_mass_kg"
     bool may_be_random() const {
         return std::holds_alternative<NumberAccess>(access) && fixed_because.empty();
     }
 };
+
+// Path without tables in a section: "gearbox.sun_mass_kg". The spelling of earlier versions, which
+// still names random streams.
+std::string flat_path(std::string_view path);
 
 }  // namespace gearpod::mc

@@ -232,4 +232,29 @@ constexpr NumbersAccess numbers{get_list<Named...>, set_list<Named...>, false};
 template <auto Member>
 constexpr NumbersAccess ascending{get_list<Member>, set_list<Member>, true};
 
+// Accessor of a number, an integer or a list of numbers, by the type of the value.
+template <auto... Named>
+AnyAccess access_of() {
+    if constexpr (std::is_same_v<TypeOf<Named...>, int>) {
+        return integer<Named...>;
+    } else if constexpr (std::is_same_v<TypeOf<Named...>, double>) {
+        return number<Named...>;
+    } else {
+        return numbers<Named...>;
+    }
+}
+// Accessors of the same value in each body or mesh, in the order of the enumeration.
+template <class Enum, auto Value, std::size_t... kAll>
+std::array<AnyAccess, sizeof...(kAll)> each_of(std::index_sequence<kAll...>) {
+    return {access_of<static_cast<Enum>(kAll), Value>()...};
+}
+template <auto Value>
+std::array<AnyAccess, kAllMembers.size()> of_members() {
+    return each_of<Member, Value>(std::make_index_sequence<kAllMembers.size()>());
+}
+template <auto Value>
+std::array<AnyAccess, kMeshKinds> of_meshes() {
+    return each_of<MeshKind, Value>(std::make_index_sequence<kMeshKinds>());
+}
+
 }  // namespace gearpod::mc

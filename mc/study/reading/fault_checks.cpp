@@ -81,7 +81,7 @@ void check_shape(StudyDraft& draft) {
     }
     for (const MeshMembers& mesh : meshes_of(s.gearbox.kind)) {
         for (const Member member : {mesh.member_1, mesh.member_2}) {
-            if (!draft.usable(fmt::format("gearbox.{}_teeth", member_name(member)))) {
+            if (!draft.usable(teeth_key(member))) {
                 return;
             }
         }

@@ -14,7 +14,7 @@
 namespace gearpod::mc {
 
 std::string teeth_key(Member member) {
-    return fmt::format("gearbox.{}_teeth", member_name(member));
+    return member_key(member, "teeth");
 }
 
 std::vector<Member> toothed_members(const Study& study) {
@@ -111,7 +111,7 @@ void check_train(StudyDraft& draft) {
                       int{teeth(Member::ring).has_value()};
     if (given == 1 || given == 2) {
         draft.reject("gearbox", "some tooth numbers are missing",
-                     "give sun_teeth, planet_teeth and ring_teeth, or none of them");
+                     "give the teeth of sun, planet and ring, or none of them");
     }
     if (given != 3 || !draft.all_usable({"gearbox.addendum_coefficient"}) || !planets_known) {
         return;
@@ -132,8 +132,8 @@ void check_train(StudyDraft& draft) {
     for (std::size_t i = 0; i < problems.size(); ++i) {
         const std::string what = "the gears cannot be assembled: " + problems[i];
         if (i == 0 && too_wide) {
-            draft.reject("gearbox.ring_teeth", what,
-                         fmt::format("use ring_teeth = {}, or give profile shifts", fitting));
+            draft.reject("gearbox.ring.teeth", what,
+                         fmt::format("use {} teeth, or give profile shifts", fitting));
         } else {
             draft.reject("gearbox.planets", what, "use another number of planets or teeth");
         }
@@ -204,7 +204,7 @@ void check_backlash(StudyDraft& draft, const MeshMembers& mesh) {
     const double other = (given_2 ? gear_1 : gear_2).profile_shift;
     const bool ring = mesh.member_2 == Member::ring;
     draft.reject(
-        fmt::format("gearbox.{}_shift", member_name(changed)),
+        member_key(changed, "shift"),
         fmt::format("leaves {:.4f} mm of backlash between {} and {} at a centre distance of {:.6g} "
                     "mm (a shift of {:.4f} leaves none)",
                     kMmPerM * backlash, ring ? "planets" : member_name(mesh.member_1),
@@ -217,8 +217,8 @@ void check_backlash(StudyDraft& draft, const MeshMembers& mesh) {
         intended ? fmt::format("correct the shifts or the centre distance; up to {:g} mm of "
                                "backlash can be meant",
                                kIntended * kMmPerM * gear_1.module_m)
-                 : "give that one, or none; if the backlash is meant, give planet_shift and "
-                   "centre_distance_mm as well");
+                 : "give that one, or none; if the backlash is meant, give the shift of the "
+                   "planets and centre_distance_mm as well");
 }
 
 // Rejects reliefs of a gear that are longer than its path of contact in that mesh.
@@ -228,7 +228,7 @@ void check_relief(StudyDraft& draft, const gears::MeshGeometry& mesh, Member mem
     for (const auto& [end, length_m] :
          {std::pair{"tip", relief.tip_length_m}, std::pair{"root", relief.root_length_m}}) {
         if (kMmPerM * length_m > path_mm) {
-            draft.reject(fmt::format("gearbox.{}_{}_relief_length_mm", member_name(member), end),
+            draft.reject(member_key(member, fmt::format("{}_relief_length_mm", end)),
                          fmt::format("{:.6g} mm is more than the length of contact, {:.6g} mm",
                                      kMmPerM * length_m, path_mm),
                          "give a shorter relief");
@@ -309,8 +309,7 @@ void check_gear_shapes(StudyDraft& draft) {
 
 void check_body(StudyDraft& draft, Member member, const std::optional<double>& diameter_m) {
     const bool ring = member == Member::ring;
-    const std::string key =
-        fmt::format("gearbox.{}_{}_mm", member_name(member), ring ? "outer" : "bore");
+    const std::string key = member_key(member, ring ? "outer_mm" : "bore_mm");
     if (!diameter_m || !draft.all_usable({key})) {
         return;
     }
@@ -328,7 +327,7 @@ void check_body(StudyDraft& draft, Member member, const std::optional<double>& d
 // Rejects rims that leave no web between them and the bore.
 void check_blank(StudyDraft& draft, Member member) {
     const MemberValues& body = draft.study.gearbox.bodies[member];
-    const std::string key = fmt::format("gearbox.{}_rim_mm", member_name(member));
+    const std::string key = member_key(member, "rim_mm");
     if (!body.rim_m || !body.held_diameter_m || !draft.all_usable({key})) {
         return;
     }
@@ -357,22 +356,25 @@ void check_bodies(StudyDraft& draft) {
     }
 }
 
-void check_levels(StudyDraft& draft, const std::string& mesh, const MeshValues& given) {
+// Checks the levels of a square wave and the phases of a static transmission error.
+void check_mesh_values(StudyDraft& draft, MeshKind mesh) {
+    const MeshValues& given = draft.study.gearbox.meshes[mesh];
+    const std::string table = fmt::format("gearbox.{}.", mesh_table(mesh));
     const auto &low = given.low_stiffness_N_m, &high = given.high_stiffness_N_m;
-    const std::string low_key = fmt::format("gearbox.{}_low_stiffness_N_m", mesh),
-                      high_key = fmt::format("gearbox.{}_high_stiffness_N_m", mesh);
+    const std::string low_key = table + "low_stiffness_N_m",
+                      high_key = table + "high_stiffness_N_m";
     if (low && high && draft.all_usable({low_key, high_key}) && *low > *high) {
         draft.reject(low_key,
                      fmt::format("{} N/m is above the high stiffness, {} N/m", *low, *high),
                      "swap the two values");
     }
-}
-
-void check_square_waves(StudyDraft& draft) {
-    const MeshArray<MeshValues>& meshes = draft.study.gearbox.meshes;
-    check_levels(draft, "sun_planet", meshes[MeshKind::sun_planet]);
-    check_levels(draft, "ring_planet", meshes[MeshKind::ring_planet]);
-    check_levels(draft, "mesh", meshes[MeshKind::pinion_gear]);
+    const std::size_t amplitudes = given.error_m.size(), phases = given.error_phase_rad.size();
+    const std::string phase_key = table + "error_phase_deg";
+    if (phases > 0 && phases != amplitudes && draft.all_usable({table + "error_um", phase_key})) {
+        draft.reject(phase_key,
+                     fmt::format("has {} phases for {} amplitudes in error_um", phases, amplitudes),
+                     "give one phase for each amplitude, or none");
+    }
 }
 
 }  // namespace
@@ -381,26 +383,16 @@ void check_gears(StudyDraft& draft) {
     check_train(draft);
     check_gear_shapes(draft);
     check_bodies(draft);
-    check_square_waves(draft);
+    for (const MeshKind mesh :
+         {MeshKind::sun_planet, MeshKind::ring_planet, MeshKind::pinion_gear}) {
+        check_mesh_values(draft, mesh);
+    }
     check_tooth_errors(draft);
 }
 
 // Checks of deviations from the ideal gearbox: planets, tooth deviations and transmission errors.
 
 namespace {
-
-void check_phases(StudyDraft& draft, const std::string& mesh, const std::vector<double>& error,
-                  const std::vector<double>& phase) {
-    const std::string error_key = fmt::format("gearbox.{}_error_um", mesh),
-                      phase_key = fmt::format("gearbox.{}_error_phase_deg", mesh);
-    if (!phase.empty() && phase.size() != error.size() &&
-        draft.all_usable({error_key, phase_key})) {
-        draft.reject(phase_key,
-                     fmt::format("has {} phases for {} amplitudes in {}_error_um", phase.size(),
-                                 error.size(), mesh),
-                     "give one phase for each amplitude, or none");
-    }
-}
 
 // Checks lists that have one value for each planet.
 void check_planet_lists(StudyDraft& draft) {
@@ -442,10 +434,9 @@ void check_measured_teeth(StudyDraft& draft) {
         const MemberValues& body = draft.study.gearbox.bodies[member];
         const int gears = member == Member::planet ? draft.study.gearbox.planets : 1;
         const int teeth = gears * teeth_of(draft.study, member).value_or(0);
-        const std::string name(member_name(member));
-        check_teeth_listed(draft, "gearbox." + name + "_index_um", body.index_m, teeth_key(member),
+        check_teeth_listed(draft, member_key(member, "index_um"), body.index_m, teeth_key(member),
                            teeth);
-        check_teeth_listed(draft, "gearbox." + name + "_ring_side_index_um", body.ring_side_index_m,
+        check_teeth_listed(draft, member_key(member, "ring_side_index_um"), body.ring_side_index_m,
                            teeth_key(member), teeth);
     }
 }
@@ -455,10 +446,6 @@ void check_measured_teeth(StudyDraft& draft) {
 void check_tooth_errors(StudyDraft& draft) {
     check_planet_lists(draft);
     check_measured_teeth(draft);
-    const MeshErrors& e = draft.study.errors;
-    check_phases(draft, "sun_planet", e.sun_planet_m, e.sun_planet_phase_rad);
-    check_phases(draft, "ring_planet", e.ring_planet_m, e.ring_planet_phase_rad);
-    check_phases(draft, "mesh", e.mesh_m, e.mesh_phase_rad);
 }
 
 }  // namespace gearpod::mc

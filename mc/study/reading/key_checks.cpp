@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "mc/files/input/spelling.hpp"
+#include "mc/study/gears.hpp"
 #include "mc/study/reading/parts.hpp"
 #include "mc/study/schema/schema.hpp"
 
@@ -53,8 +54,8 @@ Guess guess_key(const std::string& section, const std::string& name) {
     }
     std::vector<std::string_view> names;
     for (const Key& key : schema()) {
-        if (key.name == name) {
-            return {nullptr, fmt::format("it belongs in [{}]", key.section)};
+        if (key.label() == name) {
+            return {nullptr, fmt::format("it belongs in [{}]", key.table())};
         }
         if (key.section == section) {
             names.push_back(key.name);
@@ -86,7 +87,6 @@ void reject_unknown_key(StudyDraft& draft, const std::string& prefix, const std:
 namespace {
 
 constexpr const char* kSpeedKeys = "one of sun_speed_rpm, ring_speed_rpm, carrier_speed_rpm";
-constexpr std::string_view kMembers[] = {"sun", "planet", "ring", "carrier"};
 
 std::vector<std::string> given_of(const StudyDraft& draft, const std::vector<std::string>& paths) {
     std::vector<std::string> given;
@@ -107,10 +107,10 @@ void reject_second(StudyDraft& draft, const std::vector<std::string>& given,
 }
 
 void check_exclusive_keys(StudyDraft& draft) {
-    for (const std::string_view member : kMembers) {
+    for (const Member member : kAllMembers) {
         reject_second(draft,
-                      given_of(draft, {fmt::format("gearbox.{}_inertia_kg_m2", member),
-                                       fmt::format("gearbox.{}_inertia_over_r2_kg", member)}),
+                      given_of(draft, {member_key(member, "inertia_kg_m2"),
+                                       member_key(member, "inertia_over_r2_kg")}),
                       "both give the moment of inertia");
     }
     reject_second(
@@ -166,7 +166,7 @@ void check_presence(StudyDraft& draft, const Key& key) {
     const std::string because = presence.why.empty() ? "" : fmt::format(" ({})", presence.why);
     if (presence.need == Need::required && !draft.is_given(path)) {
         draft.reject(draft.position(path), path, "missing" + because,
-                     fmt::format("add {} to [{}]: {}", key.name, key.section, key.doc));
+                     fmt::format("add {} to [{}]: {}", key.label(), key.table(), key.doc));
     }
     if (presence.need == Need::forbidden && draft.is_given(path)) {
         draft.reject(draft.position(path), path, "is not allowed here" + because, "remove it");

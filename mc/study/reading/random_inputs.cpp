@@ -140,7 +140,7 @@ void add_random(StudyDraft& draft, const Key& key, const Entry& entry) {
                              std::holds_alternative<IntegerAccess>(key.access);
         const std::string why = numeric ? std::string(key.fixed_because) : "it is not a number";
         reject(draft, entry, path, "may not be random (" + why + ")",
-               fmt::format("give one value in [{}]", key.section));
+               fmt::format("give one value in [{}]", key.table()));
         return;
     }
     draft.given_random[path] = entry.position;
@@ -165,13 +165,17 @@ void add_random(StudyDraft& draft, const Key& key, const Entry& entry) {
     }
 }
 
-void read_random_section(StudyDraft& draft, const Entry& section) {
-    for (const Entry& entry : section.value.entries) {
-        const Key* key = find_key(section.name, entry.name);
-        if (key != nullptr) {
+// `prefix`: name of the table within the section and a dot, or empty.
+void read_random_section(StudyDraft& draft, const std::string& section, const std::string& prefix,
+                         const std::vector<Entry>& entries) {
+    for (Entry entry : entries) {
+        entry.name = prefix + entry.name;
+        if (const Key* key = find_key(section, entry.name)) {
             add_random(draft, *key, entry);
+        } else if (entry.value.kind == Value::Kind::table && is_table(section + "." + entry.name)) {
+            read_random_section(draft, section, entry.name + ".", entry.value.entries);
         } else {
-            reject_unknown_key(draft, "random.", section.name, entry);
+            reject_unknown_key(draft, "random.", section, entry);
         }
     }
 }
@@ -195,7 +199,7 @@ void read_random(StudyDraft& draft, const Value& section) {
                    fmt::format("must be a table, but is {}", entry.value.shown()),
                    "write section.key = { distribution = \"...\", ... }");
         } else {
-            read_random_section(draft, entry);
+            read_random_section(draft, entry.name, "", entry.value.entries);
         }
     }
     // Sorted in the order of the schema, whatever their order in the file.
@@ -386,7 +390,7 @@ void check_input(StudyDraft& draft, const RandomInput& input) {
     }
     if (quantity && std::get<NumberAccess>(key.access).get(study).value_or(0.0) <= 0.0) {
         reject("needs a nominal value above 0, about which the records scatter",
-               fmt::format("give {} in [{}]", key.name, key.section));
+               fmt::format("give {} in [{}]", key.label(), key.table()));
     }
     const ShortForm same = quantity ? short_form(study, *quantity) : ShortForm{};
     if (same.scatter > 0.0) {

@@ -12,6 +12,7 @@
 #include "mc/files/input/terminal_text.hpp"
 #include "mc/study/false_alarm_target.hpp"
 #include "mc/study/fluctuations.hpp"
+#include "mc/study/reading/former_keys.hpp"
 #include "mc/study/reading/key_checks.hpp"
 #include "mc/study/reading/parts.hpp"
 #include "mc/study/schema/schema.hpp"
@@ -20,58 +21,17 @@ namespace gearpod::mc {
 
 namespace {
 
-// True if keys of the section begin with `name` and a dot: a table within the section.
-bool is_subsection(const std::string& section, const std::string& name) {
-    const auto keys = schema();
-    return std::any_of(keys.begin(), keys.end(), [&](const Key& key) {
-        return key.section == section && key.name.starts_with(name + ".");
-    });
-}
-
-// Keys of earlier versions, which are ignored with a notice.
-constexpr std::string_view kFormerKeys[] = {"numerics.step_tolerance"};
-
-bool is_former_key(const std::string& path) {
-    return std::ranges::find(kFormerKeys, path) != std::end(kFormerKeys);
-}
-
-// Keys of earlier versions that have another name now.
-struct RenamedKey {
-    std::string_view section, former, current;
-};
-constexpr RenamedKey kRenamedKeys[] = {{"life", "marched_torques", "linear_torques"},
-                                       {"life", "marched_speeds", "linear_speeds"}};
-
-// Replaces a former name of a key by its current one, with a notice.
-void rename_former_key(StudyDraft& draft, const std::string& section, Entry& entry) {
-    for (const RenamedKey& key : kRenamedKeys) {
-        if (section == key.section && entry.name == key.former) {
-            draft.notices.push_back(
-                {entry.position.file, entry.position.line, section + "." + entry.name,
-                 "is the name of an earlier version", fmt::format("write {}", key.current)});
-            entry.name = key.current;
-        }
-    }
-}
-
 // `prefix`: name of the table within the section and a dot, or empty.
 void read_entries(StudyDraft& draft, const std::string& section, const std::string& prefix,
                   const std::vector<Entry>& entries) {
     for (Entry entry : entries) {
         entry.name = prefix + entry.name;
-        rename_former_key(draft, section, entry);
-        const Key* key = find_key(section, entry.name);
-        if (key != nullptr && draft.is_given(key->path())) {
-            draft.reject(entry.position, key->path(), "is also given by its earlier name",
-                         "remove one of them");
-        } else if (key != nullptr) {
+        if (const Key* key = find_key(section, entry.name)) {
             read_value(draft, *key, entry);
-        } else if (const std::string path = section + "." + entry.name; is_former_key(path)) {
-            draft.notices.push_back({entry.position.file, entry.position.line, path,
-                                     "belongs to an earlier version and is ignored", "remove it"});
-        } else if (!is_subsection(section, entry.name)) {
+        } else if (!is_table(section + "." + entry.name)) {
             reject_unknown_key(draft, "", section, entry);
         } else if (entry.value.kind == Value::Kind::table) {
+            draft.sections[section + "." + entry.name] = entry.value.position;
             read_entries(draft, section, entry.name + ".", entry.value.entries);
         } else {
             draft.reject(entry.position, section + "." + entry.name,
@@ -100,11 +60,16 @@ void read_title(StudyDraft& draft, const Entry& entry) {
 // Rejects a top-level name that is no section: a key outside its section, or a misspelling.
 void reject_unknown_section(StudyDraft& draft, const Entry& entry) {
     for (const Key& key : schema()) {
-        if (key.name == entry.name) {
+        if (key.label() == entry.name) {
             draft.reject(entry.position, entry.name, "unknown section",
-                         fmt::format("the key belongs in [{}]", key.section));
+                         fmt::format("the key belongs in [{}]", key.table()));
             return;
         }
+    }
+    if (const std::string table = "gearbox." + entry.name; is_table(table)) {
+        draft.reject(entry.position, entry.name, "unknown section",
+                     fmt::format("write [{}]", table));
+        return;
     }
     const auto names = section_names();
     std::vector<std::string_view> candidates(names.begin(), names.end());
@@ -299,10 +264,13 @@ StudyReading read_study_text(const std::string& text, const std::string& name,
     if (!problems.empty()) {
         return {std::nullopt, std::move(problems)};
     }
+    FormerKeys former;
+    former.replace(document, problems);
     for (const std::string& assignment : overrides) {
-        apply_override(document, assignment, problems);
+        apply_override(document, former.replace(assignment), problems);
     }
-    Problems notices;
+    former.replace(document, problems);
+    Problems notices = former.notices();
     for (const std::string& key : drop_overridden_random(document)) {
         notices.push_back(lost_scatter(key));
     }

@@ -113,15 +113,12 @@ class ValueText {
     const Key& key_;
 };
 
-std::string section_text(const Study& study, std::string_view section) {
+std::string table_text(const Study& study, const KeyTable& table) {
     std::string text;
-    for (const Key& key : schema()) {
-        if (key.section != section || key.presence(study).need == Need::forbidden) {
-            continue;
-        }
-        const std::string value = std::visit(ValueText(study, key), key.access);
-        if (!value.empty()) {
-            text += fmt::format("{} = {}\n", key.name, value);
+    for (const Key* key : table.keys) {
+        if (key->presence(study).need != Need::forbidden) {
+            const std::string value = std::visit(ValueText(study, *key), key->access);
+            text += value.empty() ? "" : fmt::format("{} = {}\n", key->label(), value);
         }
     }
     return text;
@@ -147,11 +144,11 @@ std::string resolved_text(const Study& study) {
     std::string text =
         study.title.empty() ? "" : fmt::format("title = {}\n\n", quoted_text(study.title));
     std::string gap;
-    for (const std::string_view section : section_names()) {
+    for (const KeyTable& table : key_tables()) {
         const std::string body =
-            section == "random" ? random_text(study) : section_text(study, section);
+            table.name == "random" ? random_text(study) : table_text(study, table);
         if (!body.empty()) {
-            text += fmt::format("{}[{}]\n{}", gap, section, body);
+            text += fmt::format("{}[{}]\n{}", gap, table.name, body);
             gap = "\n";
         }
     }

@@ -150,7 +150,7 @@ void check_bearing(StudyDraft& draft, const char* key, const std::string& which,
                values.bearing_stiffness_N_m == 0.0 && values.bearing_damping_N_s_m == 0.0) {
         draft.reject(key,
                      fmt::format("{}needs the force in the bearing of the {}, which has neither "
-                                 "stiffness nor damping (gearbox.{}_bearing_stiffness_N_m)",
+                                 "stiffness nor damping (gearbox.{}.bearing_stiffness_N_m)",
                                  which, shaft, shaft),
                      "remove it");
     }

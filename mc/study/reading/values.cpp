@@ -6,25 +6,12 @@
 #include "mc/files/signal_file.hpp"
 #include "mc/study/distributions/range.hpp"
 #include "mc/study/elements/file_column.hpp"
+#include "mc/study/reading/former_keys.hpp"
 #include "mc/study/reading/parts.hpp"
 #include "mc/study/reading/python_list.hpp"
 
 namespace gearpod::mc {
 namespace {
-
-// Spellings of values in earlier versions, which are still accepted.
-struct FormerSpelling {
-    std::string_view key, former, current;
-};
-constexpr FormerSpelling kFormerSpellings[] = {{"numerics.horizon", "reuse", "periodic"},
-                                               {"numerics.horizon", "superpose", "superposed"},
-                                               {"numerics.horizon", "march", "full"}};
-
-// Values of earlier versions that are refused, each with the value to use instead.
-constexpr FormerSpelling kRemovedValues[] = {
-    {"numerics.integrator", "bs3", "rk4"},
-    {"numerics.integrator", "bathe", "sdirk3"},
-    {"numerics.integrator", "generalized-alpha", "sdirk3"}};
 
 class ValueReader {
   public:
@@ -63,12 +50,10 @@ class ValueReader {
                 return;
             }
         }
-        for (const FormerSpelling& removed : kRemovedValues) {
-            if (key_.path() == removed.key && text == removed.former) {
-                reject(fmt::format("\"{}\" of an earlier version was removed", text),
-                       fmt::format("use \"{}\"", removed.current));
-                return;
-            }
+        if (const FormerValue* former = former_value(key_.path(), text)) {
+            reject(fmt::format("\"{}\" of an earlier version was removed", text),
+                   fmt::format("use \"{}\"", former->current));
+            return;
         }
         const std::string choices = fmt::format("use one of \"{}\"", fmt::join(names, "\", \""));
         if (value_.kind != Value::Kind::text) {
@@ -200,17 +185,18 @@ class ValueReader {
 
     // Text of the value. A former spelling is replaced, with a notice.
     std::string current_spelling() {
-        for (const FormerSpelling& spelling : kFormerSpellings) {
-            if (value_.kind == Value::Kind::text && key_.path() == spelling.key &&
-                value_.text == spelling.former) {
-                draft_.notices.push_back(
-                    {at_.file, at_.line, key_.path(),
-                     fmt::format("\"{}\" is the spelling of an earlier version", value_.text),
-                     fmt::format("write \"{}\"", spelling.current)});
-                return std::string(spelling.current);
-            }
+        if (value_.kind != Value::Kind::text) {
+            return "";
         }
-        return value_.kind == Value::Kind::text ? value_.text : "";
+        const FormerValue* former = former_value(key_.path(), value_.text);
+        if (former == nullptr || former->removed) {
+            return value_.text;
+        }
+        draft_.notices.push_back(
+            {at_.file, at_.line, key_.path(),
+             fmt::format("\"{}\" is the spelling of an earlier version", value_.text),
+             fmt::format("write \"{}\"", former->current)});
+        return std::string(former->current);
     }
 
     RejectElement rejection() {

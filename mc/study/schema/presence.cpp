@@ -46,7 +46,7 @@ Presence with(bool needed, std::string_view because, std::string_view only,
 Presence with_gears(const Study& s, std::string_view otherwise) {
     return only_if(
         has_gears(s), otherwise,
-        {"gearbox.module_mm", "gearbox.sun_teeth", "gearbox.planet_teeth", "gearbox.ring_teeth"});
+        {"gearbox.module_mm", "gearbox.sun.teeth", "gearbox.planet.teeth", "gearbox.ring.teeth"});
 }
 
 }  // namespace
@@ -99,7 +99,7 @@ Presence may(const Study&) {
     return kOptional;
 }
 
-Presence of_kind(const Study& s, GearboxKind kind, Presence (*rule)(const Study&)) {
+Presence of_kind(const Study& s, GearboxKind kind, const PresenceRule& rule) {
     if (s.gearbox.kind != kind) {
         return {Need::forbidden,
                 kind == GearboxKind::planetary ? "only for gearbox.kind = \"planetary\""
@@ -115,6 +115,9 @@ Presence of_kind(const Study& s, GearboxKind kind, Presence (*rule)(const Study&
 }
 
 Presence tooth_numbers(const Study& s) {
+    if (s.gearbox.kind == GearboxKind::fixed_shaft) {
+        return {Need::required, "", {}};
+    }
     return required_if(!is(s, StiffnessSource::constant),
                        "gearbox.tooth_profile is not \"constant\"", {kProfile});
 }
@@ -141,12 +144,40 @@ Presence flank_gaps(const Study& s) {
     return only_if(has_flank_gaps(s), "only with relief, crowning or an extended contact_onset");
 }
 
-Presence relief_length(const Study& s, Member member, std::string_view end) {
-    const MemberValues& body = s.gearbox.bodies[member];
-    const auto& amount = end == "tip" ? body.tip_relief_m : body.root_relief_m;
-    const std::string key = fmt::format("gearbox.{}_{}_relief_um", member_name(member), end);
-    return only_if(amount.has_value(), "only with " + key, {},
-                   required_if(amount > 0.0, key + " is given"));
+namespace {
+
+// Required if the amount is given and not 0. `amount`: its key in the member's table.
+Presence relief_length(Member member, const std::optional<double>& given, std::string_view amount) {
+    const std::string key = member_key(member, amount);
+    return only_if(given.has_value(), "only with " + key, {},
+                   required_if(given > 0.0, key + " is given"));
+}
+
+// Required if `other`, its key in the member's table, is given.
+Presence blank_part(const Study& s, Member member, const std::optional<double>& given,
+                    std::string_view other) {
+    return only_if(s.effects.foundation != Foundation::none && !stiffness_given(s),
+                   "only for elastic gear bodies, but effects.foundation is \"none\"",
+                   {"effects.foundation"},
+                   required_if(given.has_value(), member_key(member, other) + " is given"));
+}
+
+}  // namespace
+
+Presence tip_relief_length(const Study& s, Member member) {
+    return relief_length(member, s.gearbox.bodies[member].tip_relief_m, "tip_relief_um");
+}
+
+Presence root_relief_length(const Study& s, Member member) {
+    return relief_length(member, s.gearbox.bodies[member].root_relief_m, "root_relief_um");
+}
+
+Presence rim(const Study& s, Member member) {
+    return blank_part(s, member, s.gearbox.bodies[member].web_m, "web_mm");
+}
+
+Presence web(const Study& s, Member member) {
+    return blank_part(s, member, s.gearbox.bodies[member].rim_m, "rim_mm");
 }
 
 Presence tooth_body(const Study& s) {
@@ -181,17 +212,6 @@ Presence ring_foundation(const Study& s) {
     // Sainsot's formula is fitted to external gears only.
     return required_if(s.effects.foundation == Foundation::elastic_ring && !stiffness_given(s),
                        "effects.foundation is \"elastic-ring\"", {"effects.foundation"});
-}
-
-Presence blank_part(const Study& s, Member member, BlankPart part) {
-    const MemberValues& body = s.gearbox.bodies[member];
-    const bool rim = part == BlankPart::rim;
-    return only_if(
-        s.effects.foundation != Foundation::none && !stiffness_given(s),
-        "only for elastic gear bodies, but effects.foundation is \"none\"", {"effects.foundation"},
-        required_if(
-            (rim ? body.web_m : body.rim_m).has_value(),
-            fmt::format("gearbox.{}_{}_mm is given", member_name(member), rim ? "web" : "rim")));
 }
 
 Presence backlash(const Study& s) {
@@ -254,7 +274,8 @@ Presence mass(const Study& s) {
 }
 
 Presence inertia(const Study& s) {
-    return only_if(s.gearbox.has_teeth() && s.gearbox.transverse_module_m(),
+    return only_if(s.gearbox.kind == GearboxKind::fixed_shaft ||
+                       (s.gearbox.has_teeth() && s.gearbox.transverse_module_m()),
                    "the radius is unknown without tooth numbers and module", {kProfile});
 }
 

@@ -15,7 +15,7 @@ Presence curve_needs(const Study&);  // required with a growth curve, else forbi
 Presence with_curve(const Study&);
 
 // Key of one kind of gearbox only; for that kind `rule` decides.
-Presence of_kind(const Study&, GearboxKind kind, Presence (*rule)(const Study&));
+Presence of_kind(const Study&, GearboxKind kind, const PresenceRule& rule);
 template <Presence (*Rule)(const Study&)>
 Presence planetary(const Study& s) {
     return of_kind(s, GearboxKind::planetary, Rule);
@@ -25,16 +25,9 @@ Presence fixed_shaft(const Study& s) {
     return of_kind(s, GearboxKind::fixed_shaft, Rule);
 }
 
-// Length of a member's relief: required if the amount is given and not 0.
-Presence relief_length(const Study&, Member member, std::string_view end);
-template <Member kMember>
-Presence tip_relief_length(const Study& s) {
-    return relief_length(s, kMember, "tip");
-}
-template <Member kMember>
-Presence root_relief_length(const Study& s) {
-    return relief_length(s, kMember, "root");
-}
+// Lengths of a member's reliefs: required if the amount is given and not 0.
+Presence tip_relief_length(const Study&, Member member);
+Presence root_relief_length(const Study&, Member member);
 
 Presence tooth_numbers(const Study&);  // unless the stiffness is constant
 Presence tooth_module(const Study&);   // as tooth_numbers(); a fixed-shaft gearbox always needs it
@@ -49,12 +42,8 @@ Presence foundation(const Study&);          // required if gear bodies are elast
 Presence ring_foundation(const Study&);     // required if rings are elastic
 // Rim and web of a member's gear blank: each one requires the other; forbidden where gear bodies
 // are rigid.
-enum class BlankPart { rim, web };
-Presence blank_part(const Study&, Member member, BlankPart part);
-template <Member kMember, BlankPart kPart>
-Presence blank(const Study& s) {
-    return blank_part(s, kMember, kPart);
-}
+Presence rim(const Study&, Member member);
+Presence web(const Study&, Member member);
 Presence backlash(const Study&);       // only for two-sided separation
 Presence tooth_quality(const Study&);  // only if the gears are known
 Presence bearings_move(const Study&);  // only where planets move on their bearings

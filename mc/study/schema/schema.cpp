@@ -14,13 +14,35 @@ namespace gearpod::mc {
 std::span<const Key> schema() {
     static const std::vector<Key> keys = [] {
         std::vector<Key> all;
-        for (const auto table : {gearbox_keys(), mesh_damping_keys(), mesh_keys(), operation_keys(),
-                                 fault_keys(), run_keys()}) {
+        for (const auto table : {gearbox_keys(), operation_keys(), fault_keys(), run_keys()}) {
             all.insert(all.end(), table.begin(), table.end());
         }
         return all;
     }();
     return keys;
+}
+
+const std::vector<KeyTable>& key_tables() {
+    static const std::vector<KeyTable> tables = [] {
+        std::vector<KeyTable> all;
+        for (const std::string_view section : section_names()) {
+            const auto first = all.insert(all.end(), {std::string(section), {}}) - all.begin();
+            for (const Key& key : schema()) {
+                if (key.section == section) {
+                    const auto found = std::ranges::find(all.begin() + first, all.end(),
+                                                         key.table(), &KeyTable::name);
+                    (found == all.end() ? all.emplace_back(key.table()) : *found)
+                        .keys.push_back(&key);
+                }
+            }
+        }
+        return all;
+    }();
+    return tables;
+}
+
+bool is_table(std::string_view name) {
+    return std::ranges::find(key_tables(), name, &KeyTable::name) != key_tables().end();
 }
 
 std::span<const std::string_view> section_names() {
@@ -107,22 +129,20 @@ bool begins_word(std::string_view text, std::string_view word) {
 
 std::string schema_help(std::string_view word) {
     std::string text;
-    std::string_view section;
-    for (const Key& key : schema()) {
-        if (!begins_word(key.section, word) && !begins_word(key.name, word) &&
-            !begins_word(key.doc, word)) {
-            continue;
+    for (const KeyTable& table : key_tables()) {
+        std::string body;
+        for (const Key* key : table.keys) {
+            if (!begins_word(key->path(), word) && !begins_word(key->doc, word)) {
+                continue;
+            }
+            const std::string range = key->range.text();
+            body += fmt::format("  {}\n", key->label()) +
+                    wrapped(fmt::format("{}{}{}; {}", std::visit(KindText{}, key->access),
+                                        range.empty() ? "" : " " + range,
+                                        key->may_be_random() ? ", may be random" : "", key->doc),
+                            6);
         }
-        if (key.section != section) {
-            section = key.section;
-            text += fmt::format("[{}]\n", section);
-        }
-        const std::string range = key.range.text();
-        text += fmt::format("  {}\n", key.name) +
-                wrapped(fmt::format("{}{}{}; {}", std::visit(KindText{}, key.access),
-                                    range.empty() ? "" : " " + range,
-                                    key.may_be_random() ? ", may be random" : "", key.doc),
-                        6);
+        text += body.empty() ? "" : fmt::format("[{}]\n{}", table.name, body);
     }
     bool random = false;
     for (const DistributionHelp& distribution : distribution_help()) {

@@ -4,6 +4,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "mc/study/keys/key.hpp"
 #include "mc/study/study.hpp"
@@ -11,9 +12,7 @@
 namespace gearpod::mc {
 
 // Tables in the order in which their keys are shown.
-std::span<const Key> gearbox_keys();  // without the following two
-std::span<const Key> mesh_damping_keys();
-std::span<const Key> mesh_keys();
+std::span<const Key> gearbox_keys();
 std::span<const Key> operation_keys();
 std::span<const Key> fault_keys();
 std::span<const Key> run_keys();
@@ -24,6 +23,15 @@ std::span<const Key> run_keys();
 
 // All keys in the order in which they are shown.
 std::span<const Key> schema();
+
+// Tables of a study file in the order in which they are shown, each with its keys: "gearbox", then
+// "gearbox.sun" and the like.
+struct KeyTable {
+    std::string name;
+    std::vector<const Key*> keys;
+};
+const std::vector<KeyTable>& key_tables();
+bool is_table(std::string_view name);
 
 // Names of all sections in order, including "random".
 std::span<const std::string_view> section_names();

@@ -1,0 +1,210 @@
+#include "mc/study/reading/former_keys.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+#include <utility>
+
+#include "mc/files/input/find_in.hpp"
+#include "mc/study/schema/schema.hpp"
+
+namespace gearpod::mc {
+namespace {
+
+// Keys with another name now, in addition to the keys of members and meshes.
+constexpr std::pair<std::string_view, std::string_view> kRenamed[] = {
+    {"life.marched_torques", "life.linear_torques"}, {"life.marched_speeds", "life.linear_speeds"}};
+
+// Removed keys, as they were spelled without tables; * stands for any member or mesh.
+enum class Ignored { never, if_zero, always };
+struct RemovedKey {
+    std::string_view path;
+    Ignored ignored;  // values without effect; studies stored in results state them
+    std::string_view remedy;
+};
+constexpr RemovedKey kRemoved[] = {{"numerics.step_tolerance", Ignored::always, "remove it"}};
+
+constexpr FormerValue kFormerValues[] = {
+    {"numerics.horizon", "reuse", "periodic", false},
+    {"numerics.horizon", "superpose", "superposed", false},
+    {"numerics.horizon", "march", "full", false},
+    {"numerics.integrator", "bs3", "rk4", true},
+    {"numerics.integrator", "bathe", "sdirk3", true},
+    {"numerics.integrator", "generalized-alpha", "sdirk3", true}};
+
+// Former spelling of every renamed key.
+const std::map<std::string, std::string, std::less<>>& renamed_keys() {
+    static const std::map<std::string, std::string, std::less<>> keys = [] {
+        std::map<std::string, std::string, std::less<>> all(std::begin(kRenamed),
+                                                            std::end(kRenamed));
+        for (const Key& key : schema()) {
+            if (key.section == "gearbox" && key.name.find('.') != std::string::npos) {
+                all.emplace(flat_path(key.path()), key.path());
+            }
+        }
+        return all;
+    }();
+    return keys;
+}
+
+bool matches(std::string_view pattern, std::string_view path) {
+    const std::size_t star = pattern.find('*');
+    if (star == std::string_view::npos) {
+        return path == pattern;
+    }
+    const std::string_view front = pattern.substr(0, star), back = pattern.substr(star + 1);
+    return path.size() > front.size() + back.size() && path.starts_with(front) &&
+           path.ends_with(back);
+}
+
+bool has_no_effect(const RemovedKey& key, const Value& value) {
+    const bool number = value.kind == Value::Kind::integer || value.kind == Value::Kind::number;
+    return key.ignored == Ignored::always ||
+           (key.ignored == Ignored::if_zero && number && value.number == 0.0);
+}
+
+// Entry of that path below a table, created if absent; nullptr if another value is in the way.
+Entry* entry_at(Value& table, const std::vector<std::string>& path, const Position& position) {
+    Value* parent = &table;
+    for (std::size_t i = 0;; ++i) {
+        if (parent->kind != Value::Kind::table) {
+            return nullptr;
+        }
+        Entry* entry = find_in(parent->entries, path[i], &Entry::name);
+        if (entry == nullptr) {
+            const auto next = std::ranges::upper_bound(parent->entries, path[i], {}, &Entry::name);
+            entry = &*parent->entries.insert(next, {path[i], {}, position});
+            entry->value.position = position;
+        } else if (i + 1 == path.size()) {
+            return nullptr;
+        }
+        if (i + 1 == path.size()) {
+            return entry;
+        }
+        parent = &entry->value;
+    }
+}
+
+}  // namespace
+
+std::string current_path(const std::string& path) {
+    const std::string_view random = "random.";
+    const std::size_t start = path.starts_with(random) ? random.size() : 0;
+    const std::size_t dot = path.find('.', start);
+    const std::size_t end =
+        dot == std::string::npos ? path.size() : std::min(path.find('.', dot + 1), path.size());
+    const auto found = renamed_keys().find(path.substr(start, end - start));
+    return found == renamed_keys().end() ? path
+                                         : path.substr(0, start) + found->second + path.substr(end);
+}
+
+const FormerValue* former_value(std::string_view key, std::string_view value) {
+    const auto found = std::ranges::find_if(kFormerValues, [&](const FormerValue& one) {
+        return one.key == key && one.former == value;
+    });
+    return found == std::end(kFormerValues) ? nullptr : found;
+}
+
+std::string FormerKeys::renamed(const std::string& path, const Position& position) {
+    std::string current = current_path(path);
+    if (current != path) {
+        renamed_.push_back({position, path, current});
+    }
+    return current;
+}
+
+// `prefix`: path of the section and a dot.
+void FormerKeys::rename(Value& section, const std::string& prefix, Problems& problems) {
+    std::vector<Entry> moved;
+    std::erase_if(section.entries, [&](Entry& entry) {
+        const std::string path = prefix + entry.name;
+        const std::string key = path.starts_with("random.") ? path.substr(7) : path;
+        const Position& at = entry.position;
+        for (const RemovedKey& removed : kRemoved) {
+            if (matches(removed.path, flat_path(key))) {
+                const bool ignored = has_no_effect(removed, entry.value);
+                (ignored ? ignored_ : problems)
+                    .push_back(
+                        {at.file, at.line, path,
+                         ignored ? "belongs to an earlier version and is ignored" : "was removed",
+                         ignored ? "remove it" : std::string(removed.remedy)});
+                return true;
+            }
+        }
+        if (is_table(key)) {
+            rename(entry.value, path + ".", problems);
+        }
+        if (current_path(path) == path) {
+            return false;
+        }
+        moved.push_back(std::move(entry));
+        return true;
+    });
+    for (Entry& entry : moved) {
+        const std::string path = prefix + entry.name, current = renamed(path, entry.position);
+        Entry* target =
+            entry_at(section, split(current.substr(prefix.size()), '.'), entry.position);
+        if (target == nullptr) {
+            problems.push_back({entry.position.file, entry.position.line, path,
+                                fmt::format("is also given as {}", current), "remove one of them"});
+        } else {
+            target->value = std::move(entry.value);
+        }
+    }
+}
+
+void FormerKeys::replace(Value& document, Problems& problems) {
+    for (Entry& section : document.entries) {
+        if (section.name != "random") {
+            rename(section.value, section.name + ".", problems);
+            continue;
+        }
+        for (Entry& inner : section.value.entries) {
+            rename(inner.value, "random." + inner.name + ".", problems);
+        }
+    }
+    // Lists of keys.
+    const auto rename_texts = [&](Value& table, std::string_view name) {
+        if (Entry* list = find_in(table.entries, name, &Entry::name)) {
+            for (Value& element : list->value.elements) {
+                element.text = renamed(element.text, element.position);
+            }
+        }
+    };
+    for (Entry& section : document.entries) {
+        if (section.name == "detection") {
+            rename_texts(section.value, "uncertain_inputs");
+        }
+        if (Entry* pairs = find_in(section.value.entries, "correlations", &Entry::name)) {
+            for (Value& pair : pairs->value.elements) {
+                rename_texts(pair, "between");
+            }
+        }
+    }
+}
+
+std::string FormerKeys::replace(const std::string& assignment) {
+    const std::size_t end = assignment.find_first_of("= \t");
+    return renamed(assignment.substr(0, end), {std::string(kOverrideFile), 0}) +
+           (end == std::string::npos ? "" : assignment.substr(end));
+}
+
+Problems FormerKeys::notices() const {
+    Problems all = ignored_;
+    if (!renamed_.empty()) {
+        const Use& first = renamed_.front();
+        const std::size_t dot = first.current.rfind('.');
+        all.push_back(
+            {first.position.file, first.position.line, first.path,
+             "is the spelling of an earlier version",
+             fmt::format(
+                 "write {} in [{}]{}", first.current.substr(dot + 1), first.current.substr(0, dot),
+                 renamed_.size() == 1
+                     ? ""
+                     : fmt::format(", and {} more keys in the same way", renamed_.size() - 1))});
+    }
+    return all;
+}
+
+}  // namespace gearpod::mc
