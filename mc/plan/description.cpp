@@ -607,9 +607,7 @@ class Describer {
         std::vector<std::string> parts;
         for (const auto& [list, what] :
              {std::pair{&p.pin_tangential_m, "tangential pin errors"},
-              std::pair{&p.pin_radial_m, "radial pin errors"},
-              std::pair{&p.bearing_stiffness, "bearing stiffness"},
-              std::pair{&p.bearing_damping, "bearing damping"}, std::pair{&p.mass, "masses"}}) {
+              std::pair{&p.pin_radial_m, "radial pin errors"}}) {
             if (!list->empty()) {
                 parts.push_back(fmt::format("{} given", what));
             }
@@ -620,11 +618,6 @@ class Describer {
         add("gearbox.pin_tangential_rms_um", 1e6 * p.pin_tangential_rms_m, " um rms",
             "tangential pin errors");
         add("gearbox.pin_radial_rms_um", 1e6 * p.pin_radial_rms_m, " um rms", "radial pin errors");
-        add("gearbox.planet_bearing_stiffness_scatter", p.bearing_stiffness_scatter, "",
-            "bearing stiffness scatter");
-        add("gearbox.planet_bearing_damping_scatter", p.bearing_damping_scatter, "",
-            "bearing damping scatter");
-        add("gearbox.planet_mass_scatter", p.mass_scatter, "", "mass scatter");
         return fmt::format("{}", fmt::join(parts, "; "));
     }
 

@@ -66,9 +66,6 @@ Planets given_planets(const Study& study) {
     const PlanetDifferences& given = study.planets;
     Planets planets;
     for (std::size_t n = 0; n < planets.size(); ++n) {
-        planets[n] = {of_planet(given.bearing_stiffness, n, 1.0),
-                      of_planet(given.bearing_damping, n, 1.0), of_planet(given.mass, n, 1.0), 0.0,
-                      0.0};
         if (!given.pin_tangential_m.empty() || !given.pin_radial_m.empty()) {
             move_pin(angle_of(study.gearbox, n), of_planet(given.pin_tangential_m, n, 0.0),
                      of_planet(given.pin_radial_m, n, 0.0), planets[n]);
@@ -273,22 +270,14 @@ PlanetScatter::PlanetScatter(const Gearbox& gearbox, DrawnPer pin_owner) : pins(
 }
 
 void add_random_planets(const PlanetScatter& scatter, const InputValues& values,
-                        std::function<double()> normal, std::function<double()> normal_of_pins,
-                        Planets& planets) {
+                        std::function<double()> normal, Planets& planets) {
     const double tangential_m = values.or_0<"gearbox.pin_tangential_rms_um">(),
-                 radial_m = values.or_0<"gearbox.pin_radial_rms_um">(),
-                 stiffness = values.or_0<"gearbox.planet_bearing_stiffness_scatter">(),
-                 damping = values.or_0<"gearbox.planet_bearing_damping_scatter">(),
-                 mass = values.or_0<"gearbox.planet_mass_scatter">();
+                 radial_m = values.or_0<"gearbox.pin_radial_rms_um">();
     for (std::size_t n = 0; n < scatter.angles_rad.size(); ++n) {
-        std::array<double, 5> of_bodies{}, of_pins{};
-        std::ranges::generate(of_bodies, std::ref(normal));
-        std::ranges::generate(of_pins, std::ref(normal_of_pins));
-        move_pin(scatter.angles_rad[n], tangential_m * of_pins[0], radial_m * of_pins[1],
+        std::array<double, 5> variates{};
+        std::ranges::generate(variates, std::ref(normal));
+        move_pin(scatter.angles_rad[n], tangential_m * variates[0], radial_m * variates[1],
                  planets[n]);
-        planets[n].bearing_stiffness *= std::exp(stiffness * of_bodies[2]);
-        planets[n].bearing_damping *= std::exp(damping * of_bodies[3]);
-        planets[n].mass *= std::exp(mass * of_bodies[4]);
     }
 }
 

@@ -155,10 +155,9 @@ struct PlanetScatter {
     std::vector<double> angles_rad;  // of the planets on the carrier
     DrawnPer pins;                   // position errors of the pins
 };
-// Adds them to the planets of one gearbox. Always takes five standard normal variates per planet
-// from both sources, whatever the values; positions of pins follow from `normal_of_pins`.
+// Adds them to the planets of one gearbox. Takes five standard normal variates per planet, whatever
+// the values; the first two move its pin.
 void add_random_planets(const PlanetScatter& scatter, const InputValues& values,
-                        std::function<double()> normal, std::function<double()> normal_of_pins,
-                        Planets& planets);
+                        std::function<double()> normal, Planets& planets);
 
 }  // namespace gearpod::mc

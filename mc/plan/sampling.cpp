@@ -75,11 +75,10 @@ Realization Sampler::draw(const GearboxId& id, std::span<const GivenInput> given
     InstanceInputs& inputs = realization.inputs;
     inputs = instance_inputs(plan_.recipe, values);
     if (plan_.planets) {
-        const auto normals = [&](DrawnPer per) {
-            return Normals::of_record(plan_.seed, owner(id, per), StreamPurpose::planets);
-        };
-        add_random_planets(*plan_.planets, values, normals(DrawnPer::gearbox),
-                           normals(plan_.planets->pins), inputs.planets);
+        add_random_planets(
+            *plan_.planets, values,
+            Normals::of_record(plan_.seed, owner(id, plan_.planets->pins), StreamPurpose::planets),
+            inputs.planets);
     }
     if (id.record == Record::baseline) {
         inputs.fault_size = 0.0;

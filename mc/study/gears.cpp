@@ -143,20 +143,12 @@ bool has_tooth_errors(const Study& study) {
 bool has_random_planets(const Study& study) {
     const PlanetDifferences& p = study.planets;
     return p.pin_tangential_rms_m > 0.0 || p.pin_radial_rms_m > 0.0 ||
-           p.bearing_stiffness_scatter > 0.0 || p.bearing_damping_scatter > 0.0 ||
-           p.mass_scatter > 0.0 ||
-           any_random(study,
-                      {"gearbox.pin_tangential_rms_um", "gearbox.pin_radial_rms_um",
-                       "gearbox.planet_bearing_stiffness_scatter",
-                       "gearbox.planet_bearing_damping_scatter", "gearbox.planet_mass_scatter"});
+           any_random(study, {"gearbox.pin_tangential_rms_um", "gearbox.pin_radial_rms_um"});
 }
 
 bool has_unequal_planets(const Study& study) {
     const PlanetDifferences& p = study.planets;
-    const auto lists = {&p.pin_tangential_m, &p.pin_radial_m, &p.bearing_stiffness,
-                        &p.bearing_damping, &p.mass};
-    return has_random_planets(study) ||
-           std::any_of(lists.begin(), lists.end(), [](const auto* list) { return !list->empty(); });
+    return has_random_planets(study) || !p.pin_tangential_m.empty() || !p.pin_radial_m.empty();
 }
 
 bool stiffness_given(const Study& study) {

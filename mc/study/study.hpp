@@ -289,10 +289,7 @@ struct ToothErrors {
 // random.
 struct PlanetDifferences {
     std::vector<double> pin_tangential_m, pin_radial_m;  // deviations from the nominal positions
-    std::vector<double> bearing_stiffness, bearing_damping, mass;  // factors
     double pin_tangential_rms_m = 0.0, pin_radial_rms_m = 0.0;     // of normal distributions
-    // Standard deviations of the factors' logarithms, which are normal.
-    double bearing_stiffness_scatter = 0.0, bearing_damping_scatter = 0.0, mass_scatter = 0.0;
 
     bool operator==(const PlanetDifferences&) const = default;
 };

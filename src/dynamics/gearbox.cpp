@@ -1,5 +1,6 @@
 #include "dynamics/gearbox.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "dynamics/gearbox_matrices.hpp"
@@ -134,7 +135,7 @@ GearboxMatrices without_meshes(const GearboxLayout& layout, const GearboxInputs&
 Eigen::MatrixX2d planetary_weight(const PlanetaryLayout& layout, const PlanetaryInputs& in) {
     Eigen::MatrixX2d weight = Eigen::MatrixX2d::Zero(layout.motions(), 2);
     for (int i = 0; i < 3 + layout.planets; ++i) {
-        const double mass = i < planet ? in.mass_kg[i] : in.planet_mass_kg(i - planet);
+        const double mass = in.mass_kg[std::min(i, static_cast<int>(planet))];
         weight(3 * i, 0) = weight(3 * i + 1, 1) = mass;
     }
     return motions_from_degrees(layout).transpose() * weight;

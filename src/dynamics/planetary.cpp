@@ -28,7 +28,7 @@ void add_inertial_terms(GearboxMatrices& m, const PlanetaryLayout& layout,
         m.centrifugal(3 * i + 1, 3 * i + 1) = -mass * w * w;
     }
     for (int n = 0; n < layout.planets; ++n) {
-        const double pull = inputs.planet_mass_kg(n) * layout.carrier_radius_m * w * w;
+        const double pull = inputs.mass_kg[planet] * layout.carrier_radius_m * w * w;
         m.force(motion_index(planet, n)) += pull * std::cos(layout.planet_angle(n));
         m.force(motion_index(planet, n) + 1) += pull * std::sin(layout.planet_angle(n));
     }
@@ -39,7 +39,7 @@ void add_pin_forces(GearboxMatrices& m, const PlanetaryLayout& layout,
                     const PlanetaryInputs& inputs) {
     for (int n = 0; n < layout.planets; ++n) {
         const PlanetDeviations& deviations = inputs.planet_deviations[n];
-        const double k = deviations.bearing_stiffness * inputs.bearing_stiffness_N_m[planet];
+        const double k = inputs.bearing_stiffness_N_m[planet];
         m.force += k * deviations.pin_x_m * planet_bearing_row(layout, n, 0) +
                    k * deviations.pin_y_m * planet_bearing_row(layout, n, 1);
     }
@@ -122,7 +122,7 @@ DampingTerms mesh_damping(const PlanetaryLayout& layout, const PlanetaryInputs& 
                           PairId pair) {
     const int central = pair < layout.planets ? sun : ring;
     return mesh_damping_terms(layout.mesh_damping, inputs.mesh_damping, inputs.mass_kg[central],
-                              inputs.planet_mass_kg(pair % layout.planets));
+                              inputs.mass_kg[planet]);
 }
 
 std::vector<SpringDamper> spring_dampers(const PlanetaryLayout& layout,
@@ -145,10 +145,8 @@ std::vector<SpringDamper> spring_dampers(const PlanetaryLayout& layout,
         for (int axis : {0, 1}) {
             springs.push_back({fmt::format("planet {}'s bearing", n + 1),
                                planet_bearing_row(layout, n, axis),
-                               inputs.planet_deviations[n].bearing_stiffness *
-                                   inputs.bearing_stiffness_N_m[planet],
-                               inputs.planet_deviations[n].bearing_damping *
-                                   inputs.bearing_damping_N_s_m[planet]});
+                               inputs.bearing_stiffness_N_m[planet],
+                               inputs.bearing_damping_N_s_m[planet]});
         }
         for (const PairId pair : {sun_pair(PlanetId{n}), ring_pair(PlanetId{n}, layout.planets)}) {
             const double k = pair_stiffness_N_m[pair];
@@ -166,9 +164,8 @@ GearboxMatrices assemble(const PlanetaryLayout& layout, const PlanetaryInputs& i
     GearboxMatrices m = zero_matrices(layout.motions());
     for (int i = 0; i < 3 + layout.planets; ++i) {
         const int body = std::min(i, static_cast<int>(planet));
-        const double factor = i < planet ? 1.0 : inputs.planet_deviations[i - planet].mass;
-        m.mass(3 * i, 3 * i) = m.mass(3 * i + 1, 3 * i + 1) = factor * inputs.mass_kg[body];
-        m.mass(3 * i + 2, 3 * i + 2) = factor * inputs.inertia_over_r2_kg[body];
+        m.mass(3 * i, 3 * i) = m.mass(3 * i + 1, 3 * i + 1) = inputs.mass_kg[body];
+        m.mass(3 * i + 2, 3 * i + 2) = inputs.inertia_over_r2_kg[body];
     }
     for (int body : {carrier, ring, sun}) {
         m.force(3 * body + 2) = inputs.force_N[body];

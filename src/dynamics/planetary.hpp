@@ -78,12 +78,9 @@ struct PlanetaryLayout {
     }
 };
 
-// Individual deviations of a planet: factors on the properties of all planets, and the offset of
-// its pin from the nominal position in the carrier, m along the frame's x and y. The bearing is
-// unloaded at that offset.
+// Offset of a planet's pin from the nominal position in the carrier, m along the frame's x and y.
+// The bearing is unloaded at that offset.
 struct PlanetDeviations {
-    double bearing_stiffness = 1.0, bearing_damping = 1.0;
-    double mass = 1.0;  // and inertia
     double pin_x_m = 0.0, pin_y_m = 0.0;
 };
 
@@ -101,8 +98,6 @@ struct PlanetaryInputs {
     double backlash_m = kNoBackContact;  // 2b along the line of action; for separating meshes
     double force_N[3] = {};              // on u of carrier, ring, sun: torque / r
     PlanetDeviations planet_deviations[kMaxPlanets] = {};  // of planets 1..N
-
-    double planet_mass_kg(int n) const { return planet_deviations[n].mass * mass_kg[planet]; }
 };
 
 // Row vectors of the deflections over all 9 + 3N motions. Pairs are sp1..spN, rp1..rpN.

@@ -30,11 +30,7 @@ void set_directions(PlanetaryLanes<W, Real>& lanes, const PlanetaryLayout& layou
 
 // Mass of the planets, which the carrier moves in torsional motion.
 double planets_mass_kg(const PlanetaryLayout& layout, const PlanetaryInputs& in) {
-    double factors = 0.0;
-    for (int n = 0; n < layout.planets; ++n) {
-        factors += in.planet_deviations[n].mass;
-    }
-    return factors * in.mass_kg[planet];
+    return layout.planets * in.mass_kg[planet];
 }
 
 template <int W, class Real>
@@ -42,18 +38,14 @@ void set_lane(PlanetaryLanes<W, Real>& lanes, int l, const PlanetaryLayout& layo
               const PlanetaryInputs& in) {
     for (int i = 0; i < 3 + layout.planets; ++i) {
         const int body = std::min(i, static_cast<int>(planet));
-        const PlanetDeviations deviations =
-            i < planet ? PlanetDeviations{} : in.planet_deviations[i - planet];
-        double inertia = deviations.mass * in.inertia_over_r2_kg[body];
+        double inertia = in.inertia_over_r2_kg[body];
         if (layout.motion == Motion::torsional && body == carrier) {
             inertia += planets_mass_kg(layout, in);
         }
-        lanes.inverse_mass[i][l] = Real(1.0 / (deviations.mass * in.mass_kg[body]));
+        lanes.inverse_mass[i][l] = Real(1.0 / in.mass_kg[body]);
         lanes.inverse_inertia[i][l] = Real(1.0 / inertia);
-        lanes.bearing_stiffness[i][l] =
-            Real(deviations.bearing_stiffness * in.bearing_stiffness_N_m[body]);
-        lanes.bearing_damping[i][l] =
-            Real(deviations.bearing_damping * in.bearing_damping_N_s_m[body]);
+        lanes.bearing_stiffness[i][l] = Real(in.bearing_stiffness_N_m[body]);
+        lanes.bearing_damping[i][l] = Real(in.bearing_damping_N_s_m[body]);
     }
     for (int n = 0; n < layout.planets; ++n) {
         lanes.pin_x[n][l] = Real(in.planet_deviations[n].pin_x_m);

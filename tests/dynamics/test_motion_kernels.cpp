@@ -24,8 +24,7 @@ PlanetaryInputs random_inputs(std::mt19937& engine) {
         force = 1e4 * uniform(engine);
     }
     for (PlanetDeviations& own : in.planet_deviations) {
-        own = {uniform(engine), uniform(engine), uniform(engine), 1e-5 * uniform(engine),
-               -1e-5 * uniform(engine)};
+        own = {1e-5 * uniform(engine), -1e-5 * uniform(engine)};
     }
     return in;
 }

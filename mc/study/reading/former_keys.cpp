@@ -16,14 +16,22 @@ namespace {
 constexpr std::pair<std::string_view, std::string_view> kRenamed[] = {
     {"life.marched_torques", "life.linear_torques"}, {"life.marched_speeds", "life.linear_speeds"}};
 
-// Removed keys, as they were spelled without tables; * stands for any member or mesh.
+// Removed keys, as they were spelled without tables; * stands for any name.
 enum class Ignored { never, if_zero, always };
 struct RemovedKey {
     std::string_view path;
     Ignored ignored;  // values without effect; studies stored in results state them
     std::string_view remedy;
 };
-constexpr RemovedKey kRemoved[] = {{"numerics.step_tolerance", Ignored::always, "remove it"}};
+constexpr std::string_view kLikePlanets =
+    "planets are alike but for their pins: give pin_tangential_um or pin_radial_um in [gearbox]";
+constexpr RemovedKey kRemoved[] = {
+    {"numerics.step_tolerance", Ignored::always, "remove it"},
+    {"gearbox.planet_bearing_*_factors", Ignored::never, kLikePlanets},
+    {"gearbox.planet_bearing_*_scatter", Ignored::if_zero, kLikePlanets},
+    {"gearbox.planet_mass_factors", Ignored::never, kLikePlanets},
+    {"gearbox.planet_mass_scatter", Ignored::if_zero, kLikePlanets},
+};
 
 constexpr FormerValue kFormerValues[] = {
     {"numerics.horizon", "reuse", "periodic", false},

@@ -403,10 +403,7 @@ void check_planet_lists(StudyDraft& draft) {
     const PlanetDifferences& p = s.planets;
     for (const auto& [key, list] :
          {std::pair{"gearbox.pin_tangential_um", &p.pin_tangential_m},
-          std::pair{"gearbox.pin_radial_um", &p.pin_radial_m},
-          std::pair{"gearbox.planet_bearing_stiffness_factors", &p.bearing_stiffness},
-          std::pair{"gearbox.planet_bearing_damping_factors", &p.bearing_damping},
-          std::pair{"gearbox.planet_mass_factors", &p.mass}}) {
+          std::pair{"gearbox.pin_radial_um", &p.pin_radial_m}}) {
         if (!list->empty() && static_cast<int>(list->size()) != s.gearbox.planets) {
             draft.reject(key,
                          fmt::format("has {} values, but there are {} planets", list->size(),

@@ -185,12 +185,6 @@ const Key kErrorKeys[] = {
     {"gearbox", "pin_radial_um", numbers<&P::pin_radial_m>, kUm, kAny, planetary<bearings_move>, kShared, "radial position error of each planet's pin in the carrier, away from the axis"},
     {"gearbox", "pin_tangential_rms_um", number<&P::pin_tangential_rms_m>, kUm, kNotNegative, planetary<bearings_move>, kRandom, "rms of random tangential pin errors, independent for each planet and gearbox"},
     {"gearbox", "pin_radial_rms_um", number<&P::pin_radial_rms_m>, kUm, kNotNegative, planetary<bearings_move>, kRandom, "rms of random radial pin errors, independent for each planet and gearbox"},
-    {"gearbox", "planet_bearing_stiffness_factors", numbers<&P::bearing_stiffness>, kNone, kPositive, planetary<bearings_move>, kShared, "each planet's bearing stiffness divided by planet_bearing_stiffness_N_m"},
-    {"gearbox", "planet_bearing_stiffness_scatter", number<&P::bearing_stiffness_scatter>, kNone, kNotNegative, planetary<bearings_move>, kRandom, "standard deviation of the logarithm of the planets' bearing stiffness, random for each planet"},
-    {"gearbox", "planet_bearing_damping_factors", numbers<&P::bearing_damping>, kNone, kNotNegative, planetary<bearings_damp>, kShared, "each planet's bearing damping divided by planet_bearing_damping_N_s_m"},
-    {"gearbox", "planet_bearing_damping_scatter", number<&P::bearing_damping_scatter>, kNone, kNotNegative, planetary<bearings_damp>, kRandom, "standard deviation of the logarithm of the planets' bearing damping, random for each planet"},
-    {"gearbox", "planet_mass_factors", numbers<&P::mass>, kNone, kPositive, planetary<planet_masses>, kShared, "each planet's mass and inertia divided by the nominal ones"},
-    {"gearbox", "planet_mass_scatter", number<&P::mass_scatter>, kNone, kNotNegative, planetary<planet_masses>, kRandom, "standard deviation of the logarithm of the planets' masses, random for each planet"},
 };
 // clang-format on
 

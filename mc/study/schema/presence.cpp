@@ -229,14 +229,6 @@ Presence bearings_move(const Study& s) {
                    {kMotion});
 }
 
-Presence bearings_damp(const Study& s) {
-    return s.effects.quasi_static() ? integration(s) : bearings_move(s);
-}
-
-Presence planet_masses(const Study& s) {
-    return s.effects.gravity ? kOptional : integration(s);
-}
-
 Presence torque_sine(const Study& s) {
     return only_if(s.fluctuations.torque.has_value(), "only with operation.torque_fluctuation",
                    {"operation.torque_fluctuation"});

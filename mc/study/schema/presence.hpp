@@ -47,8 +47,6 @@ Presence web(const Study&, Member member);
 Presence backlash(const Study&);       // only for two-sided separation
 Presence tooth_quality(const Study&);  // only if the gears are known
 Presence bearings_move(const Study&);  // only where planets move on their bearings
-Presence bearings_damp(const Study&);  // and the gearbox has inertia
-Presence planet_masses(const Study&);  // only where their masses have an effect
 
 Presence with_tones(const Study&);  // only with sensor.tones
 // background_needs: required with sensor.background_Hz; with_background: only with it.

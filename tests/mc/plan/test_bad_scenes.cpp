@@ -175,7 +175,7 @@ const BadScene kBadScenes[] = {
     {kSpatialCrackStudy, "pitch_error_um = 3", "pin_radial_um = [1, 2, 3]", "gearbox.pin_radial_um",
      "has 3 values, but there are 4 planets"},
     {kSpatialCrackStudy, "pitch_error_um = 3", "planet_mass_factors = [1, 0, 1, 1]",
-     "gearbox.planet_mass_factors", "must be > 0, but is 0"},
+     "gearbox.planet_mass_factors", "was removed"},
     {kSpatialCrackStudy, "separation = \"two-sided\"",
      "separation = \"two-sided\"\nmotion = \"torsional\"\n[random]\n"
      "gearbox.pin_radial_rms_um = { distribution = \"constant\", value = 1 }",
