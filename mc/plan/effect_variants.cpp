@@ -58,8 +58,7 @@ void remove_pin_errors(Study& s) {
 
 void remove_relief(Study& s) {
     for (MemberValues& body : s.gearbox.bodies.values) {
-        for (auto* value : {&body.tip_relief_m, &body.tip_relief_length_m, &body.root_relief_m,
-                            &body.root_relief_length_m, &body.crowning_m}) {
+        for (auto* value : {&body.tip_relief_m, &body.tip_relief_length_m, &body.crowning_m}) {
             value->reset();
         }
     }

@@ -273,9 +273,8 @@ gears::PlanetDimensions planet_dimensions(const Study& study) {
 
 gears::FlankRelief relief_of(const Study& study, Member member) {
     const MemberValues& given = study.gearbox.bodies[member];
-    return {given.tip_relief_m.value_or(0.0),  given.tip_relief_length_m.value_or(0.0),
-            given.root_relief_m.value_or(0.0), given.root_relief_length_m.value_or(0.0),
-            study.gearbox.relief_shape,        given.crowning_m.value_or(0.0)};
+    return {given.tip_relief_m.value_or(0.0), given.tip_relief_length_m.value_or(0.0),
+            given.crowning_m.value_or(0.0)};
 }
 
 bool has_relief(const Study& study) {

@@ -12,7 +12,6 @@
 #include <vector>
 
 #include "dynamics/effects/mesh_damping.hpp"
-#include "gears/flank_gaps.hpp"
 #include "lockstep/plan/fault_pattern.hpp"
 #include "lockstep/plan/integrator.hpp"
 #include "machine/contracts.hpp"
@@ -194,7 +193,7 @@ struct MemberValues {
     std::optional<double> profile_shift;   // in modules; positive: thicker teeth, also for the ring
     std::optional<double> tip_diameter_m;  // if not given, from addendum and shift
     // Amounts removed from every flank; lengths along the line of action from the end of contact.
-    std::optional<double> tip_relief_m, tip_relief_length_m, root_relief_m, root_relief_length_m;
+    std::optional<double> tip_relief_m, tip_relief_length_m;
     std::optional<double> crowning_m;
     // Diameter of the bore, or outer diameter of a ring, where the gear body is held.
     std::optional<double> held_diameter_m;
@@ -242,7 +241,6 @@ struct Gearbox {
     double addendum_coefficient = 1.0;
     double dedendum_coefficient = 1.25;
     StiffnessSource tooth_profile = StiffnessSource::root_circle;
-    gears::ReliefShape relief_shape = gears::ReliefShape::linear;
     std::optional<double> ring_to_sun_phase;  // mesh periods; by default from the geometry
     double support_stiffness_N_m = 0.0;       // tangential, holds the fixed member
     double support_damping_N_s_m = 0.0;
@@ -289,7 +287,7 @@ struct ToothErrors {
 // random.
 struct PlanetDifferences {
     std::vector<double> pin_tangential_m, pin_radial_m;  // deviations from the nominal positions
-    double pin_tangential_rms_m = 0.0, pin_radial_rms_m = 0.0;     // of normal distributions
+    double pin_tangential_rms_m = 0.0, pin_radial_rms_m = 0.0;  // of normal distributions
 
     bool operator==(const PlanetDifferences&) const = default;
 };

@@ -11,12 +11,12 @@ namespace gearpod::gears {
 namespace {
 
 // Relief at a distance from the end of contact.
-double relief_at(double amount, double length, ReliefShape shape, double distance) {
-    if (!(amount > 0) || distance >= length) {
+double relief_at(const FlankRelief& relief, double distance) {
+    if (!(relief.tip_m > 0) || distance >= relief.tip_length_m) {
         return 0;
     }
-    const double part = 1 - distance / length;
-    return amount * (shape == ReliefShape::linear ? part : part * part);
+    const double part = 1 - distance / relief.tip_length_m;
+    return relief.tip_m * part;
 }
 
 }  // namespace
@@ -25,10 +25,7 @@ double relief_gap(const MeshGeometry& mesh, const FlankRelief& gear_1, const Fla
                   double tau) {
     const double since = tau * mesh.base_pitch();
     const double until = (mesh.contact_ratio() - tau) * mesh.base_pitch();
-    return relief_at(gear_1.root_m, gear_1.root_length_m, gear_1.shape, since) +
-           relief_at(gear_1.tip_m, gear_1.tip_length_m, gear_1.shape, until) +
-           relief_at(gear_2.tip_m, gear_2.tip_length_m, gear_2.shape, since) +
-           relief_at(gear_2.root_m, gear_2.root_length_m, gear_2.shape, until);
+    return relief_at(gear_1, until) + relief_at(gear_2, since);
 }
 
 std::vector<double> relief_kinks(const MeshGeometry& mesh, const FlankRelief& gear_1,
@@ -40,10 +37,8 @@ std::vector<double> relief_kinks(const MeshGeometry& mesh, const FlankRelief& ge
             kinks.push_back(tau);
         }
     };
-    add(gear_1.root_m, gear_1.root_length_m / pitch);
     add(gear_2.tip_m, gear_2.tip_length_m / pitch);
     add(gear_1.tip_m, ratio - gear_1.tip_length_m / pitch);
-    add(gear_2.root_m, ratio - gear_2.root_length_m / pitch);
     std::sort(kinks.begin(), kinks.end());
     return kinks;
 }

@@ -1,4 +1,4 @@
-// Gaps of flanks along the line of action: tip relief, root relief, crowning, wear, and the corner
+// Gaps of flanks along the line of action: tip relief, crowning, wear, and the corner
 // contact outside the path.
 #pragma once
 
@@ -8,19 +8,14 @@
 
 namespace gearpod::gears {
 
-// Tip relief, root relief and crowning: material removed near the ends of contact and of the face
-// width, from the flanks of all teeth of a gear. It is given as a gap along the line of action.
-// Lengths are in metres; those of relief are along the line of action, inwards from the end of
-// contact.
-enum class ReliefShape { linear, parabolic };
-
+// Tip relief and crowning: material removed near the tip and the ends of the face width, from the
+// flanks of all teeth of a gear. It is given as a gap along the line of action. Lengths are in
+// metres; that of relief is along the line of action, inwards from the end of contact.
 struct FlankRelief {
-    double tip_m = 0, tip_length_m = 0;    // amount at the tip, and its extent
-    double root_m = 0, root_length_m = 0;  // at the end of contact near the root
-    ReliefShape shape = ReliefShape::linear;
-    double crowning_m = 0;  // at both ends of the face width, parabolic in between
+    double tip_m = 0, tip_length_m = 0;  // amount at the tip, and its extent; linear in between
+    double crowning_m = 0;               // at both ends of the face width, parabolic in between
 
-    bool of_profile() const { return tip_m > 0 || root_m > 0; }
+    bool of_profile() const { return tip_m > 0; }
     bool any() const { return of_profile() || crowning_m > 0; }
     bool operator==(const FlankRelief&) const = default;
 };

@@ -127,7 +127,7 @@ TEST_CASE("the extended contact converges to the abrupt one as the load decrease
 
 // The laws of mesh damping use the stiffness of the teeth on their paths, for any gaps.
 TEST_CASE("the sum over the paths is the total of a mesh without gaps") {
-    const gears::FlankRelief ground{20e-6, 2e-3, 0, 0};
+    const gears::FlankRelief ground{20e-6, 2e-3};
     const auto plain = elastic(kRingPlanet);
     const GappedMesh mesh(elastic(kRingPlanet), 0, {kRingPlanet, ground, ground, kReach}, kForce,
                           1);
@@ -175,7 +175,7 @@ TEST_CASE("a pair of equal gears is symmetrical about its pitch point") {
 
 // Slices over the face, compared with a sum over many of them.
 TEST_CASE("slices of crowned, relieved helical teeth converge") {
-    const gears::FlankRelief ground{8e-6, 2e-3, 0, 0, gears::ReliefShape::linear, 5e-6};
+    const gears::FlankRelief ground{8e-6, 2e-3, 5e-6};
     const double overlap = 0.8;
     const auto approach = [&](int slices, double phase) {
         const GappedMesh mesh(rigid(kSunPlanet), overlap, {kSunPlanet, ground, ground, kReach},
@@ -319,7 +319,7 @@ TEST_CASE("the gap by wear is continuous, and scaled as relief beyond the path")
                   Approx(mesh.slice_wear(0, end + 1e-9)).epsilon(1e-4));
         }
         // A constant relief of the whole flank: its gap beyond the path without the corner gap.
-        const gears::FlankRelief flat{1e-6, 1e9, 0, 0};
+        const gears::FlankRelief flat{1e-6, 1e9};
         const GappedMesh relieved(bodies ? elastic(kRingPlanet) : rigid(kRingPlanet), 0,
                                   {kRingPlanet, flat, {}, kReach}, kForce, 1);
         for (const double tau :

@@ -16,21 +16,28 @@ namespace {
 constexpr std::pair<std::string_view, std::string_view> kRenamed[] = {
     {"life.marched_torques", "life.linear_torques"}, {"life.marched_speeds", "life.linear_speeds"}};
 
-// Removed keys, as they were spelled without tables; * stands for any name.
-enum class Ignored { never, if_zero, always };
+// Removed keys, as they were spelled without tables; * stands for any name. Studies that are stored
+// in results state the values without effect.
 struct RemovedKey {
     std::string_view path;
-    Ignored ignored;  // values without effect; studies stored in results state them
+    std::string_view without_effect;  // value that is ignored; * for all, "" for none
     std::string_view remedy;
 };
 constexpr std::string_view kLikePlanets =
     "planets are alike but for their pins: give pin_tangential_um or pin_radial_um in [gearbox]";
+constexpr std::string_view kMatingTip =
+    "give the same tip relief to the mating gear, whose tip meets this root";
 constexpr RemovedKey kRemoved[] = {
-    {"numerics.step_tolerance", Ignored::always, "remove it"},
-    {"gearbox.planet_bearing_*_factors", Ignored::never, kLikePlanets},
-    {"gearbox.planet_bearing_*_scatter", Ignored::if_zero, kLikePlanets},
-    {"gearbox.planet_mass_factors", Ignored::never, kLikePlanets},
-    {"gearbox.planet_mass_scatter", Ignored::if_zero, kLikePlanets},
+    {"numerics.step_tolerance", "*", "remove it"},
+    {"gearbox.planet_bearing_*_factors", "", kLikePlanets},
+    {"gearbox.planet_bearing_*_scatter", "0", kLikePlanets},
+    {"gearbox.planet_mass_factors", "", kLikePlanets},
+    {"gearbox.planet_mass_scatter", "0", kLikePlanets},
+    {"gearbox.*_root_relief_um", "0", kMatingTip},
+    {"gearbox.*_root_relief_length_mm", "", kMatingTip},
+    {"gearbox.relief_shape", "linear",
+     "remove it: relief is linear. A parabolic one is close to a linear one of the same amount and "
+     "two thirds of the length"},
 };
 
 constexpr FormerValue kFormerValues[] = {
@@ -68,8 +75,8 @@ bool matches(std::string_view pattern, std::string_view path) {
 
 bool has_no_effect(const RemovedKey& key, const Value& value) {
     const bool number = value.kind == Value::Kind::integer || value.kind == Value::Kind::number;
-    return key.ignored == Ignored::always ||
-           (key.ignored == Ignored::if_zero && number && value.number == 0.0);
+    const std::string text = number ? fmt::format("{:g}", value.number) : value.text;
+    return key.without_effect == "*" || (!text.empty() && text == key.without_effect);
 }
 
 // Entry of that path below a table, created if absent; nullptr if another value is in the way.

@@ -20,9 +20,6 @@ constexpr ChoiceName kProfiles[] = {
     name("base-circle", StiffnessSource::base_circle), name("fillet", StiffnessSource::fillet),
     name("constant", StiffnessSource::constant), name("square-wave", StiffnessSource::square_wave)};
 
-constexpr ChoiceName kReliefShapes[] = {name("linear", gears::ReliefShape::linear),
-                                        name("parabolic", gears::ReliefShape::parabolic)};
-
 using G = Gearbox;
 using F = FixedShaft;
 using E = ToothErrors;
@@ -111,7 +108,6 @@ const Key kGeneralKeys[] = {
     {"gearbox", "planets", integer<&G::planets>, kNone, closed_range(2, 8), planetary<always>, kGeometry, "number of planets"},
     {"gearbox", "planet_positions_deg", ascending<&G::planet_positions_rad>, kDeg, Range{0.0, 360.0, false, true}, planetary<may>, kGeometry, "angles of the planets on the carrier, starting with 0, positive in the sense in which the sun's torque turns; by default equally spaced, or as nearly as the teeth allow"},
     {"gearbox", "centre_distance_mm", number<&G::centre_distance_m>, kMm, kPositive, shifted_teeth, kGeometry, "working centre distance of sun and planets, or of pinion and gear"},
-    {"gearbox", "relief_shape", choice<&G::relief_shape>(kReliefShapes), kNone, kAny, relief_shape, kGeometry, "shape of the relief towards the end of contact: \"linear\" or \"parabolic\""},
     {"gearbox", "module_mm", number<&G::module_m>, kMm, kPositive, tooth_module, kGeometry, "module; in the transverse plane if the teeth are helical"},
     {"gearbox", "normal_module_mm", number<&G::normal_module_m>, kMm, kPositive, may, kGeometry, "module of helical teeth in the normal plane, as on drawings; instead of gearbox.module_mm"},
     {"gearbox", "pressure_angle_deg", number<&G::pressure_angle_rad>, kDeg, inside(0, 45), always, kGeometry, "pressure angle; in the normal plane if the teeth are helical"},
@@ -130,8 +126,6 @@ const MemberKey kBodyKeys[] = {
     {"tip_mm", kGears, of_members<&B::tip_diameter_m>(), kMm, kPositive, each<shifted_teeth>, kGeometry, "tip diameter of {}; by default from addendum and shift, shortened as far as tip clearance needs"},
     {"tip_relief_um", kGears, of_members<&B::tip_relief_m>(), kUm, kNotNegative, each<tooth_model>, kGeometry, "tip relief of the flanks of {}, along the line of action; the transmission error of relief is computed for the nominal load"},
     {"tip_relief_length_mm", kGears, of_members<&B::tip_relief_length_m>(), kMm, kPositive, tip_relief_length, kGeometry, "length of the tip relief of {} along the line of action, from the end of contact"},
-    {"root_relief_um", kGears, of_members<&B::root_relief_m>(), kUm, kNotNegative, each<tooth_model>, kGeometry, "root relief of the flanks of {}, at the end of contact near the root, along the line of action"},
-    {"root_relief_length_mm", kGears, of_members<&B::root_relief_length_m>(), kMm, kPositive, root_relief_length, kGeometry, "length of the root relief of {} along the line of action, from the end of contact"},
     {"crowning_um", kGears, of_members<&B::crowning_m>(), kUm, kNotNegative, each<tooth_model>, kGeometry, "crowning of the flanks of {}: depth removed at both ends of the face, by a parabola along the face width"},
     {"bore_mm", kBored, of_members<&B::held_diameter_m>(), kMm, kPositive, each<foundation>, kGeometry, "diameter of the bore of {}"},
     {"outer_mm", kRing, of_members<&B::held_diameter_m>(), kMm, kPositive, each<ring_foundation>, kGeometry, "outer diameter of {}"},

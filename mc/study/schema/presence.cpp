@@ -134,24 +134,11 @@ Presence shifted_teeth(const Study& s) {
     return with_gears(s, "only with tooth numbers and module");
 }
 
-Presence relief_shape(const Study& s) {
-    const bool any = std::any_of(kAllMembers.begin(), kAllMembers.end(),
-                                 [&](Member member) { return relief_of(s, member).of_profile(); });
-    return only_if(any, "only with tip or root relief");
-}
-
 Presence flank_gaps(const Study& s) {
     return only_if(has_flank_gaps(s), "only with relief, crowning or an extended contact_onset");
 }
 
 namespace {
-
-// Required if the amount is given and not 0. `amount`: its key in the member's table.
-Presence relief_length(Member member, const std::optional<double>& given, std::string_view amount) {
-    const std::string key = member_key(member, amount);
-    return only_if(given.has_value(), "only with " + key, {},
-                   required_if(given > 0.0, key + " is given"));
-}
 
 // Required if `other`, its key in the member's table, is given.
 Presence blank_part(const Study& s, Member member, const std::optional<double>& given,
@@ -165,11 +152,10 @@ Presence blank_part(const Study& s, Member member, const std::optional<double>& 
 }  // namespace
 
 Presence tip_relief_length(const Study& s, Member member) {
-    return relief_length(member, s.gearbox.bodies[member].tip_relief_m, "tip_relief_um");
-}
-
-Presence root_relief_length(const Study& s, Member member) {
-    return relief_length(member, s.gearbox.bodies[member].root_relief_m, "root_relief_um");
+    const std::optional<double>& amount = s.gearbox.bodies[member].tip_relief_m;
+    const std::string key = member_key(member, "tip_relief_um");
+    return only_if(amount.has_value(), "only with " + key, {},
+                   required_if(amount > 0.0, key + " is given"));
 }
 
 Presence rim(const Study& s, Member member) {

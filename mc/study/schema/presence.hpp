@@ -25,14 +25,12 @@ Presence fixed_shaft(const Study& s) {
     return of_kind(s, GearboxKind::fixed_shaft, Rule);
 }
 
-// Lengths of a member's reliefs: required if the amount is given and not 0.
+// Length of a member's relief: required if the amount is given and not 0.
 Presence tip_relief_length(const Study&, Member member);
-Presence root_relief_length(const Study&, Member member);
 
 Presence tooth_numbers(const Study&);  // unless the stiffness is constant
 Presence tooth_module(const Study&);   // as tooth_numbers(); a fixed-shaft gearbox always needs it
 Presence shifted_teeth(const Study&);  // only if the gears are known
-Presence relief_shape(const Study&);   // only with relief
 Presence flank_gaps(const Study&);     // only with relief, crowning or extended contact
 Presence tooth_body(const Study&);     // unless the stiffness is given
 Presence tooth_model(const Study&);    // forbidden if the stiffness is given
