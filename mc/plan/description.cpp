@@ -596,9 +596,7 @@ class Describer {
             add_size(key, " um rms", 1e6 * rms_m, what, parts);
         };
         add("gearbox.pitch_error_um", e.pitch_error_m, "pitch");
-        add("gearbox.index_wave_um", e.index_wave_m, "index waves");
         add("gearbox.eccentricity_um", e.eccentricity_m, "eccentricity");
-        add("gearbox.profile_slope_um", e.profile_slope_m, "profile slopes");
         return fmt::format("{}", fmt::join(parts, "; "));
     }
 

@@ -33,15 +33,13 @@ void give_up_random(Study& s, std::initializer_list<std::string_view> starts) {
 
 void remove_tooth_errors(Study& s) {
     s.errors.tooth_quality.reset();
-    s.errors.pitch_error_m = s.errors.index_wave_m = s.errors.eccentricity_m =
-        s.errors.profile_slope_m = 0.0;
+    s.errors.pitch_error_m = s.errors.eccentricity_m = 0.0;
     for (MemberValues& body : s.gearbox.bodies.values) {
         body.quality.reset();
         body.index_m.clear();
         body.ring_side_index_m.clear();
     }
-    give_up_random(s, {"gearbox.tooth_quality", "gearbox.pitch_error", "gearbox.index_wave",
-                       "gearbox.eccentricity", "gearbox.profile_slope"});
+    give_up_random(s, {"gearbox.tooth_quality", "gearbox.pitch_error", "gearbox.eccentricity"});
 }
 
 bool has_pin_errors(const Study& s) {

@@ -116,9 +116,7 @@ class Computation {
         }
         inputs.backlash_m = values_.or_0<"gearbox.backlash_mm">();
         inputs.pitch_error_m = values_.or_0<"gearbox.pitch_error_um">();
-        inputs.index_wave_m = values_.or_0<"gearbox.index_wave_um">();
         inputs.eccentricity_m = values_.or_0<"gearbox.eccentricity_um">();
-        inputs.profile_slope_m = values_.or_0<"gearbox.profile_slope_um">();
         inputs.planets = recipe_.planets;
         inputs.support_stiffness_N_m = values_.or_0<"gearbox.support_stiffness_N_m">();
         inputs.support_damping_N_s_m = values_.or_0<"gearbox.support_damping_N_s_m">();

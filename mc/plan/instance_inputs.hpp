@@ -94,7 +94,7 @@ struct InstanceInputs {
     FixedShaftInstance fixed_shaft;
     double backlash_m;  // 2b
     // Deviations, rms, in addition to those of a quality.
-    double pitch_error_m, index_wave_m, eccentricity_m, profile_slope_m;
+    double pitch_error_m, eccentricity_m;
     Planets planets;
     double torque_N_m;
     double speed_rad_s;  // of speed_member()

@@ -135,9 +135,8 @@ bool has_measured_teeth(const Study& study) {
 bool has_tooth_errors(const Study& study) {
     const ToothErrors& e = study.errors;
     return has_tooth_quality(study) || has_measured_teeth(study) || e.pitch_error_m > 0.0 ||
-           e.index_wave_m > 0.0 || e.eccentricity_m > 0.0 || e.profile_slope_m > 0.0 ||
-           any_random(study, {"gearbox.pitch_error_um", "gearbox.index_wave_um",
-                              "gearbox.eccentricity_um", "gearbox.profile_slope_um"});
+           e.eccentricity_m > 0.0 ||
+           any_random(study, {"gearbox.pitch_error_um", "gearbox.eccentricity_um"});
 }
 
 bool has_random_planets(const Study& study) {

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "dynamics/effects/mesh_law.hpp"
+#include "gears/flank_gaps.hpp"
 #include "gears/gear.hpp"
 #include "gears/mesh_geometry.hpp"
 #include "gears/planetary.hpp"

@@ -278,7 +278,7 @@ struct FixedShaft {
 // action (gears::DeviationScales).
 struct ToothErrors {
     std::optional<double> tooth_quality;
-    double pitch_error_m = 0.0, index_wave_m = 0.0, eccentricity_m = 0.0, profile_slope_m = 0.0;
+    double pitch_error_m = 0.0, eccentricity_m = 0.0;
 
     bool operator==(const ToothErrors&) const = default;
 };

@@ -150,8 +150,7 @@ gears::WaveNumbers wave_numbers(Normals& normal) {
 
 gears::DeviationScales scales_of(const ToothedBody& body, const InstanceInputs& inputs) {
     return gears::combined(gears::scaled(body.grade_5, inputs.bodies[body.member].tooth_scale),
-                           {inputs.eccentricity_m, inputs.index_wave_m, inputs.pitch_error_m, 0.0,
-                            inputs.profile_slope_m});
+                           {inputs.eccentricity_m, 0.0, inputs.pitch_error_m, 0.0, 0.0});
 }
 
 // Fills one lane of the errors of all flanks.

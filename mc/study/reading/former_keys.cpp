@@ -38,6 +38,8 @@ constexpr RemovedKey kRemoved[] = {
     {"gearbox.relief_shape", "linear",
      "remove it: relief is linear. A parabolic one is close to a linear one of the same amount and "
      "two thirds of the length"},
+    {"gearbox.index_wave_um", "0", "give tooth_quality, whose grade contains waves of the index"},
+    {"gearbox.profile_slope_um", "0", "give tooth_quality, whose grade contains profile slopes"},
 };
 
 constexpr FormerValue kFormerValues[] = {

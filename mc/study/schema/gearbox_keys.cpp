@@ -172,9 +172,7 @@ const MemberKey kToothKeys[] = {
 };
 const Key kErrorKeys[] = {
     {"gearbox", "pitch_error_um", number<&E::pitch_error_m>, kUm, kNotNegative, may, kRandom, "rms of random pitch errors, independent for each flank and gearbox; in addition to those of a quality"},
-    {"gearbox", "index_wave_um", number<&E::index_wave_m>, kUm, kNotNegative, may, kRandom, "rms of the long waves of a gear's index deviations, harmonics 1 to 3 of its turn; in addition to those of a quality"},
     {"gearbox", "eccentricity_um", number<&E::eccentricity_m>, kUm, kNotNegative, may, kRandom, "rms distance of a gear's toothing from its axis; in addition to that of a quality"},
-    {"gearbox", "profile_slope_um", number<&E::profile_slope_m>, kUm, kNotNegative, may, kRandom, "rms of random profile slopes of a flank over its engagement; in addition to those of a quality"},
     {"gearbox", "pin_tangential_um", numbers<&P::pin_tangential_m>, kUm, kAny, planetary<bearings_move>, kShared, "tangential position error of each planet's pin in the carrier, in the carrier's sense of rotation"},
     {"gearbox", "pin_radial_um", numbers<&P::pin_radial_m>, kUm, kAny, planetary<bearings_move>, kShared, "radial position error of each planet's pin in the carrier, away from the axis"},
     {"gearbox", "pin_tangential_rms_um", number<&P::pin_tangential_rms_m>, kUm, kNotNegative, planetary<bearings_move>, kRandom, "rms of random tangential pin errors, independent for each planet and gearbox"},
