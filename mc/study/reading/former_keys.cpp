@@ -27,6 +27,9 @@ constexpr std::string_view kLikePlanets =
     "planets are alike but for their pins: give pin_tangential_um or pin_radial_um in [gearbox]";
 constexpr std::string_view kMatingTip =
     "give the same tip relief to the mating gear, whose tip meets this root";
+constexpr std::string_view kSolid =
+    "remove it: sun and pinion are solid; give rim_mm and web_mm in [gearbox.planet] or "
+    "[gearbox.gear]";
 constexpr RemovedKey kRemoved[] = {
     {"numerics.step_tolerance", "*", "remove it"},
     {"gearbox.planet_bearing_*_factors", "", kLikePlanets},
@@ -40,6 +43,10 @@ constexpr RemovedKey kRemoved[] = {
      "two thirds of the length"},
     {"gearbox.index_wave_um", "0", "give tooth_quality, whose grade contains waves of the index"},
     {"gearbox.profile_slope_um", "0", "give tooth_quality, whose grade contains profile slopes"},
+    {"gearbox.sun_rim_mm", "", kSolid},
+    {"gearbox.sun_web_mm", "", kSolid},
+    {"gearbox.pinion_rim_mm", "", kSolid},
+    {"gearbox.pinion_web_mm", "", kSolid},
 };
 
 constexpr FormerValue kFormerValues[] = {

@@ -47,7 +47,10 @@ constexpr Member kPair[] = {Member::pinion, Member::gear};
 constexpr Member kGears[] = {Member::sun, Member::planet, Member::ring, Member::pinion,
                              Member::gear};
 constexpr Member kBored[] = {Member::sun, Member::planet, Member::pinion, Member::gear};
-constexpr Member kRing[] = {Member::ring}, kPlanet[] = {Member::planet};
+constexpr Member kRing[] = {Member::ring};
+// Wheels that a web may carry; sun and pinion are solid.
+constexpr Member kWebbed[] = {Member::planet, Member::gear};
+constexpr Member kPlanet[] = {Member::planet};
 constexpr MeshKind kMeshes[] = {MeshKind::sun_planet, MeshKind::ring_planet, MeshKind::pinion_gear};
 
 // Rule that is the same for all owners of a key.
@@ -129,8 +132,8 @@ const MemberKey kBodyKeys[] = {
     {"crowning_um", kGears, of_members<&B::crowning_m>(), kUm, kNotNegative, each<tooth_model>, kGeometry, "crowning of the flanks of {}: depth removed at both ends of the face, by a parabola along the face width"},
     {"bore_mm", kBored, of_members<&B::held_diameter_m>(), kMm, kPositive, each<foundation>, kGeometry, "diameter of the bore of {}"},
     {"outer_mm", kRing, of_members<&B::held_diameter_m>(), kMm, kPositive, each<ring_foundation>, kGeometry, "outer diameter of {}"},
-    {"rim_mm", kBored, of_members<&B::rim_m>(), kMm, kPositive, rim, kGeometry, "thickness of the rim of {} below the tooth roots, if a thinner web carries it"},
-    {"web_mm", kBored, of_members<&B::web_m>(), kMm, kPositive, web, kGeometry, "thickness of the web of {} under the rim, in the middle of the face width; rim and web reduce the stiffness of the meshes by the gear blank factor of ISO 6336-1"},
+    {"rim_mm", kWebbed, of_members<&B::rim_m>(), kMm, kPositive, rim, kGeometry, "thickness of the rim of {} below the tooth roots, if a thinner web carries it"},
+    {"web_mm", kWebbed, of_members<&B::web_m>(), kMm, kPositive, web, kGeometry, "thickness of the web of {} under the rim, in the middle of the face width; rim and web reduce the stiffness of the meshes by the gear blank factor of ISO 6336-1"},
     {"mass_kg", kAllMembers, of_members<&B::mass_kg>(), kKg, kPositive, each<mass>, kRandom, "mass of {}"},
     {"inertia_kg_m2", kAllMembers, of_members<&B::inertia_kg_m2>(), kKgM2, kPositive, each<inertia>, kRandom, "moment of inertia J of {}; that of a solid disc by default"},
     {"inertia_over_r2_kg", kPlanetary, of_members<&B::inertia_over_r2_kg>(), kKg, kPositive, each<inertia_over_r2>, kRandom, "moment of inertia J of {} divided by the square of the base radius, or for the carrier of the centre distance"},

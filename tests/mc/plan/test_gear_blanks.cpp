@@ -20,9 +20,8 @@ double mean(const Scene& scene, std::size_t mesh) {
     return mean_total(*scene.gearbox().stiffness->meshes()[mesh].stiffness);
 }
 
-// Source: ISO 6336-1, 1 + ln(b_s / b) / (5 exp(s_R / (5 m_n))); the smaller value applies to a
-// mesh.
-TEST_CASE("A mesh of gears with rims and webs has the smaller blank factor of its gears") {
+// Source: ISO 6336-1, 1 + ln(b_s / b) / (5 exp(s_R / (5 m_n))).
+TEST_CASE("The meshes of planets with rims and webs have their blank factor") {
     const Scene discs = scene_with({});
     const mc::Gearbox gearbox = test::study_of_text(tests::kExampleStudy, kBodies).gearbox;
     const double face_mm = 1e3 * *gearbox.face_width_m, module_mm = 1e3 * *gearbox.module_m;
@@ -30,15 +29,8 @@ TEST_CASE("A mesh of gears with rims and webs has the smaller blank factor of it
         return 1.0 + std::log(web_mm / face_mm) / (5.0 * std::exp(rim_mm / (5.0 * module_mm)));
     };
     const Scene planets = scene_with({"gearbox.planet_rim_mm=8", "gearbox.planet_web_mm=10"});
-    const Scene both = scene_with({"gearbox.planet_rim_mm=8", "gearbox.planet_web_mm=10",
-                                   "gearbox.sun_rim_mm=5", "gearbox.sun_web_mm=14"});
-    const Scene sun = scene_with({"gearbox.sun_rim_mm=5", "gearbox.sun_web_mm=14"});
     CHECK(mean(planets, 0) == Approx(factor(10, 8) * mean(discs, 0)).epsilon(1e-9));
     CHECK(mean(planets, 1) == Approx(factor(10, 8) * mean(discs, 1)).epsilon(1e-9));
-    CHECK(factor(10, 8) < factor(14, 5));
-    CHECK(mean(both, 0) == mean(planets, 0));
-    CHECK(mean(sun, 0) == Approx(factor(14, 5) * mean(discs, 0)).epsilon(1e-9));
-    CHECK(mean(sun, 1) == mean(discs, 1));
 }
 
 TEST_CASE("A web as wide as the face changes no bit") {
