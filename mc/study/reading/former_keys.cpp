@@ -30,6 +30,8 @@ constexpr std::string_view kMatingTip =
 constexpr std::string_view kSolid =
     "remove it: sun and pinion are solid; give rim_mm and web_mm in [gearbox.planet] or "
     "[gearbox.gear]";
+constexpr std::string_view kNoSquareWave =
+    "give tooth_profile = \"fillet\", or a constant stiffness_N_m in [gearbox.mesh]";
 constexpr RemovedKey kRemoved[] = {
     {"numerics.step_tolerance", "*", "remove it"},
     {"gearbox.planet_bearing_*_factors", "", kLikePlanets},
@@ -47,6 +49,10 @@ constexpr RemovedKey kRemoved[] = {
     {"gearbox.sun_web_mm", "", kSolid},
     {"gearbox.pinion_rim_mm", "", kSolid},
     {"gearbox.pinion_web_mm", "", kSolid},
+    {"gearbox.mesh_low_stiffness_N_m", "", kNoSquareWave},
+    {"gearbox.mesh_high_stiffness_N_m", "", kNoSquareWave},
+    {"gearbox.mesh_contact_ratio", "", kNoSquareWave},
+    {"gearbox.mesh_error_phase_deg", "", "remove it: the harmonics of mesh.error_um are in phase"},
 };
 
 constexpr FormerValue kFormerValues[] = {

@@ -374,16 +374,25 @@ void check_mesh_values(StudyDraft& draft, MeshKind mesh) {
     }
 }
 
+void check_profile(StudyDraft& draft) {
+    const Gearbox& g = draft.study.gearbox;
+    if (g.kind == GearboxKind::fixed_shaft && g.tooth_profile == StiffnessSource::square_wave &&
+        draft.all_usable({"gearbox.kind", "gearbox.tooth_profile"})) {
+        draft.reject("gearbox.tooth_profile",
+                     "\"square-wave\" is only for gearbox.kind = \"planetary\"",
+                     "use \"constant\", or a profile from which the stiffness is computed");
+    }
+}
+
 }  // namespace
 
 void check_gears(StudyDraft& draft) {
     check_train(draft);
     check_gear_shapes(draft);
     check_bodies(draft);
-    for (const MeshKind mesh :
-         {MeshKind::sun_planet, MeshKind::ring_planet, MeshKind::pinion_gear}) {
-        check_mesh_values(draft, mesh);
-    }
+    check_mesh_values(draft, MeshKind::sun_planet);
+    check_mesh_values(draft, MeshKind::ring_planet);
+    check_profile(draft);
     check_tooth_errors(draft);
 }
 

@@ -158,11 +158,11 @@ const Key kSupportKeys[] = {
 // Keys that follow those of mesh damping.
 const MeshKey kMeshKeys[] = {
     {"stiffness_N_m", kMeshes, of_meshes<&M::stiffness_N_m>(), kNPerM, kPositive, mesh<constant_stiffness>, kShared, "constant stiffness of {}"},
-    {"low_stiffness_N_m", kMeshes, of_meshes<&M::low_stiffness_N_m>(), kNPerM, kPositive, mesh<square_wave>, kShared, "stiffness of {} with the smaller number of tooth pairs in contact"},
-    {"high_stiffness_N_m", kMeshes, of_meshes<&M::high_stiffness_N_m>(), kNPerM, kPositive, mesh<square_wave>, kShared, "stiffness of {} with the larger number of tooth pairs in contact"},
-    {"contact_ratio", kMeshes, of_meshes<&M::contact_ratio>(), kNone, closed_range(1, 2), mesh<square_wave>, kShared, "contact ratio of {}: mesh periods for which a tooth pair is in contact"},
+    {"low_stiffness_N_m", kPlanetMeshes, of_meshes<&M::low_stiffness_N_m>(), kNPerM, kPositive, mesh<square_wave>, kShared, "stiffness of {} with the smaller number of tooth pairs in contact"},
+    {"high_stiffness_N_m", kPlanetMeshes, of_meshes<&M::high_stiffness_N_m>(), kNPerM, kPositive, mesh<square_wave>, kShared, "stiffness of {} with the larger number of tooth pairs in contact"},
+    {"contact_ratio", kPlanetMeshes, of_meshes<&M::contact_ratio>(), kNone, closed_range(1, 2), mesh<square_wave>, kShared, "contact ratio of {}: mesh periods for which a tooth pair is in contact"},
     {"error_um", kMeshes, of_meshes<&M::error_m>(), kUm, kNotNegative, mesh<may>, kShared, "static transmission error of {}: amplitudes of mesh harmonics 1, 2, ..."},
-    {"error_phase_deg", kMeshes, of_meshes<&M::error_phase_rad>(), kDeg, kAny, mesh<may>, kShared, "phases of error_um; 0 by default"},
+    {"error_phase_deg", kPlanetMeshes, of_meshes<&M::error_phase_rad>(), kDeg, kAny, mesh<may>, kShared, "phases of error_um; 0 by default"},
 };
 const Key kQualityKeys[] = {
     {"gearbox", "backlash_mm", number<&G::backlash_m>, kMm, kPositive, backlash, kRandom, "backlash 2b along the line of action"},
