@@ -198,8 +198,7 @@ const LifePlan& Scene::life() const {
 
 Scene Scene::with_numerics_of(const Study& study) const {
     const Numerics &given = solve().settings.numerics, &numerics = study.numerics;
-    const bool same_stiffness = given.stiffness_tolerance == numerics.stiffness_tolerance &&
-                                given.face_slices == numerics.face_slices;
+    const bool same_stiffness = given.stiffness_tolerance == numerics.stiffness_tolerance;
     Scene scene = *this;
     scene.ensemble_ = std::make_shared<const EnsemblePlan>(study);
     if (!same_stiffness) {

@@ -26,7 +26,7 @@ class Scene {
     Scene& operator=(const Scene&) = delete;
 
     // Scene of this study, which is that of the scene with other numerics. The stiffness is
-    // recomputed only for another stiffness_tolerance or face_slices; the steps are shared if
+    // recomputed only for another stiffness_tolerance; the steps are shared if
     // share_steps(). Throws SceneError.
     Scene with_numerics_of(const Study& study) const;
 

@@ -281,7 +281,7 @@ class PlanBuilder {
                                       stiffness_.fault().worn_pairs());
         } catch (const std::invalid_argument& error) {
             throw SceneError("gearbox.addendum_coefficient", error.what(),
-                             "use teeth with a lower contact ratio, or fewer face_slices",
+                             "use teeth with a lower contact ratio, or without crowning",
                              ProblemKind::tooth_pairs);
         }
     }

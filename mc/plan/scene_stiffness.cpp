@@ -133,11 +133,9 @@ void add_gaps(const Study& study, double force_N, SceneMesh& mesh) {
     }
     const double overlap = study.gearbox.helix_angle_rad > 0.0 ? overlap_ratio(study) : 0.0;
     const bool crowned = gaps.relief_1.crowning_m + gaps.relief_2.crowning_m > 0.0;
-    const int chosen = !crowned ? 1 : overlap > 0.0 ? kHelicalSlices : kSlices;
-    const bool given = study.numerics.face_slices > 0 && (overlap > 0.0 || crowned);
-    mesh.stiffness = std::make_unique<const stiffness::GappedMesh>(
-        std::move(mesh.stiffness), overlap, gaps, force_N,
-        given ? study.numerics.face_slices : chosen);
+    const int slices = !crowned ? 1 : overlap > 0.0 ? kHelicalSlices : kSlices;
+    mesh.stiffness = std::make_unique<const stiffness::GappedMesh>(std::move(mesh.stiffness),
+                                                                   overlap, gaps, force_N, slices);
 }
 
 }  // namespace

@@ -90,8 +90,7 @@ class SceneFault {
 std::vector<PairId> faulty_pairs(const SceneFault& fault);
 
 // Stiffness of a study's gear pairs, healthy and with the fault, and the scales of their tooth
-// errors. Scenes share it unless they differ in numerics.stiffness_tolerance or
-// numerics.face_slices.
+// errors. Scenes share it unless they differ in numerics.stiffness_tolerance.
 
 class SceneStiffness {
   public:

@@ -77,7 +77,6 @@ struct Numerics {
     double mass_scaling_Hz = 0.0;
     double convergence_tolerance = 1e-10;
     double stiffness_tolerance = 0.0;  // of the stiffness curves; 0: the smallest that is possible
-    int face_slices = 0;               // slices across a face with varying gaps; 0: chosen
     int max_meshes = 0;                // 0: derived from the damping
     Horizon horizon = Horizon::periodic;
     int lanes = full_lanes(Precision::double_precision);     // 16 (single only), 8, 4 or 1
@@ -117,10 +116,9 @@ struct Life {
     std::optional<int> polynomial_torques, polynomial_speeds;
     // Instead of that: number of torques and speeds, equally frequent, that records have at all.
     std::optional<int> distinct_torques, distinct_speeds;
-    // Largest error of signals between them, relative to the change made by the smallest crack of
-    // interest. Numbers that are not given are raised until pilots keep it.
+    // Largest error of signals between them, relative to the change made by a crack of
+    // smallest_depth_m(). Numbers that are not given are raised until pilots keep it.
     double interpolation_tolerance = 0.1;
-    std::optional<double> smallest_depth_m;  // by default half the last depth
     // Length of a recording, in seconds or in carrier turns; by default every tooth of a planet
     // meets every tooth of the ring once. A record averages `recordings` recordings.
     std::optional<double> record_s, record_turns;
@@ -128,10 +126,10 @@ struct Life {
 
     bool operator==(const Life&) const = default;
 };
-// Smallest crack of interest.
+// Crack whose effect is the unit of the interpolation error: half the last depth.
 inline double smallest_depth_m(const Life& life) {
-    EXPECTS(life.smallest_depth_m || life.last_depth_m);
-    return life.smallest_depth_m.value_or(0.5 * *life.last_depth_m);
+    EXPECTS(life.last_depth_m);
+    return 0.5 * *life.last_depth_m;
 }
 // Depth of the crack at the start of a life.
 double crack_begin_m(const Life& life);

@@ -53,6 +53,9 @@ constexpr RemovedKey kRemoved[] = {
     {"gearbox.mesh_high_stiffness_N_m", "", kNoSquareWave},
     {"gearbox.mesh_contact_ratio", "", kNoSquareWave},
     {"gearbox.mesh_error_phase_deg", "", "remove it: the harmonics of mesh.error_um are in phase"},
+    {"numerics.face_slices", "0", "remove it: crowned spur teeth have 8 slices, helical ones 4"},
+    {"life.smallest_depth_mm", "",
+     "remove it: interpolation_tolerance is relative to a crack of half of last_depth_mm"},
 };
 
 constexpr FormerValue kFormerValues[] = {

@@ -145,12 +145,6 @@ void check_depths(StudyDraft& draft) {
                                  1e3 * crack_begin_m(life), 1e3 * *life.last_depth_m),
                      "begin with a shallower crack");
     }
-    if (smallest_depth_m(life) > *life.last_depth_m) {
-        draft.reject("life.smallest_depth_mm",
-                     fmt::format("{:g} mm is above last_depth_mm, {:g} mm",
-                                 1e3 * *life.smallest_depth_m, 1e3 * *life.last_depth_m),
-                     "give a depth that a crack reaches in its life");
-    }
 }
 
 }  // namespace

@@ -134,10 +134,6 @@ Presence shifted_teeth(const Study& s) {
     return with_gears(s, "only with tooth numbers and module");
 }
 
-Presence flank_gaps(const Study& s) {
-    return only_if(has_flank_gaps(s), "only with relief, crowning or an extended contact_onset");
-}
-
 namespace {
 
 // Required if `other`, its key in the member's table, is given.

@@ -31,7 +31,6 @@ Presence tip_relief_length(const Study&, Member member);
 Presence tooth_numbers(const Study&);  // unless the stiffness is constant
 Presence tooth_module(const Study&);   // as tooth_numbers(); a fixed-shaft gearbox always needs it
 Presence shifted_teeth(const Study&);  // only if the gears are known
-Presence flank_gaps(const Study&);     // only with relief, crowning or extended contact
 Presence tooth_body(const Study&);     // unless the stiffness is given
 Presence tooth_model(const Study&);    // forbidden if the stiffness is given
 Presence constant_stiffness(const Study&);  // only for the profile "constant"
