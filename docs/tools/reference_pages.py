@@ -88,7 +88,7 @@ def key_entry(key):
         facts.append("may be random")
     if key["condition"]:
         facts.append(cell(key["condition"]))
-    return f"{code(key['name'])}\n: *Value:* {'; '.join(facts)}.\\\n  {cell(sentence(key['meaning']))}\n"
+    return f"{code(key['name'].rpartition('.')[2])}\n: *Value:* {'; '.join(facts)}.\\\n  {cell(sentence(key['meaning']))}\n"
 
 
 def keys(reference):
@@ -96,9 +96,12 @@ def keys(reference):
     for section in reference["sections"]:
         if section == "random":
             continue
-        entries = [key_entry(key) for key in reference["keys"] if key["section"] == section]
-        title = SECTION_TITLES.get(section, "")
-        parts.append(f"({section}-keys)=\n## [{section}]: {title}\n\n" + "\n".join(entries))
+        tables = {"": []}  # entries by table of the section
+        for key in reference["keys"]:
+            if key["section"] == section:
+                tables.setdefault(key["name"].rpartition(".")[0], []).append(key_entry(key))
+        parts.append(f"({section}-keys)=\n## [{section}]: {SECTION_TITLES.get(section, '')}\n\n" + "\n".join(tables.pop("")))
+        parts += [f"### [{section}.{name}]\n\n" + "\n".join(entries) for name, entries in tables.items()]
     return "\n".join(parts)
 
 

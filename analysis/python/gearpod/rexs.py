@@ -756,7 +756,7 @@ def names_of(stage, members):
         ("pressure_angle_deg", "normal_pressure_angle"), ("face_width_mm", "face_width"),
         ("young_modulus_Pa", "elastic_modulus"), ("poisson_ratio", "poisson_ratio"),
         ("centre_distance_mm", DISTANCES[0]))}
-    return names | {f"gearbox.{member}_{key}": f"{gear.component.label}: {attribute}"
+    return names | {f"gearbox.{member}.{key}": f"{gear.component.label}: {attribute}"
                     for member, gear in members.items()
                     for key, attribute in (("teeth", "number_of_teeth"), ("shift", SHIFTS[0]),
                                            ("tip_mm", "tip_diameter"))} | {"operation.pinion_speed_rpm": "--speed"}

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <iterator>
+#include <tuple>
 #include <utility>
 
 #include "mc/numerics/study_scene.hpp"
@@ -27,29 +28,31 @@ struct DerivedPair {
     double mesh_frequency_Hz = 0, deepest_crack_m = 0, tooth_force_N = 0;
 };
 
-std::string pair_teeth(const PairDatasheet& data) {
-    std::string text =
-        fmt::format("[gearbox]\nkind = \"fixed-shaft\"\npinion_teeth = {}\ngear_teeth = {}\n",
-                    data.pinion, data.gear);
-    text += module_lines(data);
-    for (const auto& [key, value] :
-         {std::pair{"addendum_coefficient", data.addendum},
-          std::pair{"pinion_shift", data.pinion_shift}, std::pair{"gear_shift", data.gear_shift},
-          std::pair{"centre_distance_mm", data.centre_distance_mm},
-          std::pair{"pinion_tip_mm", data.pinion_tip_mm},
-          std::pair{"gear_tip_mm", data.gear_tip_mm}}) {
-        if (value) {
-            text += fmt::format("{} = {}\n", key, *value);
-        }
+// Keys of the whole pair in [gearbox], and the tables of both gears.
+struct PairText {
+    std::string general;
+    MemberTables members{"pinion", "gear"};
+};
+PairText pair_teeth(const PairDatasheet& data) {
+    PairText text;
+    text.general = "[gearbox]\nkind = \"fixed-shaft\"\n" + module_lines(data);
+    for (const auto& [key, value] : {std::pair{"addendum_coefficient", data.addendum},
+                                     std::pair{"centre_distance_mm", data.centre_distance_mm}}) {
+        text.general += value ? fmt::format("{} = {}\n", key, *value) : "";
     }
-    return text + body_lines(data, face_width_mm(data)) + "tooth_profile = \"fillet\"\n";
+    text.general += body_lines(data, face_width_mm(data)) + "tooth_profile = \"fillet\"\n";
+    text.members["pinion"] = gear_lines(data.pinion, data.pinion_shift, data.pinion_tip_mm);
+    text.members["gear"] = gear_lines(data.gear, data.gear_shift, data.gear_tip_mm);
+    return text;
 }
 
 // Minimal study with the teeth only. Reading it checks the teeth.
 std::string minimal_pair(const PairDatasheet& data) {
-    return pair_teeth(data) +
-           "motor_coupling_stiffness_N_m_rad = 1\nload_coupling_stiffness_N_m_rad = 1\n"
-           "pinion_bearing_stiffness_N_m = 1e8\ngear_bearing_stiffness_N_m = 1e8\n"
+    auto [general, members] = pair_teeth(data);
+    members["pinion"] += "bearing_stiffness_N_m = 1e8\n";
+    members["gear"] += "bearing_stiffness_N_m = 1e8\n";
+    return general + "motor_coupling_stiffness_N_m_rad = 1\nload_coupling_stiffness_N_m_rad = 1\n" +
+           members.text() +
            "[operation]\ntorque_N_m = 1\npinion_speed_rpm = 1\n"
            "[effects]\nmotion = \"quasi-static\"\npath = \"none\"\n"
            "[fault]\nkind = \"crack\"\nmember = \"pinion\"\ndepth_mm = 0\nangle_deg = 45\n"
@@ -77,45 +80,46 @@ DerivedPair derive_pair(const Study& study, const PairDatasheet& data, const Inp
     return d;
 }
 
-std::string gear_lines(const PairDatasheet& data, const DerivedPair& d) {
+// Section [gearbox].
+std::string gearbox_section(const PairDatasheet& data, const DerivedPair& d) {
     constexpr double kMotorInertia = 10.0;  // times the gear's; chosen
-    std::string bores, masses, inertias, bearings, couplings, damping;
+    auto [general, members] = pair_teeth(data);
+    std::string inertias, couplings;
     for (const auto& [name, machine, gear, given] :
          {std::tuple{"pinion", "motor", d.pinion, data.pinion_bearing_N_m.has_value()},
           std::tuple{"gear", "load", d.gear, data.gear_bearing_N_m.has_value()}}) {
         const bool first = name == std::string("pinion");
-        const auto key = [](const char* subject, const char* what) {
-            return fmt::format("{}_{}", subject, what);
+        const auto of_machine = [&](const char* what) {
+            return fmt::format("{}_{}", machine, what);
         };
-        bores += line(key(name, "bore_mm"), 2e3 * gear.body.inner_m,
-                      first ? "rims of 1.2 tooth heights: thinner ones weaken the root (AGMA "
-                              "2001-D04, backup ratio)"
-                            : "");
-        masses += line(key(name, "mass_kg"), gear.body.mass_kg(),
-                       first ? "steel rings between bore and reference circle (7850 kg/m^3)" : "");
-        masses += line(key(name, "inertia_kg_m2"), gear.body.inertia_kg_m2());
-        inertias += line(key(machine, "inertia_kg_m2"), kMotorInertia * gear.body.inertia_kg_m2(),
+        members[name] +=
+            line("bore_mm", 2e3 * gear.body.inner_m,
+                 first ? "rims of 1.2 tooth heights: thinner ones weaken the root (AGMA 2001-D04, "
+                         "backup ratio)"
+                       : "") +
+            line("mass_kg", gear.body.mass_kg(),
+                 first ? "a steel ring between bore and reference circle (7850 kg/m^3)" : "") +
+            line("inertia_kg_m2", gear.body.inertia_kg_m2()) +
+            (given ? given_line("bearing_stiffness_N_m", gear.bearing_N_m, "given")
+                   : line("bearing_stiffness_N_m", gear.bearing_N_m)) +
+            line("bearing_damping_N_s_m", bearing_damping_N_s_m(gear.bearing_N_m));
+        inertias += line(of_machine("inertia_kg_m2"), kMotorInertia * gear.body.inertia_kg_m2(),
                          "ten times the gear's (chosen)");
-        bearings += given
-                        ? given_line(key(name, "bearing_stiffness_N_m"), gear.bearing_N_m, "given")
-                        : line(key(name, "bearing_stiffness_N_m"), gear.bearing_N_m);
-        damping +=
-            line(key(name, "bearing_damping_N_s_m"), bearing_damping_N_s_m(gear.bearing_N_m));
         couplings +=
-            line(key(machine, "coupling_stiffness_N_m_rad"), gear.shaft_N_m_rad,
-                 first ? "steel shafts of the bore's diameter, ten diameters long (chosen)" : "");
-        damping += line(key(machine, "coupling_damping_N_m_s_rad"),
-                        bearing_damping_N_s_m(gear.shaft_N_m_rad));
+            line(of_machine("coupling_stiffness_N_m_rad"), gear.shaft_N_m_rad,
+                 first ? "steel shafts of the bore's diameter, ten diameters long (chosen)" : "") +
+            line(of_machine("coupling_damping_N_m_s_rad"),
+                 bearing_damping_N_s_m(gear.shaft_N_m_rad));
     }
-    return bores + line("tooth_quality", data.quality, "ISO 1328 grade of both gears") +
+    return general + line("tooth_quality", data.quality, "ISO 1328 grade of both gears") +
            line("mesh_damping_ratio", 0.1, "0.03 to 0.17 of critical (Kasuba and Evans, 1981)") +
-           masses + inertias +
+           inertias + couplings +
            fmt::format(
                "# Bearings: two roller bearings on each shaft, loaded with {} kN together:\n"
                "# 1e9 Z^0.9 l^0.8 F^0.1 (Kraemer, after Palmgren). Damping: 1e-5 s times\n"
                "# the stiffness (Kraemer: 0.25e-5 to 2.5e-5 s).\n",
                rounded_text(1e-3 * d.tooth_force_N)) +
-           bearings + couplings + damping;
+           members.text();
 }
 
 std::string pair_text(const PairDatasheet& data, const DerivedPair& d, const InputLoad& load,
@@ -126,7 +130,7 @@ std::string pair_text(const PairDatasheet& data, const DerivedPair& d, const Inp
                         command) +
            fmt::format("title = \"Gear pair {}/{}: crack of a pinion tooth\"\n\n", data.pinion,
                        data.gear) +
-           pair_teeth(data) + gear_lines(data, d) + "\n[operation]\n" +
+           gearbox_section(data, d) + "\n[operation]\n" +
            (data.torque_N_m ? given_line("torque_N_m", load.torque_N_m)
                             : line("torque_N_m", load.torque_N_m)) +
            (data.speed_rpm ? given_line("pinion_speed_rpm", load.speed_rpm)
@@ -141,8 +145,8 @@ std::string pair_text(const PairDatasheet& data, const DerivedPair& d, const Inp
            sensor_section(d.mesh_frequency_Hz, line("position", "\"pinion\"", "")) +
            "\n[random]                                    # variation between gearboxes "
            "(chosen)\n" +
-           varied("gearbox.pinion_bearing_stiffness_N_m", lognormal(d.pinion.bearing_N_m, 0.3)) +
-           varied("gearbox.gear_bearing_stiffness_N_m", lognormal(d.gear.bearing_N_m, 0.3)) +
+           varied("gearbox.pinion.bearing_stiffness_N_m", lognormal(d.pinion.bearing_N_m, 0.3)) +
+           varied("gearbox.gear.bearing_stiffness_N_m", lognormal(d.gear.bearing_N_m, 0.3)) +
            varied("gearbox.mesh_damping_ratio", "\"uniform\", low = 0.03, high = 0.17") +
            varied_torque(load.torque_N_m) +
            varied("sensor." + std::string(noise.key), lognormal(noise.value, 0.2)) +

@@ -8,6 +8,7 @@
 #include <iterator>
 #include <map>
 #include <string>
+#include <tuple>
 #include <utility>
 
 #include "gears/planetary.hpp"
@@ -39,8 +40,13 @@ struct DerivedGearbox {
     double mesh_frequency_Hz = 0, pin_load_N = 0, deepest_crack_m = 0;
 };
 
-// Returns section [gearbox] with the datasheet values and the material.
-std::string gearbox_teeth(const NominalGears& gears);
+// Section [gearbox] in parts: keys of the whole gearbox with the datasheet values and the material,
+// and the tables of the members.
+struct GearboxText {
+    std::string general;
+    MemberTables members{"sun", "planet", "ring", "carrier"};
+};
+GearboxText gearbox_teeth(const NominalGears& gears);
 
 // Returns the complete study. `command`: command line, quoted in its first comment.
 std::string planetary_text(const NominalGears& gears, const DerivedGearbox& derived,
@@ -48,29 +54,25 @@ std::string planetary_text(const NominalGears& gears, const DerivedGearbox& deri
 
 namespace {
 
-std::string masses(const DerivedGearbox& d) {
-    std::string text;
+void add_bodies(const DerivedGearbox& d, MemberTables& members) {
+    members["sun"] +=
+        line("bore_mm", 2e3 * d.sun_body.inner_m,
+             "rims of 1.2 tooth heights: thinner ones weaken the root (AGMA 2001-D04, "
+             "backup ratio)");
+    members["planet"] += line("bore_mm", 2e3 * d.planet_body.inner_m, "holds the bearing");
+    members["ring"] += line("outer_mm", 2e3 * d.ring_body.outer_m,
+                            "rim of three tooth heights, with room for bolts (chosen)");
     const auto body = [&](const char* name, const Annulus& annulus, const char* comment) {
-        text += line(fmt::format("{}_mass_kg", name), annulus.mass_kg(), comment);
-        text += line(fmt::format("{}_inertia_kg_m2", name), annulus.inertia_kg_m2());
+        members[name] += line("mass_kg", annulus.mass_kg(), comment) +
+                         line("inertia_kg_m2", annulus.inertia_kg_m2());
     };
-    body("sun", d.sun_body, "steel rings between bore and reference circle (7850 kg/m^3)");
+    body("sun", d.sun_body, "a steel ring between bore and reference circle (7850 kg/m^3)");
     body("planet", d.planet_body, "");
     body("ring", d.ring_body, "between reference circle and outside");
-    text += line("carrier_mass_kg", d.carrier_mass_kg,
-                 "two plates of a quarter of the face width, one pin diameter beyond the pins");
-    text += line("carrier_inertia_kg_m2", d.carrier_inertia_kg_m2,
-                 "and pins of 1.5 face widths, chosen");
-    return text;
-}
-
-std::string bodies(const DerivedGearbox& d) {
-    return line("sun_bore_mm", 2e3 * d.sun_body.inner_m,
-                "rims of 1.2 tooth heights: thinner ones weaken the root (AGMA 2001-D04, backup "
-                "ratio)") +
-           line("planet_bore_mm", 2e3 * d.planet_body.inner_m, "holds the bearing") +
-           line("ring_outer_mm", 2e3 * d.ring_body.outer_m,
-                "rim of three tooth heights, with room for bolts (chosen)");
+    members["carrier"] +=
+        line("mass_kg", d.carrier_mass_kg,
+             "two plates of a quarter of the face width, one pin diameter beyond the pins") +
+        line("inertia_kg_m2", d.carrier_inertia_kg_m2, "and pins of 1.5 face widths, chosen");
 }
 
 // True if a datasheet gives that member's bearing stiffness.
@@ -82,27 +84,28 @@ bool bearing_given(const PlanetaryDatasheet& data, const std::string& name) {
                                : false;
 }
 
-std::string bearings(const NominalGears& g, const DerivedGearbox& d) {
-    const RollerBearing& b = d.bearing;
-    std::string text = fmt::format(
-        "# Planet bearings: 2 rows of {} rollers, {} mm long, loaded with {} kN:\n"
-        "# 1e9 Z^0.9 l^0.8 F^0.1 (Kraemer, after Palmgren). Chosen: carrier bearings of the\n"
-        "# same stiffness, a bolted ring of twice the stiffness, and a floating sun of a\n"
-        "# fiftieth, so that the planets share the load. Damping: 1e-5 s times the\n"
-        "# stiffness (Kraemer: 0.25e-5 to 2.5e-5 s).\n",
-        b.rollers, rounded_text(1e3 * b.roller_length_m), rounded_text(1e-3 * d.pin_load_N));
-    std::string damping;
-    for (const char* name : {"sun", "planet", "ring", "carrier", "support"}) {
+// Adds the bearings of the members; returns the support of the ring.
+std::string add_bearings(const NominalGears& g, const DerivedGearbox& d, MemberTables& members) {
+    for (const char* name : {"sun", "planet", "ring", "carrier"}) {
         const double stiffness = d.bearings_N_m.at(name);
-        const bool support = name == std::string("support");
-        const std::string prefix = support ? name : std::string(name) + "_bearing";
-        text += bearing_given(g.data, name)
-                    ? given_line(prefix + "_stiffness_N_m", stiffness, "given")
-                    : line(prefix + "_stiffness_N_m", stiffness,
-                           support ? "holds the ring's rotation" : "");
-        damping += line(prefix + "_damping_N_s_m", bearing_damping_N_s_m(stiffness));
+        members[name] +=
+            (bearing_given(g.data, name) ? given_line("bearing_stiffness_N_m", stiffness, "given")
+                                         : line("bearing_stiffness_N_m", stiffness)) +
+            line("bearing_damping_N_s_m", bearing_damping_N_s_m(stiffness));
     }
-    return text + damping;
+    const RollerBearing& b = d.bearing;
+    const double support = d.bearings_N_m.at("support");
+    return fmt::format(
+               "# Planet bearings: 2 rows of {} rollers, {} mm long, loaded with {} kN:\n"
+               "# 1e9 Z^0.9 l^0.8 F^0.1 (Kraemer, after Palmgren). Chosen: carrier bearings of "
+               "the\n"
+               "# same stiffness, a bolted ring of twice the stiffness, and a floating sun of a\n"
+               "# fiftieth, so that the planets share the load. Damping: 1e-5 s times the\n"
+               "# stiffness (Kraemer: 0.25e-5 to 2.5e-5 s).\n",
+               b.rollers, rounded_text(1e3 * b.roller_length_m),
+               rounded_text(1e-3 * d.pin_load_N)) +
+           line("support_stiffness_N_m", support, "holds the ring's rotation") +
+           line("support_damping_N_s_m", bearing_damping_N_s_m(support));
 }
 
 // Standard deviation of the pin positions: a normal distribution with 95 % within the tolerance.
@@ -146,7 +149,7 @@ std::string random(const DerivedGearbox& d, const InputLoad& load) {
     std::string text =
         "\n[random]                                    # variation between gearboxes (chosen)\n";
     for (const char* name : {"planet", "sun", "ring", "carrier"}) {
-        text += varied(fmt::format("gearbox.{}_bearing_stiffness_N_m", name),
+        text += varied(fmt::format("gearbox.{}.bearing_stiffness_N_m", name),
                        lognormal(d.bearings_N_m.at(name), 0.3));
     }
     return text + varied("gearbox.mesh_damping_ratio", "\"uniform\", low = 0.03, high = 0.17") +
@@ -158,24 +161,23 @@ std::string random(const DerivedGearbox& d, const InputLoad& load) {
 
 }  // namespace
 
-std::string gearbox_teeth(const NominalGears& g) {
+GearboxText gearbox_teeth(const NominalGears& g) {
     const PlanetaryDatasheet& data = g.data;
-    std::string text = fmt::format(
-        "[gearbox]\nkind = \"planetary\"\nplanets = {}\nsun_teeth = {}\nplanet_teeth = {}\n"
-        "ring_teeth = {}\n",
-        data.planets, data.sun, data.planet, g.ring_teeth);
-    text += module_lines(data);
-    for (const auto& [key, value] :
-         {std::pair{"addendum_coefficient", data.addendum}, std::pair{"sun_shift", data.sun_shift},
-          std::pair{"planet_shift", data.planet_shift}, std::pair{"ring_shift", data.ring_shift},
-          std::pair{"centre_distance_mm", data.centre_distance_mm},
-          std::pair{"sun_tip_mm", data.sun_tip_mm}, std::pair{"planet_tip_mm", data.planet_tip_mm},
-          std::pair{"ring_tip_mm", data.ring_tip_mm}}) {
-        if (value) {
-            text += fmt::format("{} = {}\n", key, *value);
-        }
+    GearboxText text;
+    text.general = fmt::format("[gearbox]\nkind = \"planetary\"\nplanets = {}\n", data.planets) +
+                   module_lines(data);
+    for (const auto& [key, value] : {std::pair{"addendum_coefficient", data.addendum},
+                                     std::pair{"centre_distance_mm", data.centre_distance_mm}}) {
+        text.general += value ? fmt::format("{} = {}\n", key, *value) : "";
     }
-    return text + body_lines(data, g.face_width_mm);
+    text.general += body_lines(data, g.face_width_mm) + "tooth_profile = \"fillet\"\n";
+    for (const auto& [member, teeth, shift, tip_mm] :
+         {std::tuple{"sun", data.sun, data.sun_shift, data.sun_tip_mm},
+          std::tuple{"planet", data.planet, data.planet_shift, data.planet_tip_mm},
+          std::tuple{"ring", g.ring_teeth, data.ring_shift, data.ring_tip_mm}}) {
+        text.members[member] += gear_lines(teeth, shift, tip_mm);
+    }
+    return text;
 }
 
 std::string planetary_text(const NominalGears& g, const DerivedGearbox& d, const InputLoad& load,
@@ -186,9 +188,11 @@ std::string planetary_text(const NominalGears& g, const DerivedGearbox& d, const
     const std::string title = fmt::format(
         "title = \"Planetary gearbox {}/{}/{}: crack of a planet tooth on the ring side\"\n\n",
         data.sun, data.planet, g.ring_teeth);
-    return study_header(data, gearbox, command) + title + gearbox_teeth(g) +
-           "tooth_profile = \"fillet\"\n" + bodies(d) + accuracy(g, d) + masses(d) +
-           bearings(g, d) + operation(g, load) + effects() + kFault +
+    auto [general, members] = gearbox_teeth(g);
+    add_bodies(d, members);
+    const std::string support = add_bearings(g, d, members);
+    return study_header(data, gearbox, command) + title + general + accuracy(g, d) + support +
+           members.text() + operation(g, load) + effects() + kFault +
            sensor_section(d.mesh_frequency_Hz,
                           line("path_exponent", 0.1, "Liang (2016), section 5.1")) +
            random(d, load) + output_sections();
@@ -204,8 +208,8 @@ int default_ring_teeth(const PlanetaryDatasheet& data) {
 
 // Minimal study with the teeth only. Reading it checks the teeth.
 std::string minimal_study(const NominalGears& gears) {
-    return gearbox_teeth(gears) +
-           "tooth_profile = \"fillet\"\nsupport_stiffness_N_m = 1e9\n"
+    const auto [general, members] = gearbox_teeth(gears);
+    return general + "support_stiffness_N_m = 1e9\n" + members.text() +
            "[operation]\nfixed = \"ring\"\ninput = \"sun\"\ntorque_N_m = 1\nsun_speed_rpm = 1\n"
            "[effects]\nmotion = \"quasi-static-torsional\"\n"
            "[fault]\nkind = \"crack\"\nmember = \"planet\"\nside = \"ring\"\ndepth_mm = 0\n"

@@ -28,6 +28,25 @@ std::string given_line(const std::string& key, double value, const std::string& 
     return line(key, fmt::format("{:.9g}", value), comment);
 }
 
+MemberTables::MemberTables(std::initializer_list<const char*> members) {
+    for (const char* member : members) {
+        tables_.emplace_back(member, "");
+    }
+}
+
+std::string& MemberTables::operator[](const std::string& member) {
+    return std::ranges::find(tables_, member, [](const auto& table) { return table.first; })
+        ->second;
+}
+
+std::string MemberTables::text() const {
+    std::string text;
+    for (const auto& [member, lines] : tables_) {
+        text += lines.empty() ? "" : fmt::format("\n[gearbox.{}]\n{}", member, lines);
+    }
+    return text;
+}
+
 std::string study_header(const StageDatasheet& data, const std::string& gearbox,
                          const std::string& command) {
     std::string text = fmt::format("# {}, from its {} by\n#   gearpod {}\n", gearbox, data.origin,
@@ -66,6 +85,12 @@ std::string body_lines(const StageDatasheet& data, double face_width_mm) {
            line("young_modulus_Pa", data.young_modulus_Pa.value_or(kSteel_Pa),
                 data.young_modulus_Pa ? "given" : "steel") +
            line("poisson_ratio", data.poisson_ratio.value_or(kSteelPoisson));
+}
+
+std::string gear_lines(int teeth, const std::optional<double>& shift,
+                       const std::optional<double>& tip_mm) {
+    return fmt::format("teeth = {}\n", teeth) + (shift ? fmt::format("shift = {}\n", *shift) : "") +
+           (tip_mm ? fmt::format("tip_mm = {}\n", *tip_mm) : "");
 }
 
 SensorRates sensor_rates(double mesh_frequency_Hz) {

@@ -1,7 +1,10 @@
 // Lines and sections of a study's text that planetary gearboxes and gear pairs share.
 #pragma once
 
+#include <initializer_list>
+#include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "mc/study/new/datasheet.hpp"
@@ -17,6 +20,19 @@ std::string line(const std::string& key, double value, const std::string& commen
 // The same for a given number, to nine digits.
 std::string given_line(const std::string& key, double value, const std::string& comment = "");
 
+// Tables of members within [gearbox], in the order in which they are named.
+class MemberTables {
+  public:
+    explicit MemberTables(std::initializer_list<const char*> members);
+
+    // Lines of a member's table.
+    std::string& operator[](const std::string& member);
+    std::string text() const;
+
+  private:
+    std::vector<std::pair<std::string, std::string>> tables_;
+};
+
 // First comment of a study: kind of gearbox, command, notes of the datasheet, sources of the rules.
 std::string study_header(const StageDatasheet& data, const std::string& gearbox,
                          const std::string& command);
@@ -24,6 +40,10 @@ std::string study_header(const StageDatasheet& data, const std::string& gearbox,
 // Module, helix and pressure angle; then material and face width.
 std::string module_lines(const StageDatasheet& data);
 std::string body_lines(const StageDatasheet& data, double face_width_mm);
+
+// Teeth of a gear, and its profile shift and tip diameter where they are given.
+std::string gear_lines(int teeth, const std::optional<double>& shift,
+                       const std::optional<double>& tip_mm);
 
 // Sensor rates, Hz.
 struct SensorRates {
