@@ -12,21 +12,17 @@ namespace {
 
 using stiffness::FaceEnd;
 
-constexpr ChoiceName kBrokenEnds[] = {name("first", FaceEnd::first), name("last", FaceEnd::last)};
-
 struct Breakage : FaultShape {
     std::optional<double> width_m;   // along the face width
     std::optional<double> height_m;  // along the tooth's centre line, from the tip circle
-    std::optional<FaceEnd> end;      // only for helical teeth
 
     bool operator==(const Breakage&) const = default;
 };
 
 // clang-format off
-constexpr FaultSize kBreakageSize{"break_width_mm", number<&Breakage::width_m>, kMm, kNotNegative, "width of the part that has broken off, along the face width"};
+constexpr FaultSize kBreakageSize{"break_width_mm", number<&Breakage::width_m>, kMm, kNotNegative, "width of the part that has broken off, along the face width; of helical teeth from the end that engages first"};
 constexpr FaultKey kBreakageOthers[] = {
     {"break_height_mm", number<&Breakage::height_m>, kMm, kPositive, Need::optional, kFaultShape, "height of the part that has broken off, along the tooth's centre line, from the tip circle; by default the involute flank"},
-    {"break_end", choice<&Breakage::end>(kBrokenEnds), kNone, kAny, Need::optional, kFaultShape, "broken end of the face width of helical teeth: the one that engages \"first\" (default) or \"last\""},
 };
 // clang-format on
 
@@ -39,10 +35,7 @@ class BreakageKind final : public FaultKind {
     std::span<const FaultKey> other_keys() const override { return kBreakageOthers; }
     bool on_one_flank() const override { return false; }
 
-    void check(StudyDraft& draft) const override {
-        check_on_face(draft);
-        check_helical(draft, "fault.break_end");
-    }
+    void check(StudyDraft& draft) const override { check_on_face(draft); }
 
     std::string origin(const Study&, std::span<const double>) const override {
         return "width measured from one end of the face, height from the tip circle along the "
@@ -54,10 +47,9 @@ class BreakageKind final : public FaultKind {
     std::unique_ptr<const stiffness::ToothFaultFamily> family(
         const Study& study, const FaultyTooth& tooth) const override {
         const Breakage& breakage = study.fault.shapes.get<Breakage>();
-        const bool last = (breakage.end == FaceEnd::last) != tooth.reversed;
         return std::make_unique<const stiffness::ToothBreakage>(
             tooth.geometry.value(), material_of(study, tooth.mesh), profile_of(study), tooth.gear,
-            breakage.height_m, last ? FaceEnd::last : FaceEnd::first);
+            breakage.height_m, tooth.reversed ? FaceEnd::last : FaceEnd::first);
     }
 };
 

@@ -12,21 +12,17 @@ namespace {
 
 using stiffness::FaceEnd;
 
-constexpr ChoiceName kEnds[] = {name("first", FaceEnd::first), name("last", FaceEnd::last)};
-
 struct Chip : FaultShape {
     std::optional<double> width_m;   // along the face width, at the tip
     std::optional<double> height_m;  // along the tooth
-    std::optional<FaceEnd> end;      // only for helical teeth
 
     bool operator==(const Chip&) const = default;
 };
 
 // clang-format off
-constexpr FaultSize kChipSize{"chip_mm", number<&Chip::width_m>, kMm, kNotNegative, "width of the chip along the face width, at the tip"};
+constexpr FaultSize kChipSize{"chip_mm", number<&Chip::width_m>, kMm, kNotNegative, "width of the chip along the face width, at the tip; of helical teeth from the end that engages first"};
 constexpr FaultKey kChipOthers[] = {
     {"chip_height_mm", number<&Chip::height_m>, kMm, kPositive, Need::optional, kFaultShape, "height of the chip along the tooth, from the tip; a quarter of its width by default"},
-    {"chip_end", choice<&Chip::end>(kEnds), kNone, kAny, Need::optional, kFaultShape, "chipped end of the face width of helical teeth: the one that engages \"first\" (default) or \"last\""},
 };
 // clang-format on
 
@@ -40,7 +36,6 @@ class ChipKind final : public FaultKind {
     void check(StudyDraft& draft) const override {
         const std::string height_key = "fault.chip_height_mm";
         check_on_face(draft);
-        check_helical(draft, "fault.chip_end");
         const double tooth_mm = tooth_height_m(draft.study) * kMmPerM;
         const double chip_mm =
             draft.study.fault.shapes.get<Chip>().height_m.value_or(0.0) * kMmPerM;
@@ -61,10 +56,9 @@ class ChipKind final : public FaultKind {
     std::unique_ptr<const stiffness::ToothFaultFamily> family(
         const Study& study, const FaultyTooth& tooth) const override {
         const Chip& chip = study.fault.shapes.get<Chip>();
-        const bool last = (chip.end == FaceEnd::last) != tooth.reversed;
         return std::make_unique<const stiffness::ToothChip>(
             tooth.geometry.value(), *study.gearbox.face_width_m, tooth.gear, chip.height_m,
-            last ? FaceEnd::last : FaceEnd::first);
+            tooth.reversed ? FaceEnd::last : FaceEnd::first);
     }
 };
 

@@ -43,16 +43,6 @@ SizeShare share_of_face(const Study& study) {
     return {1.0, *study.gearbox.face_width_m, "the face width"};
 }
 
-void check_helical(StudyDraft& draft, const std::string& key) {
-    if (draft.is_given(key) && draft.all_usable({key, "gearbox.helix_angle_deg"}) &&
-        draft.study.gearbox.helix_angle_rad == 0.0) {
-        draft.reject(key,
-                     "is not allowed here (spur teeth touch along the whole face at once, so a "
-                     "position along it has no meaning)",
-                     "remove it, or give gearbox.helix_angle_deg");
-    }
-}
-
 double tooth_height_m(const Study& study) {
     const gears::Gear gear = gear_of(study, *study.fault.member);
     return std::abs(gear.tip_radius() - gear.root_radius());

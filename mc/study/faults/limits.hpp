@@ -28,10 +28,6 @@ void check_on_face(StudyDraft& draft);
 // Part of the face width that a size along it takes.
 SizeShare share_of_face(const Study& study);
 
-// Rejects a key that gives a position along the face width if the teeth are spur teeth, which touch
-// along the whole face at once.
-void check_helical(StudyDraft& draft, const std::string& key);
-
 // Height of the faulty member's teeth, from root to tip circle, m.
 double tooth_height_m(const Study& study);
 

@@ -18,8 +18,7 @@ struct Pits : FaultShape {
     std::optional<double> width_m;  // along the face width
     // Length of the band along the profile, radius of its centre, depth of the pits.
     std::optional<double> length_m, radius_m, depth_m;
-    int teeth = 1;                          // neighbouring pitted teeth
-    std::optional<double> face_position_m;  // only for helical teeth
+    int teeth = 1;  // neighbouring pitted teeth
 
     bool operator==(const Pits&) const = default;
 };
@@ -31,7 +30,6 @@ constexpr FaultKey kPittingOthers[] = {
     {"pit_radius_mm", number<&Pits::radius_m>, kMm, kPositive, Need::required, kFaultShape, "distance of the band's centre from the gear's axis"},
     {"pit_depth_mm", number<&Pits::depth_m>, kMm, kNotNegative, Need::required, kFaultShape, "depth of the pits under the flank"},
     {"teeth", integer<&Pits::teeth>, kNone, closed_range(1, 100), Need::optional, kFaultShape, "number of neighbouring pitted teeth"},
-    {"pit_face_position_mm", number<&Pits::face_position_m>, kMm, kNotNegative, Need::optional, kFaultShape, "centre of the pits along the face width of helical teeth, from the end that engages first; by default half the face width"},
 };
 // clang-format on
 
@@ -108,7 +106,6 @@ class PittingKind final : public FaultKind {
     void check(StudyDraft& draft) const override {
         const Pits& pits = draft.study.fault.shapes.get<Pits>();
         check_on_face(draft);
-        check_helical(draft, "fault.pit_face_position_mm");
         check_teeth(draft, pits);
         check_band(draft, pits);
     }
@@ -122,12 +119,9 @@ class PittingKind final : public FaultKind {
     std::unique_ptr<const stiffness::ToothFaultFamily> family(
         const Study& study, const FaultyTooth& tooth) const override {
         const Pits& pits = study.fault.shapes.get<Pits>();
-        const double face_m = *study.gearbox.face_width_m;
-        const double from_first = pits.face_position_m.value_or(0.5 * face_m) / face_m;
         return std::make_unique<const stiffness::ToothPitting>(
             tooth.geometry.value(), material_of(study, tooth.mesh), profile_of(study), tooth.gear,
-            stiffness::PitBand{*pits.radius_m, *pits.length_m, *pits.depth_m, pits.teeth,
-                               tooth.reversed ? 1.0 - from_first : from_first});
+            stiffness::PitBand{*pits.radius_m, *pits.length_m, *pits.depth_m, pits.teeth, 0.5});
     }
 };
 

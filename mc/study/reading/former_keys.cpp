@@ -32,6 +32,11 @@ constexpr std::string_view kSolid =
     "[gearbox.gear]";
 constexpr std::string_view kNoSquareWave =
     "give tooth_profile = \"fillet\", or a constant stiffness_N_m in [gearbox.mesh]";
+constexpr std::string_view kOtherGrade =
+    "give this grade as tooth_quality, and those of the other gears as quality in their tables";
+constexpr std::string_view kFirstEnd =
+    "remove it: the end that engages first is damaged; the other one gives the same loss, later by "
+    "the overlap";
 constexpr RemovedKey kRemoved[] = {
     {"numerics.step_tolerance", "*", "remove it"},
     {"gearbox.planet_bearing_*_factors", "", kLikePlanets},
@@ -56,6 +61,15 @@ constexpr RemovedKey kRemoved[] = {
     {"numerics.face_slices", "0", "remove it: crowned spur teeth have 8 slices, helical ones 4"},
     {"life.smallest_depth_mm", "",
      "remove it: interpolation_tolerance is relative to a crack of half of last_depth_mm"},
+    {"gearbox.planet_crowning_um", "0",
+     "add it to crowning_um in [gearbox.sun] and [gearbox.ring]: crowning of mating flanks adds"},
+    {"gearbox.pinion_crowning_um", "0",
+     "add it to crowning_um in [gearbox.gear]: crowning of mating flanks adds"},
+    {"gearbox.sun_quality", "", kOtherGrade},
+    {"gearbox.pinion_quality", "", kOtherGrade},
+    {"fault.chip_end", "first", kFirstEnd},
+    {"fault.break_end", "first", kFirstEnd},
+    {"fault.pit_face_position_mm", "", "remove it: pits lie in the middle of the face width"},
 };
 
 constexpr FormerValue kFormerValues[] = {

@@ -48,6 +48,10 @@ constexpr Member kGears[] = {Member::sun, Member::planet, Member::ring, Member::
                              Member::gear};
 constexpr Member kBored[] = {Member::sun, Member::planet, Member::pinion, Member::gear};
 constexpr Member kRing[] = {Member::ring};
+// One gear of each mesh: crowning of both adds.
+constexpr Member kCrowned[] = {Member::sun, Member::ring, Member::gear};
+// Gears that may have another grade than tooth_quality.
+constexpr Member kGraded[] = {Member::planet, Member::ring, Member::gear};
 // Wheels that a web may carry; sun and pinion are solid.
 constexpr Member kWebbed[] = {Member::planet, Member::gear};
 constexpr Member kPlanet[] = {Member::planet};
@@ -129,7 +133,7 @@ const MemberKey kBodyKeys[] = {
     {"tip_mm", kGears, of_members<&B::tip_diameter_m>(), kMm, kPositive, each<shifted_teeth>, kGeometry, "tip diameter of {}; by default from addendum and shift, shortened as far as tip clearance needs"},
     {"tip_relief_um", kGears, of_members<&B::tip_relief_m>(), kUm, kNotNegative, each<tooth_model>, kGeometry, "tip relief of the flanks of {}, along the line of action; the transmission error of relief is computed for the nominal load"},
     {"tip_relief_length_mm", kGears, of_members<&B::tip_relief_length_m>(), kMm, kPositive, tip_relief_length, kGeometry, "length of the tip relief of {} along the line of action, from the end of contact"},
-    {"crowning_um", kGears, of_members<&B::crowning_m>(), kUm, kNotNegative, each<tooth_model>, kGeometry, "crowning of the flanks of {}: depth removed at both ends of the face, by a parabola along the face width"},
+    {"crowning_um", kCrowned, of_members<&B::crowning_m>(), kUm, kNotNegative, each<tooth_model>, kGeometry, "crowning of the flanks of {}: depth removed at both ends of the face, by a parabola along the face width"},
     {"bore_mm", kBored, of_members<&B::held_diameter_m>(), kMm, kPositive, each<foundation>, kGeometry, "diameter of the bore of {}"},
     {"outer_mm", kRing, of_members<&B::held_diameter_m>(), kMm, kPositive, each<ring_foundation>, kGeometry, "outer diameter of {}"},
     {"rim_mm", kWebbed, of_members<&B::rim_m>(), kMm, kPositive, rim, kGeometry, "thickness of the rim of {} below the tooth roots, if a thinner web carries it"},
@@ -169,7 +173,7 @@ const Key kQualityKeys[] = {
     {"gearbox", "tooth_quality", number<&E::tooth_quality>, kNone, kGrade, tooth_quality, kRandom, "ISO 1328 grade of all gears; 90 % of the random gears keep each of its tolerances: pitch, cumulative pitch, runout and profile"},
 };
 const MemberKey kToothKeys[] = {
-    {"quality", kGears, of_members<&B::quality>(), kNone, kGrade, each<tooth_quality>, kRandom, "ISO 1328 grade of {}, instead of tooth_quality"},
+    {"quality", kGraded, of_members<&B::quality>(), kNone, kGrade, each<tooth_quality>, kRandom, "ISO 1328 grade of {}, instead of tooth_quality"},
     {"index_um", kGears, of_members<&B::index_m>(), kUm, kAny, each<may>, kShared, "measured index deviations of the teeth of {}, instead of random ones, along the line of action, gaps positive, starting with the tooth that meets its first mate first. For planets those of the flanks that meet the sun, one planet after the other"},
     {"ring_side_index_um", kPlanet, of_members<&B::ring_side_index_m>(), kUm, kAny, each<may>, kShared, "measured index deviations of the flanks of the same teeth that meet the ring"},
 };
