@@ -12,7 +12,7 @@
 #include "mc/study/housing.hpp"
 #include "mc/study/noise.hpp"
 #include "mc/study/other_sources.hpp"
-#include "mc/study/reading/former_keys.hpp"
+#include "mc/study/schema/former_keys.hpp"
 #include "mc/study/schema/schema.hpp"
 #include "signals/noise/coloured_noise.hpp"
 

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "dynamics/planetary.hpp"
+#include "mc/study/keys/key.hpp"
 #include "mc/study/noise.hpp"
 #include "mc/study/study.hpp"
 
@@ -21,13 +22,6 @@ namespace gearpod::mc {
 enum class InputId : std::size_t {};
 // Precondition: the key "section.name" exists and may be random.
 InputId input_id(std::string_view key);
-
-// Text of a key as a template argument.
-template <std::size_t kLength>
-struct KeyText {
-    char text[kLength];
-    constexpr KeyText(const char (&key)[kLength]) { std::copy_n(key, kLength, text); }
-};
 
 // Values of all these numbers for one gearbox, SI; empty for those that are not given.
 class InputValues {

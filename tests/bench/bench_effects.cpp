@@ -28,8 +28,8 @@ const std::vector<std::string> kTrain{"effects.inertial_terms=false", "numerics.
 // Tian's stage with couplings for which an explicit method is stable.
 const std::vector<std::string> kStage{"gearbox.motor_coupling_damping_N_m_s_rad=5",
                                       "gearbox.load_coupling_damping_N_m_s_rad=5",
-                                      "gearbox.pinion_bearing_damping_N_s_m=1800",
-                                      "gearbox.gear_bearing_damping_N_s_m=1800",
+                                      "gearbox.pinion.bearing_damping_N_s_m=1800",
+                                      "gearbox.gear.bearing_damping_N_s_m=1800",
                                       "numerics.integrator=rk4",
                                       "sensor.low_pass_Hz=4000"};
 
@@ -37,8 +37,8 @@ const std::vector<std::string> kStage{"gearbox.motor_coupling_damping_N_m_s_rad=
 const std::vector<Case> kTrainEffects{
     {"none", {}},
     {"inertial-terms", {"effects.inertial_terms=true"}},
-    {"transmission-error", {"gearbox.sun_planet_error_um=[1]"}},
-    {"mesh-error", {"gearbox.mesh_error_um=[1]"}},
+    {"transmission-error", {"gearbox.sun_planet.error_um=[1]"}},
+    {"mesh-error", {"gearbox.mesh.error_um=[1]"}},
     {"separation", {"effects.separation=one-sided"}},
     {"torque-sine", {"operation.torque_fluctuation=0.1", "operation.torque_fluctuation_Hz=3"}},
     {"torque-noise", {"operation.torque_noise=0.1", "operation.torque_noise_band_Hz=3"}},
@@ -50,7 +50,7 @@ const std::vector<Case> kTrainEffects{
     {"speed-noise", {"operation.speed_noise=0.01", "operation.speed_noise_band_Hz=3"}},
     {"all",
      {"effects.inertial_terms=true", "effects.separation=one-sided",
-      "gearbox.sun_planet_error_um=[1]", "operation.torque_fluctuation=0.1",
+      "gearbox.sun_planet.error_um=[1]", "operation.torque_fluctuation=0.1",
       "operation.torque_fluctuation_Hz=3", "operation.torque_noise=0.1",
       "operation.torque_noise_band_Hz=3", "effects.gravity=true",
       "operation.speed_fluctuation=0.01", "operation.speed_fluctuation_order=1"}}};

@@ -21,10 +21,10 @@ std::unique_ptr<mc::Scene> study_scene(const std::string& study,
 std::unique_ptr<mc::Scene> reference_scene(int planets, std::vector<std::string> overrides) {
     overrides.push_back(fmt::format("gearbox.planets={}", planets));
     if (planets == 3) {
-        overrides.insert(overrides.end(), {"gearbox.sun_teeth=20", "gearbox.ring_teeth=82"});
+        overrides.insert(overrides.end(), {"gearbox.sun.teeth=20", "gearbox.ring.teeth=82"});
     } else if (planets == 6) {
-        overrides.insert(overrides.end(), {"gearbox.sun_teeth=40", "gearbox.planet_teeth=20",
-                                           "gearbox.ring_teeth=80"});
+        overrides.insert(overrides.end(), {"gearbox.sun.teeth=40", "gearbox.planet.teeth=20",
+                                           "gearbox.ring.teeth=80"});
     } else if (planets != 4) {
         throw std::runtime_error(fmt::format("no teeth are known for {} planets", planets));
     }

@@ -20,9 +20,9 @@ from measuring import processor_s
 
 WHOLE = 10_000
 TEETH = ["gearbox.tooth_quality=6", "gearbox.pin_tangential_rms_um=20",
-         "gearbox.sun_tip_relief_um=15", "gearbox.sun_tip_relief_length_mm=2.4",
-         "gearbox.planet_tip_relief_um=15", "gearbox.planet_tip_relief_length_mm=2.4",
-         "gearbox.sun_bore_mm=26", "gearbox.planet_bore_mm=40", "gearbox.ring_outer_mm=310",
+         "gearbox.sun.tip_relief_um=15", "gearbox.sun.tip_relief_length_mm=2.4",
+         "gearbox.planet.tip_relief_um=15", "gearbox.planet.tip_relief_length_mm=2.4",
+         "gearbox.sun.bore_mm=26", "gearbox.planet.bore_mm=40", "gearbox.ring.outer_mm=310",
          'effects.foundation="elastic-ring"', 'effects.contact_onset="extended"',
          'numerics.integrator="central-difference"', 'numerics.precision="single"',
          "numerics.settle_tolerance=1e-4"]

@@ -42,7 +42,7 @@ SHORT = "sensor.record_turns=2"
 REASSEMBLED = [
     "features.baseline_torque_scatter=0.02", "gearbox.pin_tangential_rms_um=20", 'features.baseline_redraws=["pins"]',
     'sensor.path_exponent={distribution="uniform", low=-0.1, high=0.1, per="assembly"}',
-    'gearbox.planet_bearing_stiffness_N_m={distribution="lognormal", median=1e8, cv=0.2, per="assembly"}']
+    'gearbox.planet.bearing_stiffness_N_m={distribution="lognormal", median=1e8, cv=0.2, per="assembly"}']
 CASES = {
     "short": ("short records", [WINDOW, SHORT]),
     "reassembled": ("re-assembled baselines", ['features.use=["own_window_ratio"]'] + REASSEMBLED),

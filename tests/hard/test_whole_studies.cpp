@@ -61,8 +61,8 @@ TEST_CASE("Tails of distributions: bearings a hundred times as stiff, no torque,
     const mc::Results plain = results(fast_train());
     check_all_worked(plain);
     const mc::Results stiff = results(fast_train(
-        {"gearbox.planet_bearing_stiffness_N_m=1e10", "gearbox.sun_bearing_stiffness_N_m=1e10",
-         "gearbox.ring_bearing_stiffness_N_m=1e10", "gearbox.carrier_bearing_stiffness_N_m=1e10"}));
+        {"gearbox.planet.bearing_stiffness_N_m=1e10", "gearbox.sun.bearing_stiffness_N_m=1e10",
+         "gearbox.ring.bearing_stiffness_N_m=1e10", "gearbox.carrier.bearing_stiffness_N_m=1e10"}));
     check_all_worked(stiff);
     const mc::Results undamped_mesh = results(fast_train({"gearbox.mesh_damping_ratio=0"}));
     check_all_worked(undamped_mesh);
@@ -94,9 +94,9 @@ TEST_CASE("Without any damping no gearbox converges, and none hangs or counts as
     const Folder folder;
     const Outcome outcome = run_program(
         test::study("planet-crack-ideal.toml"), folder,
-        fast_train({"gearbox.mesh_damping_ratio=0", "gearbox.planet_bearing_damping_N_s_m=0",
-                    "gearbox.sun_bearing_damping_N_s_m=0", "gearbox.ring_bearing_damping_N_s_m=0",
-                    "gearbox.carrier_bearing_damping_N_s_m=0", "gearbox.support_damping_N_s_m=0",
+        fast_train({"gearbox.mesh_damping_ratio=0", "gearbox.planet.bearing_damping_N_s_m=0",
+                    "gearbox.sun.bearing_damping_N_s_m=0", "gearbox.ring.bearing_damping_N_s_m=0",
+                    "gearbox.carrier.bearing_damping_N_s_m=0", "gearbox.support_damping_N_s_m=0",
                     "numerics.max_meshes=50"}));
     INFO(outcome.output);
     CHECK(outcome.code == 3);
@@ -229,8 +229,8 @@ TEST_CASE(
     const std::vector<Hard> scenes = {
         {2e-4, {"fault.depth_mm=8.571"}},  // through the whole tooth
         {2e-4,
-         {"gearbox.planet_bearing_stiffness_N_m=1e10", "gearbox.sun_bearing_stiffness_N_m=1e10",
-          "gearbox.ring_bearing_stiffness_N_m=1e10", "gearbox.carrier_bearing_stiffness_N_m=1e10"}},
+         {"gearbox.planet.bearing_stiffness_N_m=1e10", "gearbox.sun.bearing_stiffness_N_m=1e10",
+          "gearbox.ring.bearing_stiffness_N_m=1e10", "gearbox.carrier.bearing_stiffness_N_m=1e10"}},
         {2e-4, {"gearbox.mesh_damping_ratio=0"}},
         // The planets' centrifugal forces are 650 times the mesh forces.
         {1e-2, {"operation.torque_N_m=1e-3"}},

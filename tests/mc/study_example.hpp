@@ -11,22 +11,22 @@ inline const std::string kExampleStudy = R"(title = "example"
 [gearbox]
 kind = "planetary"
 planets = 4
-sun_teeth = 19
-planet_teeth = 31
-ring_teeth = 81
+sun.teeth = 19
+planet.teeth = 31
+ring.teeth = 81
 module_mm = 3.175
 pressure_angle_deg = 20
 face_width_mm = 38.1
 young_modulus_Pa = 2.068e11
 poisson_ratio = 0.3
-sun_mass_kg = 0.7
-planet_mass_kg = 1.822
-ring_mass_kg = 5.982
-carrier_mass_kg = 10
-sun_bearing_stiffness_N_m = 1e8
-planet_bearing_stiffness_N_m = 1e8
-ring_bearing_stiffness_N_m = 1e8
-carrier_bearing_stiffness_N_m = 1e8
+sun.mass_kg = 0.7
+planet.mass_kg = 1.822
+ring.mass_kg = 5.982
+carrier.mass_kg = 10
+sun.bearing_stiffness_N_m = 1e8
+planet.bearing_stiffness_N_m = 1e8
+ring.bearing_stiffness_N_m = 1e8
+carrier.bearing_stiffness_N_m = 1e8
 support_stiffness_N_m = 1e9
 mesh_damping_ratio = 0.07
 
@@ -48,7 +48,7 @@ noise_m_s2 = 0.3
 noise_levels = [0, 0.5, 1]
 
 [random]
-gearbox.planet_bearing_stiffness_N_m = { distribution = "lognormal", median = 1.1e8, cv = 0.2 }
+gearbox.planet.bearing_stiffness_N_m = { distribution = "lognormal", median = 1.1e8, cv = 0.2 }
 fault.depth_mm = { distribution = "levels", values = [0, 1, 2, 3, 4.3] }
 sensor.path_exponent = { distribution = "truncated-normal", mean = 0.1, sd = 0.05, low = -0.1, high = 0.3 }
 
@@ -62,8 +62,8 @@ seed = 7
 // would exceed the allowed number of run-in mesh periods.
 inline const std::vector<std::string> kFast{
     "operation.carrier_speed_rpm=200",           "sensor.sampling_Hz=5000",
-    "gearbox.planet_bearing_damping_N_s_m=5000", "gearbox.sun_bearing_damping_N_s_m=5000",
-    "gearbox.ring_bearing_damping_N_s_m=5000",   "gearbox.carrier_bearing_damping_N_s_m=5000"};
+    "gearbox.planet.bearing_damping_N_s_m=5000", "gearbox.sun.bearing_damping_N_s_m=5000",
+    "gearbox.ring.bearing_damping_N_s_m=5000",   "gearbox.carrier.bearing_damping_N_s_m=5000"};
 
 // The text with the first occurrence of `from` replaced; empty if there is none.
 inline std::string replaced(std::string text, const std::string& from, const std::string& to) {

@@ -13,7 +13,7 @@
 #include "mc/files/input/terminal_text.hpp"
 #include "mc/study/keys/key.hpp"
 #include "mc/study/random/fnv.hpp"
-#include "mc/study/reading/former_keys.hpp"
+#include "mc/study/schema/former_keys.hpp"
 
 namespace gearpod::mc {
 namespace {

@@ -1,7 +1,9 @@
 // Key of a study file: unit, range, meaning, accessor, and whether it must be given.
 #pragma once
 
+#include <algorithm>
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <optional>
@@ -85,6 +87,13 @@ struct Presence {
     std::array<std::string_view, 5> governors{};
 };
 using PresenceRule = std::function<Presence(const Study&)>;
+
+// Text of a key as a template argument.
+template <std::size_t kLength>
+struct KeyText {
+    char text[kLength];
+    constexpr KeyText(const char (&key)[kLength]) { std::copy_n(key, kLength, text); }
+};
 
 struct Key {
     std::string_view section;

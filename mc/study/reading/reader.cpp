@@ -12,9 +12,9 @@
 #include "mc/files/input/terminal_text.hpp"
 #include "mc/study/false_alarm_target.hpp"
 #include "mc/study/fluctuations.hpp"
-#include "mc/study/reading/former_keys.hpp"
 #include "mc/study/reading/key_checks.hpp"
 #include "mc/study/reading/parts.hpp"
+#include "mc/study/schema/former_keys.hpp"
 #include "mc/study/schema/schema.hpp"
 
 namespace gearpod::mc {

@@ -6,9 +6,9 @@
 #include "mc/files/signal_file.hpp"
 #include "mc/study/distributions/range.hpp"
 #include "mc/study/elements/file_column.hpp"
-#include "mc/study/reading/former_keys.hpp"
 #include "mc/study/reading/parts.hpp"
 #include "mc/study/reading/python_list.hpp"
+#include "mc/study/schema/former_keys.hpp"
 
 namespace gearpod::mc {
 namespace {

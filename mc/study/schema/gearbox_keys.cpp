@@ -43,7 +43,7 @@ using MemberKey = SharedKey<Member, kAllMembers.size()>;
 using MeshKey = SharedKey<MeshKind, kMeshKinds>;
 
 constexpr Member kPlanetary[] = {Member::sun, Member::planet, Member::ring, Member::carrier};
-constexpr Member kPair[] = {Member::pinion, Member::gear};
+constexpr Member kPairGears[] = {Member::pinion, Member::gear};
 constexpr Member kGears[] = {Member::sun, Member::planet, Member::ring, Member::pinion,
                              Member::gear};
 constexpr Member kBored[] = {Member::sun, Member::planet, Member::pinion, Member::gear};
@@ -55,7 +55,9 @@ constexpr Member kGraded[] = {Member::planet, Member::ring, Member::gear};
 // Wheels that a web may carry; sun and pinion are solid.
 constexpr Member kWebbed[] = {Member::planet, Member::gear};
 constexpr Member kPlanet[] = {Member::planet};
-constexpr MeshKind kMeshes[] = {MeshKind::sun_planet, MeshKind::ring_planet, MeshKind::pinion_gear};
+constexpr MeshKind kAllMeshes[] = {MeshKind::sun_planet, MeshKind::ring_planet,
+                                   MeshKind::pinion_gear};
+constexpr MeshKind kPlanetMeshes[] = {MeshKind::sun_planet, MeshKind::ring_planet};
 
 // Rule that is the same for all owners of a key.
 template <class Which, Presence (*Rule)(const Study&)>
@@ -67,25 +69,18 @@ constexpr auto each = same<Member, Rule>;
 template <Presence (*Rule)(const Study&)>
 constexpr auto mesh = same<MeshKind, Rule>;
 
-struct Owner {
-    std::string_view table, text;
-    GearboxKind kind;
-};
-Owner owner(Member member) {
-    const bool fixed_shaft = member == Member::pinion || member == Member::gear;
-    return {member_name(member), member == Member::planet ? "a planet" : "",
-            fixed_shaft ? GearboxKind::fixed_shaft : GearboxKind::planetary};
+std::string_view table_of(Member member) {
+    return member_name(member);
 }
-Owner owner(MeshKind kind) {
-    switch (kind) {
-        case MeshKind::sun_planet:
-            return {mesh_table(kind), "the sun-planet meshes", GearboxKind::planetary};
-        case MeshKind::ring_planet:
-            return {mesh_table(kind), "the ring-planet meshes", GearboxKind::planetary};
-        case MeshKind::pinion_gear:
-            return {mesh_table(kind), "the mesh", GearboxKind::fixed_shaft};
-    }
-    return {};
+std::string_view table_of(MeshKind mesh) {
+    return mesh_table(mesh);
+}
+GearboxKind kind_of(Member member) {
+    return member == Member::pinion || member == Member::gear ? GearboxKind::fixed_shaft
+                                                              : GearboxKind::planetary;
+}
+GearboxKind kind_of(MeshKind mesh) {
+    return mesh == MeshKind::pinion_gear ? GearboxKind::fixed_shaft : GearboxKind::planetary;
 }
 
 // Adds the keys of a description, one for each owner.
@@ -93,17 +88,15 @@ template <class Which, std::size_t kCount, std::size_t kRows>
 void add_shared(const SharedKey<Which, kCount> (&descriptions)[kRows], std::vector<Key>& keys) {
     for (const auto& one : descriptions) {
         for (const Which which : one.owners) {
-            const Owner of = owner(which);
-            const std::string text =
-                of.text.empty() ? "the " + std::string(of.table) : std::string(of.text);
-            keys.push_back({"gearbox", fmt::format("{}.{}", of.table, one.label),
+            const std::string_view table = table_of(which);
+            keys.push_back({"gearbox", fmt::format("{}.{}", table, one.label),
                             one.access[static_cast<std::size_t>(which)], one.unit, one.range,
-                            [kind = of.kind, which, rule = one.presence](const Study& s) {
-                                return of_kind(s, kind, [&](const Study& study) {
+                            [which, rule = one.presence](const Study& s) {
+                                return of_kind(s, kind_of(which), [&](const Study& study) {
                                     return rule(study, which);
                                 });
                             },
-                            one.fixed_because, fmt::format(fmt::runtime(one.doc), text)});
+                            one.fixed_because, fmt::format(fmt::runtime(one.doc), table)});
         }
     }
 }
@@ -128,28 +121,28 @@ const Key kGeneralKeys[] = {
     {"gearbox", "ring_to_sun_phase", number<&G::ring_to_sun_phase>, kNone, inside(-1, 1), planetary<may>, kShared, "mesh periods by which a planet's ring mesh lags its sun mesh; by default from the geometry"},
 };
 const MemberKey kBodyKeys[] = {
-    {"teeth", kGears, of_members<&B::teeth>(), kNone, closed_range(3, 10000), each<tooth_numbers>, kGeometry, "teeth of {}"},
-    {"shift", kGears, of_members<&B::profile_shift>(), kNone, inside(-2, 2), each<shifted_teeth>, kGeometry, "profile shift of {} divided by the module; positive makes teeth thicker and the tip circle of a ring smaller (ISO 21771; other conventions use the opposite sign for rings). Shifts and centre distance that are not given follow from zero backlash"},
-    {"tip_mm", kGears, of_members<&B::tip_diameter_m>(), kMm, kPositive, each<shifted_teeth>, kGeometry, "tip diameter of {}; by default from addendum and shift, shortened as far as tip clearance needs"},
-    {"tip_relief_um", kGears, of_members<&B::tip_relief_m>(), kUm, kNotNegative, each<tooth_model>, kGeometry, "tip relief of the flanks of {}, along the line of action; the transmission error of relief is computed for the nominal load"},
-    {"tip_relief_length_mm", kGears, of_members<&B::tip_relief_length_m>(), kMm, kPositive, tip_relief_length, kGeometry, "length of the tip relief of {} along the line of action, from the end of contact"},
-    {"crowning_um", kCrowned, of_members<&B::crowning_m>(), kUm, kNotNegative, each<tooth_model>, kGeometry, "crowning of the flanks of {}: depth removed at both ends of the face, by a parabola along the face width"},
-    {"bore_mm", kBored, of_members<&B::held_diameter_m>(), kMm, kPositive, each<foundation>, kGeometry, "diameter of the bore of {}"},
-    {"outer_mm", kRing, of_members<&B::held_diameter_m>(), kMm, kPositive, each<ring_foundation>, kGeometry, "outer diameter of {}"},
-    {"rim_mm", kWebbed, of_members<&B::rim_m>(), kMm, kPositive, rim, kGeometry, "thickness of the rim of {} below the tooth roots, if a thinner web carries it"},
-    {"web_mm", kWebbed, of_members<&B::web_m>(), kMm, kPositive, web, kGeometry, "thickness of the web of {} under the rim, in the middle of the face width; rim and web reduce the stiffness of the meshes by the gear blank factor of ISO 6336-1"},
-    {"mass_kg", kAllMembers, of_members<&B::mass_kg>(), kKg, kPositive, each<mass>, kRandom, "mass of {}"},
-    {"inertia_kg_m2", kAllMembers, of_members<&B::inertia_kg_m2>(), kKgM2, kPositive, each<inertia>, kRandom, "moment of inertia J of {}; that of a solid disc by default"},
-    {"inertia_over_r2_kg", kPlanetary, of_members<&B::inertia_over_r2_kg>(), kKg, kPositive, each<inertia_over_r2>, kRandom, "moment of inertia J of {} divided by the square of the base radius, or for the carrier of the centre distance"},
+    {"teeth", kGears, of_members<&B::teeth>(), kNone, closed_range(3, 10000), each<tooth_numbers>, kGeometry, "teeth of the {}"},
+    {"shift", kGears, of_members<&B::profile_shift>(), kNone, inside(-2, 2), each<shifted_teeth>, kGeometry, "profile shift of the {} divided by the module; positive makes teeth thicker and the tip circle of a ring smaller (ISO 21771; other conventions use the opposite sign for rings). Shifts and centre distance that are not given follow from zero backlash"},
+    {"tip_mm", kGears, of_members<&B::tip_diameter_m>(), kMm, kPositive, each<shifted_teeth>, kGeometry, "tip diameter of the {}; by default from addendum and shift, shortened as far as tip clearance needs"},
+    {"tip_relief_um", kGears, of_members<&B::tip_relief_m>(), kUm, kNotNegative, each<tooth_model>, kGeometry, "tip relief of the flanks of the {}, along the line of action; the transmission error of relief is computed for the nominal load"},
+    {"tip_relief_length_mm", kGears, of_members<&B::tip_relief_length_m>(), kMm, kPositive, tip_relief_length, kGeometry, "length of the tip relief of the {} along the line of action, from the end of contact"},
+    {"crowning_um", kCrowned, of_members<&B::crowning_m>(), kUm, kNotNegative, each<tooth_model>, kGeometry, "crowning of the flanks of the {}: depth removed at both ends of the face, by a parabola along the face width"},
+    {"bore_mm", kBored, of_members<&B::held_diameter_m>(), kMm, kPositive, each<foundation>, kGeometry, "diameter of the bore of the {}"},
+    {"outer_mm", kRing, of_members<&B::held_diameter_m>(), kMm, kPositive, each<ring_foundation>, kGeometry, "outer diameter of the {}"},
+    {"rim_mm", kWebbed, of_members<&B::rim_m>(), kMm, kPositive, rim, kGeometry, "thickness of the rim of the {} below the tooth roots, if a thinner web carries it"},
+    {"web_mm", kWebbed, of_members<&B::web_m>(), kMm, kPositive, web, kGeometry, "thickness of the web of the {} under the rim, in the middle of the face width; rim and web reduce the stiffness of the meshes by the gear blank factor of ISO 6336-1"},
+    {"mass_kg", kAllMembers, of_members<&B::mass_kg>(), kKg, kPositive, each<mass>, kRandom, "mass of the {}"},
+    {"inertia_kg_m2", kAllMembers, of_members<&B::inertia_kg_m2>(), kKgM2, kPositive, each<inertia>, kRandom, "moment of inertia J of the {}; that of a solid disc by default"},
+    {"inertia_over_r2_kg", kPlanetary, of_members<&B::inertia_over_r2_kg>(), kKg, kPositive, each<inertia_over_r2>, kRandom, "moment of inertia J of the {} divided by the square of the base radius, or for the carrier of the centre distance"},
 };
 const Key kMachineKeys[] = {
     {"gearbox", "motor_inertia_kg_m2", number<&F::motor_inertia_kg_m2>, kKgM2, kPositive, fixed_shaft<mass>, kRandom, "moment of inertia of the motor"},
     {"gearbox", "load_inertia_kg_m2", number<&F::load_inertia_kg_m2>, kKgM2, kPositive, fixed_shaft<mass>, kRandom, "moment of inertia of the load"},
 };
 const MemberKey kBearingKeys[] = {
-    {"bearing_stiffness_N_m", kPlanetary, of_members<&B::bearing_stiffness_N_m>(), kNPerM, kNotNegative, each<bearing>, kRandom, "radial bearing stiffness of {}"},
-    {"bearing_stiffness_N_m", kPair, of_members<&B::bearing_stiffness_N_m>(), kNPerM, kPositive, each<bearing>, kRandom, "radial bearing stiffness of {}"},
-    {"bearing_damping_N_s_m", kAllMembers, of_members<&B::bearing_damping_N_s_m>(), kNSPerM, kNotNegative, each<may>, kRandom, "radial bearing damping of {}"},
+    {"bearing_stiffness_N_m", kPlanetary, of_members<&B::bearing_stiffness_N_m>(), kNPerM, kNotNegative, each<bearing>, kRandom, "radial bearing stiffness of the {}"},
+    {"bearing_stiffness_N_m", kPairGears, of_members<&B::bearing_stiffness_N_m>(), kNPerM, kPositive, each<bearing>, kRandom, "radial bearing stiffness of the {}"},
+    {"bearing_damping_N_s_m", kAllMembers, of_members<&B::bearing_damping_N_s_m>(), kNSPerM, kNotNegative, each<may>, kRandom, "radial bearing damping of the {}"},
 };
 const Key kSupportKeys[] = {
     {"gearbox", "support_stiffness_N_m", number<&G::support_stiffness_N_m>, kNPerM, kPositive, planetary<always>, kRandom, "tangential stiffness that holds the fixed member"},
@@ -161,11 +154,11 @@ const Key kSupportKeys[] = {
 };
 // Keys that follow those of mesh damping.
 const MeshKey kMeshKeys[] = {
-    {"stiffness_N_m", kMeshes, of_meshes<&M::stiffness_N_m>(), kNPerM, kPositive, mesh<constant_stiffness>, kShared, "constant stiffness of {}"},
-    {"low_stiffness_N_m", kPlanetMeshes, of_meshes<&M::low_stiffness_N_m>(), kNPerM, kPositive, mesh<square_wave>, kShared, "stiffness of {} with the smaller number of tooth pairs in contact"},
-    {"high_stiffness_N_m", kPlanetMeshes, of_meshes<&M::high_stiffness_N_m>(), kNPerM, kPositive, mesh<square_wave>, kShared, "stiffness of {} with the larger number of tooth pairs in contact"},
-    {"contact_ratio", kPlanetMeshes, of_meshes<&M::contact_ratio>(), kNone, closed_range(1, 2), mesh<square_wave>, kShared, "contact ratio of {}: mesh periods for which a tooth pair is in contact"},
-    {"error_um", kMeshes, of_meshes<&M::error_m>(), kUm, kNotNegative, mesh<may>, kShared, "static transmission error of {}: amplitudes of mesh harmonics 1, 2, ..."},
+    {"stiffness_N_m", kAllMeshes, of_meshes<&M::stiffness_N_m>(), kNPerM, kPositive, mesh<constant_stiffness>, kShared, "constant stiffness of these meshes"},
+    {"low_stiffness_N_m", kPlanetMeshes, of_meshes<&M::low_stiffness_N_m>(), kNPerM, kPositive, mesh<square_wave>, kShared, "stiffness of these meshes with the smaller number of tooth pairs in contact"},
+    {"high_stiffness_N_m", kPlanetMeshes, of_meshes<&M::high_stiffness_N_m>(), kNPerM, kPositive, mesh<square_wave>, kShared, "stiffness of these meshes with the larger number of tooth pairs in contact"},
+    {"contact_ratio", kPlanetMeshes, of_meshes<&M::contact_ratio>(), kNone, closed_range(1, 2), mesh<square_wave>, kShared, "contact ratio of these meshes: mesh periods for which a tooth pair is in contact"},
+    {"error_um", kAllMeshes, of_meshes<&M::error_m>(), kUm, kNotNegative, mesh<may>, kShared, "static transmission error of these meshes: amplitudes of mesh harmonics 1, 2, ..."},
     {"error_phase_deg", kPlanetMeshes, of_meshes<&M::error_phase_rad>(), kDeg, kAny, mesh<may>, kShared, "phases of error_um; 0 by default"},
 };
 const Key kQualityKeys[] = {
@@ -173,8 +166,8 @@ const Key kQualityKeys[] = {
     {"gearbox", "tooth_quality", number<&E::tooth_quality>, kNone, kGrade, tooth_quality, kRandom, "ISO 1328 grade of all gears; 90 % of the random gears keep each of its tolerances: pitch, cumulative pitch, runout and profile"},
 };
 const MemberKey kToothKeys[] = {
-    {"quality", kGraded, of_members<&B::quality>(), kNone, kGrade, each<tooth_quality>, kRandom, "ISO 1328 grade of {}, instead of tooth_quality"},
-    {"index_um", kGears, of_members<&B::index_m>(), kUm, kAny, each<may>, kShared, "measured index deviations of the teeth of {}, instead of random ones, along the line of action, gaps positive, starting with the tooth that meets its first mate first. For planets those of the flanks that meet the sun, one planet after the other"},
+    {"quality", kGraded, of_members<&B::quality>(), kNone, kGrade, each<tooth_quality>, kRandom, "ISO 1328 grade of the {}, instead of tooth_quality"},
+    {"index_um", kGears, of_members<&B::index_m>(), kUm, kAny, each<may>, kShared, "measured index deviations of the teeth of the {}, instead of random ones, along the line of action, gaps positive, starting with the tooth that meets its first mate first. For planets those of the flanks that meet the sun, one planet after the other"},
     {"ring_side_index_um", kPlanet, of_members<&B::ring_side_index_m>(), kUm, kAny, each<may>, kShared, "measured index deviations of the flanks of the same teeth that meet the ring"},
 };
 const Key kErrorKeys[] = {

@@ -8,6 +8,7 @@
 #include "mc/study/faults/fault_kind.hpp"
 #include "mc/study/gears.hpp"
 #include "mc/study/noise.hpp"
+#include "mc/study/schema/schema.hpp"
 
 namespace gearpod::mc {
 namespace {
@@ -68,29 +69,10 @@ Presence alarm_target_needs(const Study& s) {
     return required_if(has_alarm_target(s) && !s.life.interval_h,
                        "hours between two records turn the target into a rate");
 }
-Presence of_life(const Study& s, Need need) {
-    return only_if(s.life.interval_h.has_value(), "only with life.interval_h", {"life.interval_h"},
-                   {need, "", {"life.interval_h"}});
-}
-Presence with_life(const Study& s) {
-    return of_life(s, Need::optional);
-}
-Presence life_needs(const Study& s) {
-    return of_life(s, Need::required);
-}
 Presence paris_needs(const Study& s) {
     return only_if(!s.life.interval_h || s.life.curve_h.empty(),
-                   "life.curve_h gives the depth of the crack", {"life.curve_h"}, life_needs(s));
-}
-Presence of_curve(const Study& s, Need need) {
-    return only_if(!s.life.curve_h.empty(), "only with life.curve_h", {"life.curve_h"},
-                   of_life(s, need));
-}
-Presence curve_needs(const Study& s) {
-    return of_curve(s, Need::required);
-}
-Presence with_curve(const Study& s) {
-    return of_curve(s, Need::optional);
+                   "life.curve_h gives the depth of the crack", {"life.curve_h"},
+                   needed_with<"life.interval_h">(s));
 }
 Presence always(const Study&) {
     return {Need::required, "", {}};
@@ -211,30 +193,6 @@ Presence bearings_move(const Study& s) {
                    {kMotion});
 }
 
-Presence torque_sine(const Study& s) {
-    return only_if(s.fluctuations.torque.has_value(), "only with operation.torque_fluctuation",
-                   {"operation.torque_fluctuation"});
-}
-
-Presence torque_noise(const Study& s) {
-    return with(s.fluctuations.torque_noise.has_value(), "operation.torque_noise is given",
-                "only with operation.torque_noise", "operation.torque_noise");
-}
-
-Presence speed_sine(const Study& s) {
-    return with(s.fluctuations.speed.has_value(), "operation.speed_fluctuation is given",
-                "only with operation.speed_fluctuation", "operation.speed_fluctuation");
-}
-
-Presence speed_phase(const Study& s) {
-    return s.fluctuations.speed ? kOptional : speed_sine(s);
-}
-
-Presence speed_noise(const Study& s) {
-    return with(s.fluctuations.speed_noise.has_value(), "operation.speed_noise is given",
-                "only with operation.speed_noise", "operation.speed_noise");
-}
-
 Presence gravity(const Study& s) {
     return only_if(s.effects.gravity, "only with effects.gravity = true", {"effects.gravity"});
 }
@@ -309,81 +267,28 @@ Presence number_edges(const Study& s) {
                    "the fault's size is a length: use size_edges_mm", {"fault.kind"});
 }
 
-Presence until_part(const Study& s) {
-    return with(s.ensemble.until.half_width.has_value(), "until.half_width is given",
-                "only with until.half_width", "ensemble.until.half_width");
-}
-Presence until_level(const Study& s) {
-    return s.ensemble.until.half_width ? may(s) : until_part(s);
-}
-
-namespace {
-
-// Forbidden unless another key is given, "no tones are given".
-Presence companion(bool given, const std::string& without, std::string_view key,
-                   const Presence& otherwise) {
-    return given ? otherwise
-                 : Presence{Need::forbidden, fmt::format("{}: {}", without, key), {key}};
-}
-
-Presence required_by(std::string_view key) {
-    return {Need::required, fmt::format("{} is given", key), {key}};
-}
-
-constexpr std::string_view kBackground = "sensor.background_Hz", kResponse = "sensor.response_Hz";
-
-}  // namespace
-
-Presence with_tones(const Study& s) {
-    return companion(!s.sensor.tones.empty(), "no tones are given", "sensor.tones",
-                     acceleration_detail(s));
-}
-
-Presence with_bearings(const Study& s) {
-    return companion(!s.sensor.bearings.empty(), "no bearings are given", "sensor.bearings",
-                     acceleration_detail(s));
-}
-
-Presence background_needs(const Study& s) {
-    return companion(!s.sensor.background_Hz.empty(), "no background is given", kBackground,
-                     required_by(kBackground));
-}
-
-Presence with_background(const Study& s) {
-    return companion(!s.sensor.background_Hz.empty(), "no background is given", kBackground,
-                     acceleration_detail(s));
-}
-
-Presence response_needs(const Study& s) {
-    return companion(!s.sensor.response_Hz.empty(), "no response is given", kResponse,
-                     required_by(kResponse));
-}
-
-Presence bearing_response(const Study& s) {
-    return companion(!s.sensor.response_Hz.empty(), "no response is given", kResponse,
-                     bearings_move(s));
-}
-
-Presence sun_phase_needs(const Study& s) {
-    constexpr std::string_view kGain = "sensor.sun_response_gain";
-    return companion(!s.sensor.sun_response_gain.empty(), "no gain is given", kGain,
-                     required_by(kGain));
-}
-
-Presence carrier_phase_needs(const Study& s) {
-    constexpr std::string_view kGain = "sensor.carrier_response_gain";
-    return companion(!s.sensor.carrier_response_gain.empty(), "no gain is given", kGain,
-                     required_by(kGain));
-}
-
 Presence without_response(const Study& s) {
-    return companion(s.sensor.response_Hz.empty(), "a measured response contains the modes",
-                     kResponse, acceleration_detail(s));
+    constexpr std::string_view kResponse = "sensor.response_Hz";
+    return only_if(!gives(s, kResponse), "a measured response contains the modes", {kResponse},
+                   acceleration_detail(s));
 }
 
-Presence with_housing_modes(const Study& s) {
-    return companion(!s.sensor.housing_modes.empty(), "no modes are given", "sensor.housing_modes",
-                     acceleration_detail(s));
+bool gives(const Study& s, std::string_view path) {
+    return std::visit(
+        [&](const auto& access) {
+            if constexpr (requires { access.texts(s); }) {
+                return !access.texts(s).empty();
+            } else if constexpr (requires { access.get(s).empty(); }) {
+                return !access.get(s).empty();
+            } else {
+                return access.get(s).has_value();
+            }
+        },
+        find_key(path)->access);
+}
+
+Presence belonging_to(const Study& s, std::string_view other, const Presence& otherwise) {
+    return only_if(gives(s, other), fmt::format("only with {}", other), {other}, otherwise);
 }
 
 }  // namespace gearpod::mc

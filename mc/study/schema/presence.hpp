@@ -8,11 +8,23 @@ namespace gearpod::mc {
 
 Presence always(const Study&);
 Presence may(const Study&);
-Presence with_life(const Study&);    // only with life.interval_h
-Presence life_needs(const Study&);   // only with life.interval_h, and then required
-Presence paris_needs(const Study&);  // as life_needs(), but forbidden with a growth curve
-Presence curve_needs(const Study&);  // required with a growth curve, else forbidden
-Presence with_curve(const Study&);
+Presence paris_needs(
+    const Study&);  // required with life.interval_h, but forbidden with a growth curve
+
+// True if the study gives the key: a value, or a list that is not empty.
+bool gives(const Study&, std::string_view path);
+// Forbidden unless the study gives the key `other`.
+Presence belonging_to(const Study&, std::string_view other, const Presence& otherwise);
+// Key that belongs to another one: forbidden without it, else by `kRule`, or required.
+template <KeyText kOther, Presence (*kRule)(const Study&) = may>
+Presence only_with(const Study& s) {
+    return belonging_to(s, kOther.text, kRule(s));
+}
+template <KeyText kOther>
+Presence needed_with(const Study& s) {
+    return belonging_to(s, kOther.text,
+                        {Need::required, std::string(kOther.text) + " is given", {kOther.text}});
+}
 
 // Key of one kind of gearbox only; for that kind `rule` decides.
 Presence of_kind(const Study&, GearboxKind kind, const PresenceRule& rule);
@@ -45,27 +57,8 @@ Presence backlash(const Study&);       // only for two-sided separation
 Presence tooth_quality(const Study&);  // only if the gears are known
 Presence bearings_move(const Study&);  // only where planets move on their bearings
 
-Presence with_tones(const Study&);  // only with sensor.tones
-// background_needs: required with sensor.background_Hz; with_background: only with it.
-Presence background_needs(const Study&);
-Presence with_background(const Study&);
-// without_response: not with a measured response; with_housing_modes: only with modes;
-// response_needs: required with sensor.response_Hz.
-Presence without_response(const Study&);
-Presence with_housing_modes(const Study&);
-Presence response_needs(const Study&);
-// bearing_response: only with sensor.response_Hz, and where sun and carrier move on bearings;
-// sun_phase_needs, carrier_phase_needs: required with the gain, else forbidden.
-Presence bearing_response(const Study&);
-Presence sun_phase_needs(const Study&);
-Presence carrier_phase_needs(const Study&);
-Presence with_bearings(const Study&);  // only with sensor.bearings
-Presence torque_sine(const Study&);    // only with operation.torque_fluctuation
-Presence torque_noise(const Study&);   // only with operation.torque_noise, and then required
-Presence speed_sine(const Study&);     // only with operation.speed_fluctuation, and then required
-Presence speed_phase(const Study&);
-Presence speed_noise(const Study&);
-Presence gravity(const Study&);  // only with effects.gravity
+Presence without_response(const Study&);  // not with a measured response
+Presence gravity(const Study&);           // only with effects.gravity
 
 Presence mass(const Study&);             // unless the motion is quasi-static
 Presence inertia(const Study&);          // J needs the radii
@@ -83,8 +76,5 @@ Presence with_baseline(const Study&);       // only with features that use a bas
 
 Presence length_edges(const Study&);  // only if the fault's size is a length
 Presence number_edges(const Study&);  // only if the fault's size is a pure number
-
-Presence until_part(const Study&);   // only with until.half_width, and then required
-Presence until_level(const Study&);  // only with until.half_width
 
 }  // namespace gearpod::mc

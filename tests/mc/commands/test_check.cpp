@@ -9,13 +9,13 @@ using namespace test;
 TEST_CASE("check reports the problems of every study and simulates none") {
     const Folder folder;
     const std::string wrong = folder.file("wrong.toml"), unmeshed = folder.file("unmeshed.toml");
-    std::ofstream(wrong) << "[gearbox]\nsun_teeth = -3\nplanets = \"four\"\n";
-    std::ofstream(unmeshed) << "[gearbox]\nsun_teeth = 19\nplanet_teeth = 31\nring_teeth = 80\n";
+    std::ofstream(wrong) << "[gearbox]\nsun.teeth = -3\nplanets = \"four\"\n";
+    std::ofstream(unmeshed) << "[gearbox]\nsun.teeth = 19\nplanet.teeth = 31\nring.teeth = 80\n";
     const std::string sound = study("planet-crack.toml");
     const Outcome all = program("check " + wrong + " " + sound + " " + unmeshed);
     INFO(all.output);
     CHECK(all.code == mc::kBadInput);
-    check_mentions(all, {wrong + ":2: gearbox.sun_teeth", wrong + ":3: gearbox.planets",
+    check_mentions(all, {wrong + ":2: gearbox.sun.teeth", wrong + ":3: gearbox.planets",
                          sound + ": can be simulated", unmeshed + ":"});
     CHECK_FALSE(all.mentions(wrong + ": can be simulated"));
     CHECK_FALSE(all.mentions(unmeshed + ": can be simulated"));

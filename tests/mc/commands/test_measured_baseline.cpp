@@ -11,8 +11,8 @@ using namespace test;
 // Planets and ring have tooth errors: the signal repeats after 385 mesh periods of eight samples.
 const std::string kStudy =
     std::string(GEARPOD_SOURCE_DIR) +
-    "/tests/features/reference/small.toml --set gearbox.planet_quality=7 --set "
-    "gearbox.ring_quality=7 --set sensor.noise_levels=[0] --set features.baseline_torque_scatter=0 "
+    "/tests/features/reference/small.toml --set gearbox.planet.quality=7 --set "
+    "gearbox.ring.quality=7 --set sensor.noise_levels=[0] --set features.baseline_torque_scatter=0 "
     "--set 'features.use=[\"window_ratio\",\"window_z\",\"own_window_ratio\",\"own_sensor_rms\","
     "\"change_window_ratio\",\"change_window_z\",\"change_sensor_rms\"]' ";
 constexpr std::size_t kSpan = 385 * 8;

@@ -110,8 +110,8 @@ TEST_CASE("Bad input of any kind exits with 2, prints a message and leaves no fi
     } cases[] = {
         {"run " + folder.file("missing.toml") + " --out " + out, "missing.toml"},
         {"run " + good + " --set gearbox.modul_mm=3 --out " + out, "module_mm"},
-        {"run " + good + " --set gearbox.sun_mass_kg=-1 --out " + out, "sun_mass_kg"},
-        {"run " + good + " --set gearbox.ring_teeth=80 --out " + out, "ring"},
+        {"run " + good + " --set gearbox.sun.mass_kg=-1 --out " + out, "sun_mass_kg"},
+        {"run " + good + " --set gearbox.ring.teeth=80 --out " + out, "ring"},
         {"run " + good + " --set numerics.steps_per_mesh=500 --out " + out, "unstable"},
         {"run " + study("published/tian-fig-4-3.toml") +
              " --set 'numerics.integrator=\"rk4\"' --out " + out,
@@ -135,9 +135,9 @@ TEST_CASE("Bad input of any kind exits with 2, prints a message and leaves no fi
 
 TEST_CASE("Problems of the study and of the output are reported together") {
     check_refused("run " + study("planet-crack-ideal.toml") +
-                      " --set gearbox.sun_mass_kg=-1 --set gearbox.frob=1"
+                      " --set gearbox.sun.mass_kg=-1 --set gearbox.frob=1"
                       " --out /nonexistent-folder/r.h5",
-                  {"sun_mass_kg", "frob", "/nonexistent-folder"});
+                  {"sun.mass_kg", "frob", "/nonexistent-folder"});
 }
 
 TEST_CASE("Gearboxes that fail are counted; the run exits with 3 and keeps its file") {

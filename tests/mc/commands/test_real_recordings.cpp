@@ -364,8 +364,8 @@ TEST_CASE("A recording is compared with a results file in one sentence") {
     REQUIRE(against["teeth"].size() >= 1);
     CHECK(against["teeth"][0]["teeth"] == 11);
     const Outcome other = program("features " + path + " --study " + kSmall +
-                                  " --set gearbox.planets=4 --set gearbox.sun_teeth=15 --set "
-                                  "gearbox.ring_teeth=37 --against " +
+                                  " --set gearbox.planets=4 --set gearbox.sun.teeth=15 --set "
+                                  "gearbox.ring.teeth=37 --against " +
                                   folder.file("p.h5"));
     CHECK(other.code == 2);
     CHECK(features(path, "--feature window_ratio").mentions("is only used with --against"));

@@ -133,7 +133,7 @@ TEST_CASE("Mass scaling and its choice are refused where they cannot work") {
     const std::string method = "numerics.integrator=central-difference";
     CHECK_THAT(
         refusal({method, "numerics.mass_scaling_Hz=3000",
-                 "random.gearbox.planet_mass_kg={distribution=\"uniform\",low=0.6,high=0.8}"}),
+                 "random.gearbox.planet.mass_kg={distribution=\"uniform\",low=0.6,high=0.8}"}),
         Catch::Contains("needs the same masses"));
     CHECK_THAT(refusal({method, "numerics.scatter_tolerance=0.2", "numerics.mass_scaling_Hz=3000"}),
                Catch::Contains("is chosen by numerics.scatter_tolerance"));
@@ -146,7 +146,7 @@ TEST_CASE("Mass scaling and its choice are refused where they cannot work") {
     CHECK_THAT(refusal({"numerics.paired_gearboxes=7"}), Catch::Contains("too few"));
     CHECK_THAT(
         refusal({"numerics.scatter_tolerance=0.2",
-                 "random.gearbox.planet_mass_kg={distribution=\"uniform\",low=0.6,high=0.8}"}),
+                 "random.gearbox.planet.mass_kg={distribution=\"uniform\",low=0.6,high=0.8}"}),
         Catch::Contains("numerics.scatter_tolerance: needs the same masses"));
     CHECK_THAT(refusal({"numerics.scatter_tolerance=0.2", "numerics.tolerance=0.01"}),
                Catch::Contains("chooses the steps, too"));

@@ -12,15 +12,15 @@ using namespace tests;
 constexpr double kRank = 0.6;
 
 const std::string kTorque = "random.operation.torque_N_m=";
-const std::string kMass = "random.gearbox.planet_mass_kg=";
-const std::string kCarrier = "random.gearbox.carrier_mass_kg=";
+const std::string kMass = "random.gearbox.planet.mass_kg=";
+const std::string kCarrier = "random.gearbox.carrier.mass_kg=";
 
 std::string pair_of(const std::string& first, const std::string& second, const std::string& rank) {
     return "{between=['" + first + "','" + second + "'],rank=" + rank + "}";
 }
 const std::string kPairOf =
     "random.correlations=[" +
-    pair_of("operation.torque_N_m", "gearbox.planet_mass_kg", std::to_string(kRank)) + "]";
+    pair_of("operation.torque_N_m", "gearbox.planet.mass_kg", std::to_string(kRank)) + "]";
 
 StudyReading reading_of(const std::vector<std::string>& overrides) {
     return read_study_text(kExampleStudy, "study.toml", overrides);
@@ -151,7 +151,7 @@ TEST_CASE("A correlation leaves the random values of other inputs unchanged") {
     // A value for all gearboxes removes it.
     const std::string of_study =
         "random.correlations=[" +
-        pair_of("gearbox.planet_bearing_stiffness_N_m", "sensor.path_exponent", "0.5") + "]";
+        pair_of("gearbox.planet.bearing_stiffness_N_m", "sensor.path_exponent", "0.5") + "]";
     CHECK(reading_of({of_study}).study->correlations.size() == 1);
     const StudyReading reading = reading_of({of_study, "sensor.path_exponent=0.2"});
     INFO(format(reading.problems));
@@ -163,8 +163,8 @@ TEST_CASE("Impossible correlations are refused") {
     const std::string mass = kMass + "{distribution='normal',mean=2,sd=0.1}";
     const std::string torque = kTorque + "{distribution='normal',mean=400,sd=20}";
     const auto list = [](const std::string& pairs) { return "random.correlations=" + pairs; };
-    const std::string t = "operation.torque_N_m", m = "gearbox.planet_mass_kg",
-                      c = "gearbox.carrier_mass_kg";
+    const std::string t = "operation.torque_N_m", m = "gearbox.planet.mass_kg",
+                      c = "gearbox.carrier.mass_kg";
     const auto has = [](const std::string& text, const char* part) {
         INFO(text);
         CHECK(text.find(part) != std::string::npos);
@@ -174,12 +174,12 @@ TEST_CASE("Impossible correlations are refused") {
                          pair_of(m, c, "-0.9") + "]")}),
         "not positive definite");
     has(problem_of({torque, list("[" + pair_of(t, m, "0.5") + "]")}),
-        "pair 1: gearbox.planet_mass_kg is not random");
+        "pair 1: gearbox.planet.mass_kg is not random");
     has(problem_of({torque, mass, list("[" + pair_of(t, t, "0.5") + "]")}), "name two inputs");
     has(problem_of({torque, mass, list("[" + pair_of(t, m, "1") + "]")}), "> -1 and < 1");
     has(problem_of(
             {torque, mass, list("[" + pair_of(t, m, "0.5") + "," + pair_of(m, t, "0.4") + "]")}),
-        "pair 2: gearbox.planet_mass_kg and operation.torque_N_m are correlated already");
+        "pair 2: gearbox.planet.mass_kg and operation.torque_N_m are correlated already");
     has(problem_of({torque, list("[" + pair_of(t, "fault.depth_mm", "0.5") + "]")}),
         "is the fault size");
     has(problem_of({torque, kMass + "{distribution='levels',values=[1,2]}",

@@ -117,7 +117,7 @@ TEST_CASE("Columns of a file are used in rows, and missing ones are reported") {
     };
     const Study both = gearpod::test::shipped_study(
         "planet-crack-ideal.toml",
-        {from(kTorques, "torque"), from("random.gearbox.planet_mass_kg={distribution="
+        {from(kTorques, "torque"), from("random.gearbox.planet.mass_kg={distribution="
                                         "\"empirical\",",
                                         "exponent")});
     for (std::uint64_t i = 0; i < 100; ++i) {
@@ -152,7 +152,7 @@ TEST_CASE("Lists of a study may come from a column of a file") {
     gearpod::test::write_bytes(folder.file("teeth.csv"), text);
     const auto reading = [&](const std::string& column) {
         return read_study(gearpod::test::study_path("real-teeth.toml"),
-                          {"gearbox.sun_index_um={file=\"" + folder.file("teeth.csv") +
+                          {"gearbox.sun.index_um={file=\"" + folder.file("teeth.csv") +
                            "\",column=\"" + column + "\"}"});
     };
     const StudyReading given = reading("sun");
@@ -163,7 +163,7 @@ TEST_CASE("Lists of a study may come from a column of a file") {
     for (std::size_t tooth = 0; tooth < read.size(); ++tooth) {
         CHECK(read[tooth] == Approx(deviations[tooth]));
     }
-    CHECK(format(reading("ring").problems).find("gearbox.sun_index_um: ") != std::string::npos);
+    CHECK(format(reading("ring").problems).find("gearbox.sun.index_um: ") != std::string::npos);
     CHECK(format(reading("ring").problems).find("no column ring; its columns are tooth, sun") !=
           std::string::npos);
 }

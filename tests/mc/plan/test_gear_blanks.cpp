@@ -8,8 +8,8 @@ namespace gearpod::test_gear_blanks {
 using mc::Scene;
 
 const std::vector<std::string> kBodies{"effects.foundation='elastic-ring'",
-                                       "gearbox.sun_bore_mm=26", "gearbox.planet_bore_mm=40",
-                                       "gearbox.ring_outer_mm=310"};
+                                       "gearbox.sun.bore_mm=26", "gearbox.planet.bore_mm=40",
+                                       "gearbox.ring.outer_mm=310"};
 
 Scene scene_with(std::vector<std::string> more) {
     more.insert(more.end(), kBodies.begin(), kBodies.end());
@@ -28,21 +28,21 @@ TEST_CASE("The meshes of planets with rims and webs have their blank factor") {
     const auto factor = [&](double web_mm, double rim_mm) {
         return 1.0 + std::log(web_mm / face_mm) / (5.0 * std::exp(rim_mm / (5.0 * module_mm)));
     };
-    const Scene planets = scene_with({"gearbox.planet_rim_mm=8", "gearbox.planet_web_mm=10"});
+    const Scene planets = scene_with({"gearbox.planet.rim_mm=8", "gearbox.planet.web_mm=10"});
     CHECK(mean(planets, 0) == Approx(factor(10, 8) * mean(discs, 0)).epsilon(1e-9));
     CHECK(mean(planets, 1) == Approx(factor(10, 8) * mean(discs, 1)).epsilon(1e-9));
 }
 
 TEST_CASE("A web as wide as the face changes no bit") {
     const Scene discs = scene_with({});
-    const Scene webs = scene_with({"gearbox.planet_rim_mm=8", "gearbox.planet_web_mm=38.1"});
+    const Scene webs = scene_with({"gearbox.planet.rim_mm=8", "gearbox.planet.web_mm=38.1"});
     CHECK(mean(webs, 0) == mean(discs, 0));
     CHECK(mean(webs, 1) == mean(discs, 1));
 }
 
 TEST_CASE("A crack reduces a mesh by the same fraction for any blanks") {
     const Scene discs = scene_with({});
-    const Scene webs = scene_with({"gearbox.planet_rim_mm=8", "gearbox.planet_web_mm=10"});
+    const Scene webs = scene_with({"gearbox.planet.rim_mm=8", "gearbox.planet.web_mm=10"});
     const double kept = mean(webs, 1) / mean(discs, 1);
     const auto faulty = [](const Scene& scene, double phase) {
         const auto mesh = scene.gearbox().fault().mesh(0, 2e-3);
@@ -62,9 +62,9 @@ TEST_CASE("Every gear has its own bore, and the ring its rim") {
         all.push_back(std::string(key) + "=" + value);
         return Scene(test::study_of_text(tests::kExampleStudy, all));
     };
-    const Scene thin_sun = with("gearbox.sun_bore_mm", "40");
-    const Scene thick_ring = with("gearbox.ring_outer_mm", "330");
-    const Scene thin_planets = with("gearbox.planet_bore_mm", "60");
+    const Scene thin_sun = with("gearbox.sun.bore_mm", "40");
+    const Scene thick_ring = with("gearbox.ring.outer_mm", "330");
+    const Scene thin_planets = with("gearbox.planet.bore_mm", "60");
     CHECK(mean(thin_sun, 1) == ring);
     CHECK(mean(thin_sun, 0) != Approx(sun).epsilon(1e-3));
     CHECK(mean(thick_ring, 0) == sun);

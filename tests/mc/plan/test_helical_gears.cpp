@@ -45,7 +45,7 @@ TEST_CASE("Helical gears are the gears of their normal module in the transverse 
     CHECK(overlap_ratio(study) ==
           Approx(0.28 * std::sin(8.0 * kDegree) / (std::numbers::pi * 0.012)));
     // A shift moves the rack by normal modules, as in drawings and ISO 21771.
-    const mc::Study shifted = shipped_study("wind-turbine-helical.toml", {"gearbox.sun_shift=0.3"});
+    const mc::Study shifted = shipped_study("wind-turbine-helical.toml", {"gearbox.sun.shift=0.3"});
     CHECK(gear_of(shifted, Member::sun).root_radius() - sun.root_radius() == Approx(0.3 * 0.012));
 }
 
@@ -147,8 +147,8 @@ TEST_CASE("Relief and crowning of helical teeth change the approach under load a
     const Scene plain(shipped_study("wind-turbine-helical.toml", {"effects.contact_onset=abrupt"}));
     const Scene ground(shipped_study(
         "wind-turbine-helical.toml",
-        {"effects.contact_onset=abrupt", "gearbox.sun_crowning_um=10",
-         "gearbox.planet_tip_relief_um=20", "gearbox.planet_tip_relief_length_mm=10"}));
+        {"effects.contact_onset=abrupt", "gearbox.sun.crowning_um=10",
+         "gearbox.planet.tip_relief_um=20", "gearbox.planet.tip_relief_length_mm=10"}));
     CHECK(mean_total(*ground.gearbox().stiffness->meshes()[0].stiffness) <
           mean_total(*plain.gearbox().stiffness->meshes()[0].stiffness));
     const double before = plain.gearbox().stiffness->meshes()[0].loaded->range().mean;

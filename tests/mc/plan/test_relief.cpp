@@ -91,9 +91,9 @@ TEST_CASE("Long relief levels the transmission error of the FZG gears at its des
                            const std::string& torque) {
         const Scene scene(test::shipped_study(
             "tip-relief.toml",
-            {"gearbox.pinion_tip_relief_um=" + amount, "gearbox.gear_tip_relief_um=" + amount,
-             "gearbox.pinion_tip_relief_length_mm=" + length,
-             "gearbox.gear_tip_relief_length_mm=" + length, "operation.torque_N_m=" + torque,
+            {"gearbox.pinion.tip_relief_um=" + amount, "gearbox.gear.tip_relief_um=" + amount,
+             "gearbox.pinion.tip_relief_length_mm=" + length,
+             "gearbox.gear.tip_relief_length_mm=" + length, "operation.torque_N_m=" + torque,
              "operation.load_torque_N_m=" + std::to_string(1.5 * std::stod(torque))}));
         return scene.gearbox().stiffness->meshes()[0].loaded->range().peak_to_peak();
     };
@@ -114,7 +114,7 @@ TEST_CASE("Long relief lowers the transmission error of teeth of grade 6 as well
     // Mean peak to peak of a mesh period, rad.
     const auto varies = [&](const std::string& amount) {
         const Scene scene(test::study_of_text(
-            text, {"gearbox.pinion_tip_relief_um=" + amount, "gearbox.gear_tip_relief_um=" + amount,
+            text, {"gearbox.pinion.tip_relief_um=" + amount, "gearbox.gear.tip_relief_um=" + amount,
                    "gearbox.tooth_quality=6", "effects.motion='quasi-static'"}));
         constexpr int kMeshes = 96;
         const auto all = mc::simulate(scene.tile(), scene.draw().rows.id_of(0), kMeshes);

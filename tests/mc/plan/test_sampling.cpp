@@ -185,12 +185,12 @@ TEST_CASE("Levels and grids alternate in the test group and are 0 in the thresho
 TEST_CASE("Levels and grids of several inputs form all combinations, each equally often") {
     std::vector<std::string> overrides{
         "random.fault.depth_mm.values=[0, 1, 2, 3]",
-        "random.gearbox.sun_mass_kg={distribution='grid', low=1, high=4, count=4}",
+        "random.gearbox.sun.mass_kg={distribution='grid', low=1, high=4, count=4}",
         "random.sensor.noise_m_s2={distribution='grid', low=0, high=3, count=4}"};
     const Sampler sampler(DrawPlan{study_with(overrides)});
     // Another random input, and one of constant value, change no random value.
     overrides.push_back("random.operation.torque_N_m={distribution='uniform', low=1, high=2}");
-    overrides.push_back("random.gearbox.ring_mass_kg={distribution='constant', value=3}");
+    overrides.push_back("random.gearbox.ring.mass_kg={distribution='constant', value=3}");
     const Sampler more(DrawPlan{study_with(overrides)});
     for (const Group group : {Group::test, Group::threshold}) {
         std::set<std::tuple<double, double, double>> combinations;
@@ -244,7 +244,7 @@ TEST_CASE("An instance does not depend on what was sampled before and how often"
 TEST_CASE("A new random input leaves the random values of the others unchanged") {
     const Sampler before(DrawPlan{study_with({})});
     const Sampler after(DrawPlan{study_with(
-        {"random.gearbox.sun_mass_kg={distribution='uniform', low=0.6, high=0.8}",
+        {"random.gearbox.sun.mass_kg={distribution='uniform', low=0.6, high=0.8}",
          "random.operation.torque_N_m={distribution='lognormal', median=429, cv=0.05}"})});
     for (std::uint64_t i = 0; i < 50; ++i) {
         CHECK(same(before.draw({Group::test, i}).inputs, after.draw({Group::test, i}).inputs));
@@ -255,8 +255,8 @@ TEST_CASE("A new random input leaves the random values of the others unchanged")
 
 TEST_CASE("Different inputs of the same distribution are independent") {
     const Sampler sampler(DrawPlan{
-        study_with({"random.gearbox.sun_mass_kg={distribution='uniform', low=1, high=2}",
-                    "random.gearbox.ring_mass_kg={distribution='uniform', low=1, high=2}"})});
+        study_with({"random.gearbox.sun.mass_kg={distribution='uniform', low=1, high=2}",
+                    "random.gearbox.ring.mass_kg={distribution='uniform', low=1, high=2}"})});
     double products = 0.0;
     for (std::uint64_t i = 0; i < kSamples; ++i) {
         const InstanceInputs inputs = sampler.draw({Group::test, i}).inputs;
@@ -274,8 +274,8 @@ TEST_CASE("Inertias come from J / r^2, J, or a solid disc on the pitch radius") 
     CHECK(disc.bodies[Member::carrier].inertia_over_r2_kg == Approx(5.0));
 
     const InstanceInputs given = nominal_inputs(
-        study_with({"gearbox.planet_inertia_kg_m2=2e-3", "gearbox.carrier_inertia_kg_m2=0.1",
-                    "gearbox.sun_inertia_over_r2_kg=0.39"}));
+        study_with({"gearbox.planet.inertia_kg_m2=2e-3", "gearbox.carrier.inertia_kg_m2=0.1",
+                    "gearbox.sun.inertia_over_r2_kg=0.39"}));
     const double base_m = 0.5 * 3.175e-3 * 31 * cosine, centre_m = 0.5 * 3.175e-3 * (19 + 31);
     CHECK(given.bodies[Member::planet].inertia_over_r2_kg == Approx(2e-3 / (base_m * base_m)));
     CHECK(given.bodies[Member::carrier].inertia_over_r2_kg == Approx(0.1 / (centre_m * centre_m)));
@@ -318,8 +318,8 @@ TEST_CASE("A fixed-shaft gearbox's inputs are sampled like any other's") {
 
 TEST_CASE("A fixed-shaft gearbox's discs and balanced load follow from its gears") {
     // Source: Tian (2004), Table 4.1; the inertias are discs of the pitch radii.
-    std::string text = replaced(kFixedShaftStudy, "pinion_inertia_kg_m2 = 4.3659e-4\n", "");
-    text = replaced(replaced(text, "gear_inertia_kg_m2 = 8.3602e-3\n", ""),
+    std::string text = replaced(kFixedShaftStudy, "pinion.inertia_kg_m2 = 4.3659e-4\n", "");
+    text = replaced(replaced(text, "gear.inertia_kg_m2 = 8.3602e-3\n", ""),
                     "load_torque_N_m = 48.8\n", "");
     const Study reading = gearpod::test::valid_study(read_study_text(text, "study.toml"));
     const InstanceInputs inputs = nominal_inputs(reading);

@@ -178,9 +178,9 @@ TEST_CASE("Correlated inputs stay correlated in evenly distributed gearboxes") {
     const double rank = 0.6, r = 2.0 * std::sin(M_PI / 6.0 * rank);
     const Sampler sampler(
         DrawPlan{sobol_study({"random.operation.torque_N_m={distribution='normal',mean=400,sd=20}",
-                              "random.gearbox.planet_mass_kg={distribution='normal',mean=2,sd=0.1}",
+                              "random.gearbox.planet.mass_kg={distribution='normal',mean=2,sd=0.1}",
                               "random.correlations=[{between=['operation.torque_N_m',"
-                              "'gearbox.planet_mass_kg'],rank=0.6}]"})});
+                              "'gearbox.planet.mass_kg'],rank=0.6}]"})});
     constexpr std::uint64_t kCount = 4096;
     int agree = 0;
     for (std::uint64_t i = 0; i < kCount; ++i) {

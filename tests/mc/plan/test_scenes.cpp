@@ -187,7 +187,7 @@ TEST_CASE(
         text = without(text, key);
     }
     const mc::Study study = test::study_of_text(
-        text, {"gearbox.tooth_profile=constant", "gearbox.mesh_stiffness_N_m=7e8",
+        text, {"gearbox.tooth_profile=constant", "gearbox.mesh.stiffness_N_m=7e8",
                "effects.motion=quasi-static", "fault.kind=none"});
     const auto tile = run_one(Scene(study));
     REQUIRE(tile.integration.status[0] == lockstep::LaneStatus::ok);
@@ -209,7 +209,7 @@ TEST_CASE(
     // Equal levels: constant stiffness along the normal of helical teeth, Park (2016), Eq. A1.
     const mc::Study study = test::study_of_text(
         without(kQuasiStaticStudy, "operation.torque_N_m"),
-        {"gearbox.sun_planet_low_stiffness_N_m=2e9", "gearbox.ring_planet_low_stiffness_N_m=2.4e9",
+        {"gearbox.sun_planet.low_stiffness_N_m=2e9", "gearbox.ring_planet.low_stiffness_N_m=2.4e9",
          "gearbox.support_stiffness_N_m=1e10", "fault.kind=none"});
     const auto tile = run_one(Scene(study));
     REQUIRE(tile.integration.status[0] == lockstep::LaneStatus::ok);
@@ -241,7 +241,7 @@ TEST_CASE(
     "Fixed-shaft, quasi-static and pitch-error scenes give the same bits in 1, 4 and 8 lanes") {
     const std::vector<std::vector<std::string>> changes{
         {},
-        {"random.gearbox.gear_mass_kg={distribution='uniform', low=2.5, high=3}",
+        {"random.gearbox.gear.mass_kg={distribution='uniform', low=2.5, high=3}",
          "sensor.tones=[{frequency_Hz=360, amplitude_m_s2=2}, {frequency_Hz=20.5, "
          "amplitude_m_s2=0.3}]"}};
     for (const auto& change : changes) {

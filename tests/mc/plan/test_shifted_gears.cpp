@@ -23,8 +23,8 @@ bool names(const mc::Problems& problems, const std::string& key, const std::stri
     });
 }
 
-const std::vector<std::string> kBell{"gearbox.sun_teeth=27", "gearbox.planet_teeth=35",
-                                     "gearbox.ring_teeth=99", "gearbox.sun_shift=0.3",
+const std::vector<std::string> kBell{"gearbox.sun.teeth=27", "gearbox.planet.teeth=35",
+                                     "gearbox.ring.teeth=99", "gearbox.sun.shift=0.3",
                                      "gearbox.centre_distance_mm=100.0125"};
 
 std::vector<std::string> bell_with(const std::vector<std::string>& more) {
@@ -38,9 +38,9 @@ TEST_CASE("Shifts of zero and the standard centre distance give the bits of omit
     few.insert(few.end(), {"ensemble.instances=6", "ensemble.threshold_instances=1"});
     const auto reference = feature_bits(study_of_text(tests::kExampleStudy, few));
     for (const std::vector<std::string>& given :
-         {std::vector<std::string>{"gearbox.sun_shift=0", "gearbox.planet_shift=0",
-                                   "gearbox.ring_shift=0"},
-          {"gearbox.planet_shift=0.0", "gearbox.centre_distance_mm=79.375"},
+         {std::vector<std::string>{"gearbox.sun.shift=0", "gearbox.planet.shift=0",
+                                   "gearbox.ring.shift=0"},
+          {"gearbox.planet.shift=0.0", "gearbox.centre_distance_mm=79.375"},
           {"gearbox.centre_distance_mm=79.375"}}) {
         std::vector<std::string> all = few;
         all.insert(all.end(), given.begin(), given.end());
@@ -132,31 +132,31 @@ TEST_CASE("Faults of shifted teeth weaken them, up to a size that follows their 
         all.insert(all.end(), shifts.begin(), shifts.end());
         return Scene(study_of_text(tests::kExampleStudy, all)).gearbox().fault().largest_size();
     };
-    CHECK(largest({"gearbox.planet_shift=0.2", "gearbox.sun_shift=-0.2"}) > 1.02 * largest({}));
+    CHECK(largest({"gearbox.planet.shift=0.2", "gearbox.sun.shift=-0.2"}) > 1.02 * largest({}));
 }
 
 TEST_CASE("Impossible shifted gears are refused with the relevant numbers") {
-    CHECK(names(problems_of({"gearbox.ring_teeth=83"}), "gearbox.ring_teeth",
+    CHECK(names(problems_of({"gearbox.ring.teeth=83"}), "gearbox.ring.teeth",
                 "or with profile shift"));
     CHECK(names(problems_of({"gearbox.centre_distance_mm=73"}), "gearbox.centre_distance_mm",
                 "no more than that of the base circles, 74.5881 mm"));
-    CHECK(names(problems_of({"gearbox.sun_shift=0", "gearbox.planet_shift=0",
+    CHECK(names(problems_of({"gearbox.sun.shift=0", "gearbox.planet.shift=0",
                              "gearbox.centre_distance_mm=79"}),
                 "gearbox.centre_distance_mm", "thicker than the pitch"));
-    CHECK(names(problems_of({"gearbox.sun_shift=1.9", "gearbox.planet_shift=-1.9"}),
-                "gearbox.sun_teeth", "flanks of a tooth cross below the tip circle"));
-    CHECK(names(problems_of({"gearbox.sun_tip_mm=69"}), "gearbox.sun_tip_mm",
+    CHECK(names(problems_of({"gearbox.sun.shift=1.9", "gearbox.planet.shift=-1.9"}),
+                "gearbox.sun.teeth", "flanks of a tooth cross below the tip circle"));
+    CHECK(names(problems_of({"gearbox.sun.tip_mm=69"}), "gearbox.sun.tip_mm",
                 "into the root circle of 31 teeth"));
-    CHECK(names(problems_of({"gearbox.sun_tip_mm=55"}), "gearbox.sun_teeth",
+    CHECK(names(problems_of({"gearbox.sun.tip_mm=55"}), "gearbox.sun.teeth",
                 "lies inside the base circle, 56.6"));
-    CHECK(names(problems_of({"gearbox.sun_tip_mm=51"}), "gearbox.sun_teeth",
+    CHECK(names(problems_of({"gearbox.sun.tip_mm=51"}), "gearbox.sun.teeth",
                 "does not lie outside the root circle"));
     CHECK(names(problems_of(bell_with({"gearbox.planets=6"})), "gearbox.planets", "touch"));
     CHECK(names(problems_of(bell_with({"gearbox.planet_positions_deg=[0, 40, 180, 220]"})),
                 "gearbox.planet_positions_deg", "of planets 1 and 2 touch"));
-    CHECK(names(problems_of({"gearbox.pinion_shift=0.1"}), "gearbox.pinion_shift",
+    CHECK(names(problems_of({"gearbox.pinion.shift=0.1"}), "gearbox.pinion.shift",
                 "only for gearbox.kind = \"fixed-shaft\""));
-    CHECK(names(problems_of({"gearbox.sun_shift=3"}), "gearbox.sun_shift", "must be > -2 and < 2"));
+    CHECK(names(problems_of({"gearbox.sun.shift=3"}), "gearbox.sun.shift", "must be > -2 and < 2"));
 }
 
 // Source: the pair 17/96 of a geometry report, shifts 0.2 and 0.5 (0.5 outwards), 14 mm, 557.089
@@ -164,9 +164,9 @@ TEST_CASE("Impossible shifted gears are refused with the relevant numbers") {
 TEST_CASE("The shifts of planet and ring give the centre distance and the sun's shift") {
     const mc::Study study = study_of_text(
         tests::kExampleStudy,
-        {"gearbox.planets=3", "gearbox.sun_teeth=62", "gearbox.planet_teeth=17",
-         "gearbox.ring_teeth=96", "gearbox.module_mm=14", "gearbox.planet_shift=0.2",
-         "gearbox.ring_shift=-0.5", "gearbox.tooth_profile='fillet'", "fault.depth_mm=0"});
+        {"gearbox.planets=3", "gearbox.sun.teeth=62", "gearbox.planet.teeth=17",
+         "gearbox.ring.teeth=96", "gearbox.module_mm=14", "gearbox.planet.shift=0.2",
+         "gearbox.ring.shift=-0.5", "gearbox.tooth_profile='fillet'", "fault.depth_mm=0"});
     CHECK(1e3 * mc::centre_distance_m(study) == Approx(557.089).margin(5e-4));
     CHECK(mc::working_angle_rad(study, MeshKind::ring_planet) * 180 / std::numbers::pi ==
           Approx(21.125).margin(5e-4));
@@ -179,18 +179,18 @@ TEST_CASE("The shifts of planet and ring give the centre distance and the sun's 
 
 TEST_CASE("A ring's shift that leaves backlash is refused with the value that leaves none") {
     // Sun and planet determine the distance, which requires another shift of the ring.
-    const std::string three = "gearbox.ring_shift";
-    const auto loose = problems_of({"gearbox.sun_teeth=27", "gearbox.planet_teeth=35",
-                                    "gearbox.ring_teeth=99", "gearbox.sun_shift=0.3",
-                                    "gearbox.planet_shift=0.2286", "gearbox.ring_shift=0.1"});
+    const std::string three = "gearbox.ring.shift";
+    const auto loose = problems_of({"gearbox.sun.teeth=27", "gearbox.planet.teeth=35",
+                                    "gearbox.ring.teeth=99", "gearbox.sun.shift=0.3",
+                                    "gearbox.planet.shift=0.2286", "gearbox.ring.shift=0.1"});
     INFO(format(loose));
     CHECK(names(loose, three, "of backlash between planets and ring"));
     CHECK(names(loose, three, "(a shift of 0.24"));
     // An explicit distance with the planet's shift makes the ring's shift intentional.
     CHECK(mc::read_study_text(tests::kExampleStudy, "study.toml",
-                              bell_with({"gearbox.planet_shift=0.2286", "gearbox.ring_shift=0.1"}))
+                              bell_with({"gearbox.planet.shift=0.2286", "gearbox.ring.shift=0.1"}))
               .study);
-    CHECK(names(problems_of(bell_with({"gearbox.ring_shift=0.1"})), three, "of backlash"));
+    CHECK(names(problems_of(bell_with({"gearbox.ring.shift=0.1"})), three, "of backlash"));
 }
 
 TEST_CASE("Real sets that standard teeth cannot form run with their windows on every gear") {

@@ -38,12 +38,12 @@ TEST_CASE("The signal lasts until every sun tooth has met the whole path") {
     const mc::Scene liang(shipped_study("crack-in-sun.toml"));
     CHECK(liang.record().signal_meshes == 31 * 81);
     const mc::Scene big_sun(
-        shipped_study("crack-in-sun.toml", {"gearbox.sun_teeth=31", "gearbox.planet_teeth=25"}));
+        shipped_study("crack-in-sun.toml", {"gearbox.sun.teeth=31", "gearbox.planet.teeth=25"}));
     CHECK(big_sun.record().span.meshes() == 25 * 81);
     CHECK(big_sun.record().signal_meshes == 31 * 81);
     const mc::Scene without(shipped_study(
         "crack-in-sun.toml",
-        {"gearbox.sun_teeth=31", "gearbox.planet_teeth=25", "features.use=[\"window_ratio\"]"}));
+        {"gearbox.sun.teeth=31", "gearbox.planet.teeth=25", "features.use=[\"window_ratio\"]"}));
     CHECK(without.record().signal_meshes == 25 * 81);
 }
 

@@ -60,7 +60,7 @@ TEST_CASE("Identical teeth leave nothing between the carrier's orders, teeth wit
         CHECK(coarser / finer == Approx(2.0).epsilon(0.2));
     }
     // Errors of the ring teeth have the carrier's orders, where the ideal lines are.
-    const auto ring = amplitudes(11 * 35, " --set gearbox.ring_quality=6");
+    const auto ring = amplitudes(11 * 35, " --set gearbox.ring.quality=6");
     CHECK(rms(ring, 11, false) < 1e-6 * rms(ring, 11, true));
 }
 

@@ -243,8 +243,8 @@ TEST_CASE("At Yang's load no tooth loses contact, with a transmission error of 0
     for (const std::string error : {"0", "5"}) {
         const auto planet4 = [&](const std::string& separation) {
             return heavy_damage({"effects.separation=\"" + separation + "\"",
-                                 "gearbox.sun_planet_error_um=[" + error + "]",
-                                 "gearbox.ring_planet_error_um=[" + error + "]"});
+                                 "gearbox.sun_planet.error_um=[" + error + "]",
+                                 "gearbox.ring_planet.error_um=[" + error + "]"});
         };
         const auto held = planet4("none");
         CHECK(largest(difference(planet4("one-sided"), held)) < 1e-9 * range(held));

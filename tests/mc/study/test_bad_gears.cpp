@@ -28,8 +28,8 @@ TEST_CASE("All gears that do not mesh are named, on the line of the angle or the
     };
     const Train trains[] = {
         {4, 19, 31, 81, "14.5", "pressure_angle", "gearbox.pressure_angle_deg"},
-        {6, 20, 10, 40, "20", "planet_teeth", "gearbox.planet_teeth"},
-        {6, 20, 10, 40, "20.5", "planet_teeth", "gearbox.planet_teeth"},
+        {6, 20, 10, 40, "20", "planet.teeth", "gearbox.planet.teeth"},
+        {6, 20, 10, 40, "20.5", "planet.teeth", "gearbox.planet.teeth"},
     };
     for (const Train& train : trains) {
         std::string text = example_with("pressure_angle_deg = 20",
@@ -38,9 +38,9 @@ TEST_CASE("All gears that do not mesh are named, on the line of the angle or the
             text.replace(text.find(from), from.size(), key + " = " + std::to_string(value));
         };
         set("planets = 4", "planets", train.planets);
-        set("sun_teeth = 19", "sun_teeth", train.sun);
-        set("planet_teeth = 31", "planet_teeth", train.planet);
-        set("ring_teeth = 81", "ring_teeth", train.ring);
+        set("sun.teeth = 19", "sun.teeth", train.sun);
+        set("planet.teeth = 31", "planet.teeth", train.planet);
+        set("ring.teeth = 81", "ring.teeth", train.ring);
         const double angle_deg = std::stod(train.angle_deg);
         REQUIRE(undercuts(std::min(train.sun, train.planet), std::max(train.sun, train.planet),
                           false, angle_deg));
@@ -76,9 +76,9 @@ TEST_CASE("Gears without tooth contact at some phase are refused") {
                         "bad.toml")
             .problems;
     REQUIRE(problems.size() == 2);
-    CHECK(problems[0].key == "gearbox.sun_teeth");
+    CHECK(problems[0].key == "gearbox.sun.teeth");
     CHECK(mentions(problems[0], "sun and planet do not mesh (the contact ratio of 19 against 31"));
-    CHECK(problems[1].key == "gearbox.planet_teeth");
+    CHECK(problems[1].key == "gearbox.planet.teeth");
     CHECK(mentions(problems[1], "planet and ring do not mesh (the contact ratio of 31 against 81"));
 }
 

@@ -29,8 +29,12 @@ const BadFile kBadFiles[] = {
      "did you mean module_mm? (its unit is mm)"},
     {"young_modulus_Pa", "young_modulus_GPa", "young_modulus_GPa", "gearbox.young_modulus_GPa",
      "did you mean young_modulus_Pa? (its unit is Pa)"},
-    {"planet_teeth", "planet_teth", "planet_teth", "gearbox.planet_teth",
-     "did you mean planet_teeth?"},
+    {"planet.teeth", "planet.teth", "planet.teth", "gearbox.planet.teth",
+     "did you mean planet.teeth?"},
+    {"[operation]", "teeth = 19\n[operation]", "teeth = 19\n[op", "gearbox.teeth",
+     "it belongs in [gearbox.sun]"},
+    {"[operation]", "[planet]\nteeth = 31\n[operation]", "[planet]", "planet",
+     "write [gearbox.planet]"},
     {"torque_N_m", "turqe", "turqe", "operation.turqe", "did you mean torque_N_m?"},
     {"torque_N_m", "turque_N_m", "turque", "operation.turque_N_m", "did you mean torque_N_m?"},
     {"low_pass_Hz", "low_pass_kHz", "low_pass_kHz", "sensor.low_pass_kHz",
@@ -63,12 +67,12 @@ const BadFile kBadFiles[] = {
      "sensor.noise_levels", "must be a number, but is a string"},
     {"side = \"ring\"", "side = 1", "side", "fault.side", "must be a string, but is an integer"},
     // Out of range.
-    {"sun_mass_kg = 0.7", "sun_mass_kg = -0.7", "sun_mass_kg", "gearbox.sun_mass_kg",
+    {"sun.mass_kg = 0.7", "sun.mass_kg = -0.7", "sun.mass_kg", "gearbox.sun.mass_kg",
      "must be > 0, but is -0.7"},
     {"planets = 4", "planets = 1", "planets = 1", "gearbox.planets", "must be between 2 and 8"},
     {"poisson_ratio = 0.3", "poisson_ratio = 0.5", "poisson", "gearbox.poisson_ratio",
      "must be >= 0 and < 0.5"},
-    {"carrier_mass_kg = 10", "carrier_mass_kg = nan", "carrier_mass", "gearbox.carrier_mass_kg",
+    {"carrier.mass_kg = 10", "carrier.mass_kg = nan", "carrier.mass", "gearbox.carrier.mass_kg",
      "must be a finite number"},
     {"torque_N_m = 429", "torque_N_m = inf", "torque", "operation.torque_N_m",
      "must be a finite number"},
@@ -117,12 +121,12 @@ const BadFile kBadFiles[] = {
     // Keys that exclude one another.
     {"carrier_speed_rpm", "sun_speed_rpm = 46.7\ncarrier_speed_rpm", "carrier_speed",
      "operation.carrier_speed_rpm", "conflicts with operation.sun_speed_rpm"},
-    {"sun_mass_kg", "sun_inertia_kg_m2 = 1e-3\nsun_inertia_over_r2_kg = 0.5\nsun_mass_kg",
-     "sun_inertia_over_r2", "gearbox.sun_inertia_over_r2_kg", "conflicts with"},
+    {"sun.mass_kg", "sun.inertia_kg_m2 = 1e-3\nsun.inertia_over_r2_kg = 0.5\nsun.mass_kg",
+     "sun.inertia_over_r2", "gearbox.sun.inertia_over_r2_kg", "conflicts with"},
     {"[operation]", "mesh_damping_time_s = 1e-6\n[operation]", "mesh_damping_time_s",
      "gearbox.mesh_damping_time_s", "is not allowed here"},
-    {"[operation]", "sun_planet_stiffness_N_m = 1e8\n[operation]", "sun_planet_stiffness",
-     "gearbox.sun_planet_stiffness_N_m", "only for gearbox.tooth_profile = \"constant\""},
+    {"[operation]", "sun_planet.stiffness_N_m = 1e8\n[operation]", "sun_planet.stiffness",
+     "gearbox.sun_planet.stiffness_N_m", "only for gearbox.tooth_profile = \"constant\""},
     {"[operation]", "[operation]\ninput = \"ring\"", "input", "operation.input",
      "is \"ring\", which stands still (operation.fixed); use \"sun\" or \"carrier\""},
     {"[operation]", "[operation]\ntorque_on = \"ring\"", "torque_on", "operation.torque_on",
@@ -136,7 +140,7 @@ const BadFile kBadFiles[] = {
     {"member = \"planet\"", "member = \"sun\"", "side = ", "fault.side",
      "only for fault.member = \"planet\""},
     // Impossible gears and cracks.
-    {"ring_teeth = 81", "ring_teeth = 77", "ring_teeth", "gearbox.ring_teeth",
+    {"ring.teeth = 81", "ring.teeth = 77", "ring.teeth", "gearbox.ring.teeth",
      "cannot be assembled: the ring has 77 teeth"},
     {"planets = 4", "planets = 5", "planets", "gearbox.planets", "cannot be assembled"},
     {"side = \"ring\"", "side = \"ring\"\nplanet = 5", "planet = 5", "fault.planet",
@@ -153,11 +157,11 @@ const BadFile kBadFiles[] = {
     {"values = [0, 1, 2, 3, 4.3]", "value = [1]", "value = [1]", "random.fault.depth_mm.value",
      "unknown parameter of levels; did you mean values?"},
     {"distribution = \"lognormal\"", "distribution = \"log-normal\"", "log-normal",
-     "random.gearbox.planet_bearing_stiffness_N_m", "did you mean lognormal?"},
+     "random.gearbox.planet.bearing_stiffness_N_m", "did you mean lognormal?"},
     {"median = 1.1e8, cv = 0.2", "median = 1.1e8", "median",
-     "random.gearbox.planet_bearing_stiffness_N_m.cv", "missing; lognormal needs it"},
+     "random.gearbox.planet.bearing_stiffness_N_m.cv", "missing; lognormal needs it"},
     {"median = 1.1e8, cv = 0.2", "median = 1.1e8, cv = -1", "median",
-     "random.gearbox.planet_bearing_stiffness_N_m.cv", "must be > 0, but is -1"},
+     "random.gearbox.planet.bearing_stiffness_N_m.cv", "must be > 0, but is -1"},
     {"\"levels\", values = [0, 1, 2, 3, 4.3]", "\"grid\", low = 0, high = 4, count = 2000000000",
      "count", "random.fault.depth_mm.count",
      "must be an integer between 2 and 100000, but is 2000000000"},
@@ -169,7 +173,7 @@ const BadFile kBadFiles[] = {
     {"low = -0.1, high = 0.3", "low = -0.1, high = inf", "path_exponent",
      "random.sensor.path_exponent.high", "must be a finite number"},
     {"\"lognormal\", median = 1.1e8, cv = 0.2", "\"normal\", mean = 1e8, sd = 2e7", "\"normal\"",
-     "random.gearbox.planet_bearing_stiffness_N_m", "use lognormal or truncated-normal"},
+     "random.gearbox.planet.bearing_stiffness_N_m", "use lognormal or truncated-normal"},
     {"[random]", "[random]\ngearbox.module_mm = { distribution = \"constant\", value = 3 }",
      "gearbox.module_mm =", "random.gearbox.module_mm", "may not be random (it defines the teeth"},
     {"[random]", "[random]\nsensor.sampling_Hz = { distribution = \"constant\", value = 3 }",
@@ -255,7 +259,7 @@ TEST_CASE("Every bad entry of a distribution or a list is reported") {
         return whats;
     };
     using Whats = std::vector<std::string>;
-    const std::string bearing = "random.gearbox.planet_bearing_stiffness_N_m",
+    const std::string bearing = "random.gearbox.planet.bearing_stiffness_N_m",
                       depth = "random.fault.depth_mm", path = "random.sensor.path_exponent";
     CHECK(whats_of(example_with("median = 1.1e8, cv = 0.2", "median = -1, cv = nan")) ==
           Whats{bearing + ".median: must be > 0, but is -1",
@@ -304,10 +308,10 @@ TEST_CASE("All problems of a file are reported at once, sorted by line, override
     text.replace(text.find("member = \"planet\""), 17, "member = \"plane\"");
     text.replace(text.find("torque_N_m"), 10, "torque_Nm");
     const auto reading =
-        read_study_text(text, "bad.toml", {"sensor.nois_levels=[1]", "gearbox.sun_mass_kg=-2"});
+        read_study_text(text, "bad.toml", {"sensor.nois_levels=[1]", "gearbox.sun.mass_kg=-2"});
     REQUIRE(reading.problems.size() == 6);
     const char* keys[] = {"gearbox.planets", "operation.torque_Nm", "fault.member",
-                          "ensemble.seed",   "sensor.nois_levels",  "gearbox.sun_mass_kg"};
+                          "ensemble.seed",   "sensor.nois_levels",  "gearbox.sun.mass_kg"};
     for (const char* key : keys) {
         CHECK(std::count_if(reading.problems.begin(), reading.problems.end(),
                             [&](const Problem& p) { return p.key == key; }) == 1);

@@ -66,7 +66,7 @@ TEST_CASE(
 TEST_CASE("Numbers whose products would overflow are refused in every key") {
     for (const char* set :
          {"operation.torque_N_m=1e300", "sensor.noise_m_s2=1e300", "sensor.noise_levels=[0,1e300]",
-          "gearbox.planet_mass_kg=1e-300", "detection.confidence=1e-300",
+          "gearbox.planet.mass_kg=1e-300", "detection.confidence=1e-300",
           "detection.false_alarm_rate=1e-300", "detection.confidence=0.9999999999999999",
           "random.operation.torque_N_m={distribution='uniform',low=1,high=1e200}",
           "random.operation.torque_N_m={distribution='lognormal',median=1e300,cv=1}"}) {

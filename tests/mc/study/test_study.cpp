@@ -29,20 +29,20 @@ kind = "planetary"
 planets = 3
 pressure_angle_deg = 24.6
 tooth_profile = "constant"
-sun_planet_stiffness_N_m = 5e8
-ring_planet_stiffness_N_m = 5e8
-sun_mass_kg = 0.4
-planet_mass_kg = 0.66
-ring_mass_kg = 2.35
-carrier_mass_kg = 5.43
-sun_inertia_over_r2_kg = 0.39
-planet_inertia_over_r2_kg = 0.61
-ring_inertia_over_r2_kg = 3.0
-carrier_inertia_over_r2_kg = 6.29
-sun_bearing_stiffness_N_m = 1e8
-planet_bearing_stiffness_N_m = 1e8
-ring_bearing_stiffness_N_m = 1e8
-carrier_bearing_stiffness_N_m = 1e8
+sun_planet.stiffness_N_m = 5e8
+ring_planet.stiffness_N_m = 5e8
+sun.mass_kg = 0.4
+planet.mass_kg = 0.66
+ring.mass_kg = 2.35
+carrier.mass_kg = 5.43
+sun.inertia_over_r2_kg = 0.39
+planet.inertia_over_r2_kg = 0.61
+ring.inertia_over_r2_kg = 3.0
+carrier.inertia_over_r2_kg = 6.29
+sun.bearing_stiffness_N_m = 1e8
+planet.bearing_stiffness_N_m = 1e8
+ring.bearing_stiffness_N_m = 1e8
+carrier.bearing_stiffness_N_m = 1e8
 support_stiffness_N_m = 1e9
 mesh_damping_time_s = 3.99e-6
 [effects]
@@ -80,7 +80,7 @@ TEST_CASE("The nominal value of a random input is the given one, else the median
     const Study study = study_of(kExampleStudy);
     CHECK(*study.gearbox.bodies[Member::planet].bearing_stiffness_N_m == 1e8);
     CHECK(fault_size(study) == Approx(0.002));
-    const Study without = study_of(example_with("planet_bearing_stiffness_N_m = 1e8\n", ""));
+    const Study without = study_of(example_with("planet.bearing_stiffness_N_m = 1e8\n", ""));
     CHECK(*without.gearbox.bodies[Member::planet].bearing_stiffness_N_m == 1.1e8);
     CHECK(study.find_random("fault.depth_mm")->distribution.median() ==
           1e-3 * study.find_random("fault.depth_mm")->distribution.in_unit_of_file().median());
@@ -92,19 +92,19 @@ TEST_CASE("Overrides replace values of the file and may omit quotes around strin
         kExampleStudy,
         {"ensemble.seed=12", "fault.side=sun", "effects.motion='torsional'",
          "random.fault.depth_mm={distribution=\"grid\", low=0, high=4, count=3}",
-         "random.gearbox.planet_bearing_stiffness_N_m.cv = 0.5", "detection.confidence = 0.9"});
+         "random.gearbox.planet.bearing_stiffness_N_m.cv = 0.5", "detection.confidence = 0.9"});
     CHECK(study.ensemble.seed == 12);
     CHECK(study.fault.side == FaultSide::sun);
     CHECK(study.effects.motion == Motion::torsional);
     CHECK(study.find_random("fault.depth_mm")->distribution.in_unit_of_file().levels() ==
           std::vector<double>{0.0, 2.0, 4.0});
-    CHECK(study.find_random("gearbox.planet_bearing_stiffness_N_m")->distribution.toml() ==
+    CHECK(study.find_random("gearbox.planet.bearing_stiffness_N_m")->distribution.toml() ==
           "{ distribution = \"lognormal\", median = 110000000, cv = 0.5 }");
     CHECK(study.detection.confidence == 0.9);
 }
 
 TEST_CASE("An override of a key removes it from [random], in any order of overrides") {
-    const std::string stiffness = "gearbox.planet_bearing_stiffness_N_m";
+    const std::string stiffness = "gearbox.planet.bearing_stiffness_N_m";
     const Study fixed = study_of(kExampleStudy, {stiffness + "=3e8"});
     CHECK(fixed.find_random(stiffness) == nullptr);
     CHECK(fixed.random.size() == 2);
@@ -132,7 +132,7 @@ TEST_CASE("An override of a key removes it from [random], in any order of overri
 }
 
 TEST_CASE("An override may be a distribution, and a notice names each one that it removes") {
-    const std::string stiffness = "gearbox.planet_bearing_stiffness_N_m";
+    const std::string stiffness = "gearbox.planet.bearing_stiffness_N_m";
     const std::string law = "={distribution='uniform', low=1e8, high=2e8}";
     CHECK(study_of(kExampleStudy, {stiffness + law}) ==
           study_of(kExampleStudy, {"random." + stiffness + law}));
@@ -213,10 +213,69 @@ TEST_CASE("Keys with a new name are accepted under their earlier name, with a no
     CHECK(*former.study == *read({"life.linear_speeds=3"}).study);
     REQUIRE(former.notices.size() == 1);
     CHECK(former.notices[0].key == "life.marched_speeds");
-    CHECK(former.notices[0].remedy == "write linear_speeds");
-    const auto twice = read({"life.linear_speeds=4", "life.marched_speeds=3"});
+    CHECK(former.notices[0].remedy == "write linear_speeds in [life]");
+    // The later one of two overrides of a key counts, whatever its spelling.
+    CHECK(*read({"life.linear_speeds=4", "life.marched_speeds=3"}).study == *former.study);
+}
+
+TEST_CASE("Keys of members are read in the spelling without tables, with one notice") {
+    const Study study = study_of(kExampleStudy);
+    std::string text = kExampleStudy;
+    for (const auto& [now, former] :
+         {std::pair{"sun.teeth", "sun_teeth"}, std::pair{"planet.mass_kg", "planet_mass_kg"},
+          std::pair{"gearbox.planet.bearing", "gearbox.planet_bearing"}}) {
+        text.replace(text.find(now), std::string(now).size(), former);
+    }
+    const StudyReading reading = read_study_text(text, "s.toml");
+    REQUIRE(reading.study);
+    CHECK(*reading.study == study);
+    REQUIRE(reading.notices.size() == 1);
+    CHECK(reading.notices[0].line > 0);
+    CHECK(reading.notices[0].what == "is the spelling of an earlier version");
+    CHECK_THAT(reading.notices[0].remedy,
+               Catch::StartsWith("write ") && Catch::Contains(", and 2 more keys in the same way"));
+    // Options replace values of either spelling.
+    for (const char* key : {"gearbox.sun_mass_kg=2", "gearbox.sun.mass_kg=2"}) {
+        const StudyReading changed = read_study_text(text, "s.toml", {key});
+        REQUIRE(changed.study);
+        CHECK(changed.study->gearbox.bodies[Member::sun].mass_kg == 2.0);
+        CHECK(changed.notices.size() == 1);
+    }
+    CHECK(study_of(text, {"gearbox.planet_bearing_stiffness_N_m=3e8"}).random.size() == 2);
+    const StudyReading twice =
+        read_study_text(example_with("sun.teeth = 19", "sun.teeth = 19\nsun_teeth = 19"), "s.toml");
     REQUIRE(twice.problems.size() == 1);
-    CHECK(twice.problems[0].what == "is also given by its earlier name");
+    CHECK(twice.problems[0].key == "gearbox.sun_teeth");
+    CHECK(twice.problems[0].what == "is also given as gearbox.sun.teeth");
+    // Correlations and lists of inputs.
+    const std::string pair =
+        "random.correlations=[{between=['gearbox.planet_bearing_stiffness_N_m', "
+        "'sensor.path_exponent'], rank=0.5}]";
+    CHECK(study_of(kExampleStudy, {pair}).correlations[0].first ==
+          "gearbox.planet.bearing_stiffness_N_m");
+}
+
+TEST_CASE("A removed key is refused with a remedy, and ignored where it has no effect") {
+    const auto read = [](const std::string& line) {
+        return read_study_text(example_with("[operation]", line + "\n[operation]"), "s.toml");
+    };
+    for (const char* line :
+         {"planet_mass_scatter = 0.01", "sun_root_relief_um = 3", "sun.root_relief_um = 3",
+          "relief_shape = \"parabolic\"", "planet_bearing_stiffness_factors = [1, 1, 1, 2]"}) {
+        INFO(line);
+        const StudyReading reading = read(line);
+        REQUIRE(reading.problems.size() == 1);
+        CHECK(reading.problems[0].what == "was removed");
+        CHECK(reading.problems[0].line > 0);
+        CHECK_FALSE(reading.problems[0].remedy.empty());
+    }
+    for (const char* line : {"planet_mass_scatter = 0", "relief_shape = \"linear\""}) {
+        const StudyReading reading = read(line);
+        REQUIRE(reading.study);
+        CHECK(*reading.study == study_of(kExampleStudy));
+        REQUIRE(reading.notices.size() == 1);
+        CHECK(reading.notices[0].what == "belongs to an earlier version and is ignored");
+    }
 }
 
 TEST_CASE("Keys of earlier versions are ignored with a notice") {
@@ -238,7 +297,7 @@ TEST_CASE("The resolved text gives the same study, bit for bit") {
                  {"sensor.tones=[{frequency_Hz=0.1, amplitude_m_s2=0.7}, {frequency_Hz=50, "
                   "amplitude_m_s2=3}]",
                   "sensor.position=gear",
-                  "random.gearbox.gear_bearing_damping_N_s_m={distribution="
+                  "random.gearbox.gear.bearing_damping_N_s_m={distribution="
                   "'lognormal', median=1.8e5, cv=0.3}",
                   "numerics.integrator=sdirk3", "effects.shear=false"}));
     studies.push_back(study_of(kQuasiStaticStudy,
@@ -266,17 +325,24 @@ TEST_CASE("The resolved text contains every key that may be given") {
     const std::string text = resolved_text(study_of(kExampleStudy));
     // Keys whose absence has a meaning.
     std::istringstream words(
-        "inertia speed size_edges_mm planet_positions _shift _tip_mm "
-        "centre_distance _relief_um _crowning_um normal_module "
-        "ring_to_sun_phase bore _rim_mm _web_mm outer error crack_law "
+        "inertia speed size_edges_mm planet_positions shift tip_mm "
+        "centre_distance relief_um crowning_um normal_module "
+        "ring_to_sun_phase bore rim_mm web_mm outer error crack_law "
         "noise_density range_m_s2 cross_axis uncertain_inputs tones bearings stages additional "
         "background_Hz "
         "interval_h "
         "record_ "
         "housing_modes response_Hz "
         "false_alarms_per_ interpolation_tolerance torque_fluctuation "
-        "torque_noise until pin_ _factors python index_um quality");
+        "torque_noise until pin_ python index_um quality");
     const std::vector<std::string> without_default{std::istream_iterator<std::string>(words), {}};
+    const auto shows = [&](const Key& key) {
+        const std::size_t begin = text.find("[" + key.table() + "]\n");
+        const std::size_t end = std::min(text.find("\n[", begin), text.size());
+        return begin != std::string::npos &&
+               text.substr(begin, end - begin).find("\n" + std::string(key.label()) + " = ") !=
+                   std::string::npos;
+    };
     for (const Key& key : schema()) {
         const bool optional_here =
             key.presence(study_of(kExampleStudy)).need == Need::optional &&
@@ -285,16 +351,15 @@ TEST_CASE("The resolved text contains every key that may be given") {
             });
         const bool forbidden = key.presence(study_of(kExampleStudy)).need == Need::forbidden;
         INFO(key.path());
-        CHECK((optional_here || forbidden ||
-               text.find("\n" + std::string(key.name) + " = ") != std::string::npos));
+        CHECK((optional_here || forbidden || shows(key)));
     }
 }
 
 TEST_CASE("A gearbox of constant stiffness may have teeth or none") {
     CHECK_FALSE(study_of(kConstantStudy).gearbox.has_teeth());
     const Study study = study_of(
-        kExampleStudy, {"gearbox.tooth_profile='constant'", "gearbox.sun_planet_stiffness_N_m=1e8",
-                        "gearbox.ring_planet_stiffness_N_m=1e8", "fault.kind='none'"});
+        kExampleStudy, {"gearbox.tooth_profile='constant'", "gearbox.sun_planet.stiffness_N_m=1e8",
+                        "gearbox.ring_planet.stiffness_N_m=1e8", "fault.kind='none'"});
     CHECK(study.gearbox.has_teeth());
     CHECK(*study.gearbox.meshes[MeshKind::sun_planet].stiffness_N_m == 1e8);
 }
@@ -391,8 +456,8 @@ TEST_CASE("Edit distances match the literature") {
 TEST_CASE("The help lists every key of the schema with its section") {
     const std::string help = schema_help();
     for (const Key& key : schema()) {
-        CHECK(help.find("\n  " + std::string(key.name) + "\n") != std::string::npos);
-        CHECK(help.find("[" + std::string(key.section) + "]") != std::string::npos);
+        CHECK(help.find("\n  " + std::string(key.label()) + "\n") != std::string::npos);
+        CHECK(help.find("[" + key.table() + "]\n") != std::string::npos);
         CHECK((key.unit.suffix.empty() || key.name.ends_with("_" + std::string(key.unit.suffix))));
     }
     std::istringstream lines(help);
@@ -401,7 +466,7 @@ TEST_CASE("The help lists every key of the schema with its section") {
     }
     const std::string sensor = schema_help("SENSOR");
     CHECK_THAT(sensor, Catch::StartsWith("[") && Catch::Contains("\n  noise_levels\n"));
-    CHECK(sensor.find("\n  planet_teeth\n") == std::string::npos);
+    CHECK(sensor.find("\n  teeth\n") == std::string::npos);
     CHECK(sensor.size() < help.size() / 3);
     CHECK(schema_help("no such word") == "");
 }

@@ -56,7 +56,7 @@ TEST_CASE("Cached responses are not integrated again, and give the same bits") {
 }
 
 TEST_CASE("Nothing is cached where every gearbox has a different response") {
-    const Scene scene(study_with({"sensor.path_exponent", "gearbox.planet_bearing_stiffness_N_m"}));
+    const Scene scene(study_with({"sensor.path_exponent", "gearbox.planet.bearing_stiffness_N_m"}));
     CHECK_FALSE(scene.solve().settings.distinct_integrations.has_value());
     const BatchTask task(scene.tile(), scene.ensemble());
     Seconds seconds;

@@ -123,9 +123,9 @@ TEST_CASE("Tooth deviations follow the tolerances of their grade and grow with i
     const double six = rms({"gearbox.tooth_quality=6"}, 2);
     CHECK(six == Approx(expected).epsilon(0.12));
     CHECK(rms({"gearbox.tooth_quality=8"}, 2) == Approx(2.0 * six).epsilon(1e-9));
-    CHECK(rms({"gearbox.tooth_quality=6", "gearbox.planet_quality=8"}, 2) ==
+    CHECK(rms({"gearbox.tooth_quality=6", "gearbox.planet.quality=8"}, 2) ==
           Approx(2.0 * six).epsilon(1e-9));
-    CHECK(rms({"gearbox.tooth_quality=6", "gearbox.planet_quality=8"}, 0) ==
+    CHECK(rms({"gearbox.tooth_quality=6", "gearbox.planet.quality=8"}, 0) ==
           Approx(rms({"gearbox.tooth_quality=6"}, 0)).epsilon(1e-9));
 }
 

@@ -41,7 +41,7 @@ TEST_CASE("Twice the level doubles the amplitude of every tone") {
 
 TEST_CASE("A level requires tones") {
     check_refused("describe " + kStudy + " --set sensor.tone_level=2",
-                  {"sensor.tone_level", "no tones are given: sensor.tones"});
+                  {"sensor.tone_level", "only with sensor.tones"});
 }
 
 // Each background that shares an integration has its own level.

@@ -48,8 +48,8 @@ TEST_CASE("describe shows the graded steps of a study and the error of their pil
 TEST_CASE("describe states which damping is omitted") {
     const auto description = require_success(kDescribe +
                                              "--set gearbox.support_damping_N_s_m=0 --set "
-                                             "gearbox.sun_bearing_damping_N_s_m=0 --set "
-                                             "gearbox.ring_bearing_damping_N_s_m=0");
+                                             "gearbox.sun.bearing_damping_N_s_m=0 --set "
+                                             "gearbox.ring.bearing_damping_N_s_m=0");
     CHECK(description.mentions("0 for bearings of sun and ring, support of the ring"));
     // Random damping counts as damping.
     const auto drawn =

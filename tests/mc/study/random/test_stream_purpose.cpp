@@ -83,7 +83,7 @@ TEST_CASE("No two streams of a gearbox have the same purpose") {
         if (!key.may_be_random()) {
             continue;
         }
-        const std::string path = key.path();
+        const std::string path = flat_path(key.path());
         add_variants(with_suffix(StreamPurpose::random_input, path), path);
         add(with_suffix(StreamPurpose::sobol_scrambling, path), "scrambling of " + path);
         add(with_suffix(StreamPurpose::calibration_prior, path), "prior of " + path);

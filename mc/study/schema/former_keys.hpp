@@ -13,7 +13,7 @@ namespace gearpod::mc {
 // `path` itself if it is no former spelling: "gearbox.sun_teeth" gives "gearbox.sun.teeth".
 std::string current_path(const std::string& path);
 
-// Replaces former spellings in studies and options by the present ones, and collects the notices.
+// Replaces former spellings in studies and options by the present ones, and collects notices.
 class FormerKeys {
   public:
     // Renames the keys of a document. Removed keys are taken out: with a notice if their value has
@@ -21,19 +21,15 @@ class FormerKeys {
     void replace(Value& document, Problems& problems);
     // Renames the key of "section.key=value".
     std::string replace(const std::string& assignment);
-    // Notices of all documents and assignments: one for all former spellings.
+    // Notices of everything replaced: one for all former spellings.
     Problems notices() const;
 
   private:
-    struct Use {
-        Position position;
-        std::string path, current;
-    };
-    void rename(Value& section, const std::string& prefix, Problems& problems);
+    void rename(Value& table, const std::string& prefix, Problems& problems);
     std::string renamed(const std::string& path, const Position& position);
 
-    std::vector<Use> renamed_;
     Problems ignored_;
+    Problems renamed_;  // notices, one for each former spelling
 };
 
 // Value of a choice key in earlier versions and the present one, which replaces it or is proposed.

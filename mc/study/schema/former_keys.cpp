@@ -1,0 +1,217 @@
+#include "mc/study/schema/former_keys.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+#include <utility>
+
+#include "mc/files/input/find_in.hpp"
+#include "mc/study/schema/schema.hpp"
+
+namespace gearpod::mc {
+namespace {
+
+// Keys with another name now, in addition to the keys of members and meshes.
+constexpr std::pair<std::string_view, std::string_view> kRenamed[] = {
+    {"life.marched_torques", "life.linear_torques"}, {"life.marched_speeds", "life.linear_speeds"}};
+
+// Removed keys, as they were spelled without tables: everything that begins with `front` and ends
+// with `back`. Studies that are stored in results state the value without effect.
+struct RemovedKey {
+    std::string_view front, back;
+    std::string_view without_effect;  // value that is ignored; * for all, "" for none
+    std::string_view remedy;
+};
+// clang-format off
+constexpr RemovedKey kRemoved[] = {
+    {"numerics.step_tolerance", "", "*", "remove it"},
+    {"gearbox.planet_", "_factors", "", "planets are alike but for their pins: give pin_tangential_um or pin_radial_um in [gearbox]"},
+    {"gearbox.planet_", "_scatter", "0", "planets are alike but for their pins: give pin_tangential_rms_um or pin_radial_rms_um in [gearbox]"},
+    {"gearbox.", "_root_relief_um", "0", "give the same tip relief to the mating gear, whose tip meets this root"},
+    {"gearbox.", "_root_relief_length_mm", "", "give the same tip relief to the mating gear, whose tip meets this root"},
+    {"gearbox.relief_shape", "", "linear", "remove it: relief is linear. A parabolic one is close to a linear one of the same amount and two thirds of the length"},
+    {"gearbox.index_wave_um", "", "0", "give tooth_quality, whose grade contains waves of the index"},
+    {"gearbox.profile_slope_um", "", "0", "give tooth_quality, whose grade contains profile slopes"},
+    {"gearbox.sun_", "rim_mm", "", "remove it: the sun is solid; give rim_mm and web_mm in [gearbox.planet]"},
+    {"gearbox.sun_", "web_mm", "", "remove it: the sun is solid; give rim_mm and web_mm in [gearbox.planet]"},
+    {"gearbox.pinion_", "rim_mm", "", "remove it: the pinion is solid; give rim_mm and web_mm in [gearbox.gear]"},
+    {"gearbox.pinion_", "web_mm", "", "remove it: the pinion is solid; give rim_mm and web_mm in [gearbox.gear]"},
+    {"gearbox.mesh_", "w_stiffness_N_m", "", "give tooth_profile = \"fillet\", or a constant stiffness_N_m in [gearbox.mesh]"},
+    {"gearbox.mesh_", "h_stiffness_N_m", "", "give tooth_profile = \"fillet\", or a constant stiffness_N_m in [gearbox.mesh]"},
+    {"gearbox.mesh_contact_ratio", "", "", "give tooth_profile = \"fillet\", or a constant stiffness_N_m in [gearbox.mesh]"},
+    {"gearbox.mesh_error_phase_deg", "", "", "remove it: the harmonics of error_um in [gearbox.mesh] are in phase"},
+    {"gearbox.planet_crowning_um", "", "0", "add it to crowning_um in [gearbox.sun] and [gearbox.ring]: crowning of mating flanks adds"},
+    {"gearbox.pinion_crowning_um", "", "0", "add it to crowning_um in [gearbox.gear]: crowning of mating flanks adds"},
+    {"gearbox.sun_quality", "", "", "give this grade as tooth_quality, and those of the other gears as quality in their tables"},
+    {"gearbox.pinion_quality", "", "", "give this grade as tooth_quality, and that of the gear as quality in [gearbox.gear]"},
+    {"fault.", "p_end", "first", "remove it: the end that engages first is damaged; the other one has the same loss, later by the overlap"},
+    {"fault.break_end", "", "first", "remove it: the end that engages first is damaged; the other one has the same loss, later by the overlap"},
+    {"fault.pit_face_position_mm", "", "", "remove it: pits lie in the middle of the face width"},
+    {"life.smallest_depth_mm", "", "", "remove it: interpolation_tolerance is relative to a crack of half of last_depth_mm"},
+    {"numerics.face_slices", "", "0", "remove it: crowned spur teeth have 8 slices, helical ones 4"},
+};
+
+constexpr FormerValue kFormerValues[] = {
+    {"numerics.horizon", "reuse", "periodic", false},
+    {"numerics.horizon", "superpose", "superposed", false},
+    {"numerics.horizon", "march", "full", false},
+    {"numerics.integrator", "bs3", "rk4", true},
+    {"numerics.integrator", "bathe", "sdirk3", true},
+    {"numerics.integrator", "generalized-alpha", "sdirk3", true},
+};
+// clang-format on
+
+// Present paths by former ones.
+const std::map<std::string, std::string, std::less<>>& renamed_keys() {
+    static const auto keys = [] {
+        std::map<std::string, std::string, std::less<>> all(std::begin(kRenamed),
+                                                            std::end(kRenamed));
+        for (const Key& key : schema()) {
+            if (key.section == "gearbox" && key.name.find('.') != std::string::npos) {
+                all.emplace(flat_path(key.path()), key.path());
+            }
+        }
+        return all;
+    }();
+    return keys;
+}
+
+// nullptr if the key was not removed. `path`: without tables and "random.".
+const RemovedKey* removed_key(std::string_view path) {
+    const auto found = std::ranges::find_if(kRemoved, [&](const RemovedKey& key) {
+        return path.size() >= key.front.size() + key.back.size() && path.starts_with(key.front) &&
+               (key.back.empty() ? path == key.front : path.ends_with(key.back));
+    });
+    return found == std::end(kRemoved) ? nullptr : found;
+}
+
+bool has_no_effect(const RemovedKey& key, const Value& value) {
+    const bool number = value.kind == Value::Kind::integer || value.kind == Value::Kind::number;
+    const std::string text = number ? fmt::format("{:g}", value.number) : value.text;
+    return key.without_effect == "*" || (!text.empty() && text == key.without_effect);
+}
+
+// Puts a value at that path below a table; false if there is one already.
+bool put(Value& table, const std::vector<std::string>& path, const Entry& moved) {
+    Value* parent = &table;
+    for (const std::string& name : path) {
+        if (parent->kind != Value::Kind::table) {
+            return false;
+        }
+        Entry* entry = find_in(parent->entries, name, &Entry::name);
+        if (entry == nullptr) {
+            const auto next = std::ranges::upper_bound(parent->entries, name, {}, &Entry::name);
+            entry = &*parent->entries.insert(next, {name, {}, moved.position});
+            entry->value.position = moved.position;
+        } else if (&name == &path.back()) {
+            return false;
+        }
+        parent = &entry->value;
+    }
+    *parent = moved.value;
+    return true;
+}
+
+}  // namespace
+
+std::string current_path(const std::string& path) {
+    const std::size_t start = path.starts_with("random.") ? 7 : 0;
+    const std::size_t dot = std::min(path.find('.', start), path.size() - 1);
+    const std::size_t end = std::min(path.find('.', dot + 1), path.size());
+    const auto found = renamed_keys().find(path.substr(start, end - start));
+    return found == renamed_keys().end() ? path
+                                         : path.substr(0, start) + found->second + path.substr(end);
+}
+
+const FormerValue* former_value(std::string_view key, std::string_view value) {
+    const auto found = std::ranges::find_if(kFormerValues, [&](const FormerValue& one) {
+        return one.key == key && one.former == value;
+    });
+    return found == std::end(kFormerValues) ? nullptr : found;
+}
+
+std::string FormerKeys::renamed(const std::string& path, const Position& position) {
+    std::string current = current_path(path);
+    if (current != path) {
+        const std::size_t dot = current.rfind('.');
+        renamed_.push_back(
+            {position.file, position.line, path, "is the spelling of an earlier version",
+             fmt::format("write {} in [{}]", current.substr(dot + 1), current.substr(0, dot))});
+    }
+    return current;
+}
+
+// `prefix`: path of the table and a dot.
+void FormerKeys::rename(Value& table, const std::string& prefix, Problems& problems) {
+    std::vector<Entry> moved;
+    std::erase_if(table.entries, [&](Entry& entry) {
+        const std::string path = prefix + entry.name;
+        const std::string key = path.starts_with("random.") ? path.substr(7) : path;
+        const Position& at = entry.position;
+        if (const RemovedKey* removed = removed_key(flat_path(key))) {
+            if (has_no_effect(*removed, entry.value)) {
+                ignored_.push_back({at.file, at.line, path,
+                                    "belongs to an earlier version and is ignored", "remove it"});
+            } else {
+                problems.push_back(
+                    {at.file, at.line, path, "was removed", std::string(removed->remedy)});
+            }
+            return true;
+        }
+        if (is_table(key)) {
+            rename(entry.value, path + ".", problems);
+        } else if (current_path(path) != path) {
+            moved.push_back(std::move(entry));
+            return true;
+        }
+        return false;
+    });
+    for (const Entry& entry : moved) {
+        const std::string current = renamed(prefix + entry.name, entry.position);
+        if (!put(table, split(current.substr(prefix.size()), '.'), entry)) {
+            problems.push_back({entry.position.file, entry.position.line, prefix + entry.name,
+                                "is also given as " + current, "remove one of them"});
+        }
+    }
+}
+
+void FormerKeys::replace(Value& document, Problems& problems) {
+    // Lists of keys.
+    const auto rename_texts = [&](Value& table, std::string_view name) {
+        if (Entry* list = find_in(table.entries, name, &Entry::name)) {
+            for (Value& element : list->value.elements) {
+                element.text = renamed(element.text, element.position);
+            }
+        }
+    };
+    for (Entry& section : document.entries) {
+        rename(section.value, section.name + ".", problems);
+        rename_texts(section.value, "uncertain_inputs");
+        if (Entry* pairs = find_in(section.value.entries, "correlations", &Entry::name)) {
+            for (Value& pair : pairs->value.elements) {
+                rename_texts(pair, "between");
+            }
+        }
+    }
+}
+
+std::string FormerKeys::replace(const std::string& assignment) {
+    const std::size_t end = std::min(assignment.find_first_of("= \t"), assignment.size());
+    return renamed(assignment.substr(0, end), {std::string(kOverrideFile), 0}) +
+           assignment.substr(end);
+}
+
+Problems FormerKeys::notices() const {
+    Problems all = ignored_;
+    if (!renamed_.empty()) {
+        all.push_back(renamed_.front());
+        if (renamed_.size() > 1) {
+            all.back().remedy +=
+                fmt::format(", and {} more keys in the same way", renamed_.size() - 1);
+        }
+    }
+    return all;
+}
+
+}  // namespace gearpod::mc
