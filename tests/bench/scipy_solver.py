@@ -39,6 +39,7 @@ class Gearbox:
 
     def __init__(self, study: dict) -> None:
         gearbox, operation = study["gearbox"], study["operation"]
+        gearbox |= {f"{body}_{key}": value for body in BODIES for key, value in gearbox[body].items()}
         planets, alpha = gearbox["planets"], math.radians(gearbox["pressure_angle_deg"])
         base = {b: gearbox["module_mm"] * gearbox[b + "_teeth"] / 2e3 * math.cos(alpha) for b in ("sun", "planet", "ring")}
         pins = gearbox["module_mm"] * (gearbox["sun_teeth"] + gearbox["planet_teeth"]) / 2e3

@@ -34,7 +34,7 @@ def problems(program, sources):
         if path in studies and not text.startswith("#:schema study.schema.json\n"):
             yield f"{path} does not begin with #:schema study.schema.json"
     good = tomllib.loads(studies[0].read_text(encoding="utf-8"))
-    for section, key, value in (("gearbox", "sun_theet", 3), ("gearbox", "sun_teeth", "many"),
+    for section, key, value in (("gearbox", "sun_theet", 3), ("gearbox", "sun", {"teeth": "many"}),
                                 ("sensor", "sampling_Hz", -1), ("spelling", "key", 1)):
         wrong = copy.deepcopy(good)
         wrong.setdefault(section, {})[key] = value

@@ -54,10 +54,13 @@ class Rexs(unittest.TestCase):
         return path
 
     def made(self, model, *options):
-        """Text of the study, its keys by section, and what the program prints about the model."""
+        """Text of the study, its keys by section (those of members as sun_teeth), and what the program prints."""
         done = run("new", "--rexs", self.file(model), *options)
         self.assertEqual(done.returncode, 0, done.stderr)
-        return done.stdout, tomllib.loads(done.stdout), done.stderr
+        study = tomllib.loads(done.stdout)
+        for member in [name for name, value in study["gearbox"].items() if isinstance(value, dict)]:
+            study["gearbox"] |= {f"{member}_{key}": value for key, value in study["gearbox"][member].items()}
+        return done.stdout, study, done.stderr
 
     def refused(self, model, *options, expect=()):
         """Lines of the refusal, which must hold these texts."""

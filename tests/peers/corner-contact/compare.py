@@ -24,14 +24,14 @@ young_modulus_Pa = 2.068e11
 poisson_ratio = 0.3
 tooth_profile = "root-circle"
 {relief}
-sun_mass_kg = 0.7
-planet_mass_kg = 1.822
-ring_mass_kg = 5.982
-carrier_mass_kg = 10
-sun_bearing_stiffness_N_m = 1e8
-planet_bearing_stiffness_N_m = 1e8
-ring_bearing_stiffness_N_m = 1e8
-carrier_bearing_stiffness_N_m = 1e8
+sun.mass_kg = 0.7
+planet.mass_kg = 1.822
+ring.mass_kg = 5.982
+carrier.mass_kg = 10
+sun.bearing_stiffness_N_m = 1e8
+planet.bearing_stiffness_N_m = 1e8
+ring.bearing_stiffness_N_m = 1e8
+carrier.bearing_stiffness_N_m = 1e8
 support_stiffness_N_m = 1e8
 mesh_damping_ratio = 0.07
 [operation]
@@ -69,8 +69,8 @@ def program_table(program, text, error):
 def main():
     program = sys.argv[1]
     columns = sys.argv[2:]
-    sets = {"19/31/81": ("sun_teeth = 19\nplanet_teeth = 31\nring_teeth = 81", LIANG),
-            "27/35/99": ("sun_teeth = 27\nplanet_teeth = 35\nring_teeth = 99\nsun_shift = 0.3\n"
+    sets = {"19/31/81": ("sun.teeth = 19\nplanet.teeth = 31\nring.teeth = 81", LIANG),
+            "27/35/99": ("sun.teeth = 27\nplanet.teeth = 35\nring.teeth = 99\nsun.shift = 0.3\n"
                          "centre_distance_mm = 100.0125", bell_pairs())}
     for name, (teeth, pairs) in sets.items():
         if columns and name not in columns:

@@ -27,7 +27,7 @@ def study_text(case, onset, samples):
     c, gears, g = case, ("sun", "planet", "ring"), ["[gearbox]", 'kind = "planetary"']
     helical = c.get("helix_angle_deg", 0.0) > 0
     g += [f"planets = {c['planets']}", f"planet_positions_deg = {[round(p, 12) for p in c['planet_positions_deg']]}"]
-    g += [f"{m}_teeth = {z}" for m, z in zip(gears, c["teeth"])]
+    g += [f"{m}.teeth = {z}" for m, z in zip(gears, c["teeth"])]
     g += [f"{'normal_module' if helical else 'module'}_mm = {c['module_mm']}"]
     if helical:
         g.append(f"helix_angle_deg = {c['helix_angle_deg']}")
@@ -36,18 +36,18 @@ def study_text(case, onset, samples):
     g += ['tooth_profile = "root-circle"', f"support_stiffness_N_m = {c['support_N_m']}",
           f"support_damping_N_s_m = {c['support_N_s_m']}"]
     for body in ("carrier", "ring", "sun", "planet"):
-        g += [f"{body}_mass_kg = {c['mass_kg'][body]}", f"{body}_inertia_kg_m2 = {c['inertia_kg_m2'][body]!r}",
-              f"{body}_bearing_stiffness_N_m = {c['bearing_N_m'][body]}",
-              f"{body}_bearing_damping_N_s_m = {c['bearing_N_s_m'][body]}"]
+        g += [f"{body}.mass_kg = {c['mass_kg'][body]}", f"{body}.inertia_kg_m2 = {c['inertia_kg_m2'][body]!r}",
+              f"{body}.bearing_stiffness_N_m = {c['bearing_N_m'][body]}",
+              f"{body}.bearing_damping_N_s_m = {c['bearing_N_s_m'][body]}"]
     for m, amount, length in zip(gears, c.get("tip_relief_um", (0, 0, 0)), c.get("tip_relief_length_mm", (1, 1, 1))):
         if amount:
-            g += [f"{m}_tip_relief_um = {amount}", f"{m}_tip_relief_length_mm = {length}"]
+            g += [f"{m}.tip_relief_um = {amount}", f"{m}.tip_relief_length_mm = {length}"]
     for key in ("pin_tangential_um", "pin_radial_um"):
         if key in c:
             g.append(f"{key} = {c[key]}")
     flat = lambda rows: [v for row in rows for v in row]
-    g += [f"sun_index_um = {c['sun_index_um']}", f"planet_index_um = {flat(c['planet_index_um'])}",
-          f"planet_ring_side_index_um = {flat(c['planet_ring_side_index_um'])}", f"ring_index_um = {c['ring_index_um']}"]
+    g += [f"sun.index_um = {c['sun_index_um']}", f"planet.index_um = {flat(c['planet_index_um'])}",
+          f"planet.ring_side_index_um = {flat(c['planet_ring_side_index_um'])}", f"ring.index_um = {c['ring_index_um']}"]
     mesh_Hz = c["carrier_speed_rpm"] / 60 * c["teeth"][2]
     rest = f"""
 [operation]
