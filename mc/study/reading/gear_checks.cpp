@@ -374,7 +374,7 @@ void check_mesh_values(StudyDraft& draft, MeshKind mesh) {
     }
 }
 
-void check_profile(StudyDraft& draft) {
+void check_given_stiffness(StudyDraft& draft) {
     const Gearbox& g = draft.study.gearbox;
     if (g.kind == GearboxKind::fixed_shaft && g.tooth_profile == StiffnessSource::square_wave &&
         draft.all_usable({"gearbox.kind", "gearbox.tooth_profile"})) {
@@ -392,7 +392,7 @@ void check_gears(StudyDraft& draft) {
     check_bodies(draft);
     check_mesh_values(draft, MeshKind::sun_planet);
     check_mesh_values(draft, MeshKind::ring_planet);
-    check_profile(draft);
+    check_given_stiffness(draft);
     check_tooth_errors(draft);
 }
 

@@ -99,8 +99,8 @@ std::vector<Key> all_keys() {
             const auto same = [&](const Key& known) { return known.name == key.name; };
             if (std::none_of(all.begin(), all.end(), same)) {
                 const auto presence = [n = key.name](const Study& s) { return of_kinds(s, n); };
-                all.push_back({"fault", key.name, key.access, key.unit, key.range, presence,
-                               key.fixed_because, key.doc});
+                all.push_back({"fault", std::string(key.name), key.access, key.unit, key.range,
+                               presence, key.fixed_because, std::string(key.doc)});
             }
         }
     }

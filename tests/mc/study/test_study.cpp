@@ -437,9 +437,10 @@ TEST_CASE("A study can name every path window, and none") {
 
 TEST_CASE("Lists of errors keep their order and are converted to SI units") {
     const Study study = study_of(kSpatialCrackStudy);
-    CHECK(study.errors.sun_planet_m == std::vector<double>{10 * 1e-6, 2 * 1e-6});
-    CHECK(study.errors.sun_planet_phase_rad[1] == Approx(M_PI / 2));
-    CHECK(study.errors.ring_planet_phase_rad.empty());
+    const auto& meshes = study.gearbox.meshes;
+    CHECK(meshes[MeshKind::sun_planet].error_m == std::vector<double>{10 * 1e-6, 2 * 1e-6});
+    CHECK(meshes[MeshKind::sun_planet].error_phase_rad[1] == Approx(M_PI / 2));
+    CHECK(meshes[MeshKind::ring_planet].error_phase_rad.empty());
     CHECK(study.gearbox.backlash_m == 0.1 * 1e-3);
 }
 
