@@ -82,7 +82,8 @@ TEST_CASE(
         }
         for (std::size_t l = 0; l < 8; ++l) {
             mesh.k[l] = 4e8 * (1.5 + unit(engine));
-            mesh.c[l] = mesh_damping_N_s_m(damping, mesh_damping(layout, inputs[l], 0), mesh.k[l]);
+            mesh.c[l] =
+                mesh_damping_N_s_m(damping, mesh_damping(layout, inputs[l], PairId{0}), mesh.k[l]);
         }
         FixedShaftMotions<LinearMesh, 8>::accelerations(lanes, q.data(), v.data(), mesh, a.data());
         const double radius[] = {1, 1, 1, 1, 0.02834, 0.02834, 0.0716, 0.0716};
@@ -162,7 +163,7 @@ TEST_CASE("Stiffness and damping of every gearbox kind are symmetric and zero fo
         CHECK((sum.stiffness - m.stiffness).norm() < 1e-14 * largest);
         std::vector<double> stiffer = k;
         stiffer.back() += 1e8;
-        const Eigen::VectorXd row = mesh_row(layout, pairs(layout) - 1);
+        const Eigen::VectorXd row = mesh_row(layout, PairId{pairs(layout) - 1});
         CHECK((assemble(layout, inputs, stiffer).stiffness - m.stiffness -
                1e8 * row * row.transpose())
                   .norm() < 1e-12 * largest);

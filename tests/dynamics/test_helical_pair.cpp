@@ -167,8 +167,8 @@ TEST_CASE("In the plane the pair equals the planetary model's spur pair at the t
     const int plane[] = {0, 1, 5, 6, 7, 11};
     const PairMatrix sun = pair_matrix(sun_planet_deflection(kPair, kSun, kPlanet), k);
     const PairMatrix ring = pair_matrix(planet_ring_deflection(kPair, kPlanet, kRing), k);
-    const Eigen::VectorXd sun_row = pair_row(layout, 0),
-                          ring_row = pair_row(layout, layout.planets);
+    const Eigen::VectorXd sun_row = pair_row(layout, PairId{0}),
+                          ring_row = pair_row(layout, PairId{layout.planets});
     const int s = motion_index(gearpod::dynamics::sun), p = motion_index(planet, 0),
               r = motion_index(gearpod::dynamics::ring);
     const int sun_motions[] = {s, s + 1, s + 2, p, p + 1, p + 2};

@@ -44,8 +44,8 @@ Loads loads(int planets, double sun_bearing, double planet_bearing, double tange
     const Eigen::VectorXd q = static_equilibrium(assemble(layout, in, k));
     Loads found;
     for (int n = 0; n < planets; ++n) {
-        found.sun.push_back(kSunMesh * pair_row(layout, n).dot(q));
-        found.ring.push_back(kRingMesh * pair_row(layout, planets + n).dot(q));
+        found.sun.push_back(kSunMesh * pair_row(layout, PairId{n}).dot(q));
+        found.ring.push_back(kRingMesh * pair_row(layout, PairId{planets + n}).dot(q));
     }
     return found;
 }

@@ -93,7 +93,7 @@ TEST_CASE("The carrier-driven train on its real flanks is the model's mirror ima
     }
     // Both have the same contact forces.
     for (int pair = 0; pair < 6; ++pair) {
-        const Eigen::VectorXd row = pair_row(layout, pair);
+        const Eigen::VectorXd row = pair_row(layout, PairId{pair});
         CHECK(row.dot(q) > 0.0);
         CHECK(real.rows[static_cast<std::size_t>(pair)].dot(mirrored) ==
               Approx(row.dot(q)).epsilon(1e-9));

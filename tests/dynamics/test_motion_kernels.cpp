@@ -53,9 +53,9 @@ double kernel_error(PlanetaryLayout layout, unsigned seed) {
     for (std::size_t pair = 0; pair < pairs; ++pair) {
         for (std::size_t l = 0; l < W; ++l) {
             mesh.k[pair * W + l] = 4e8 * (1.5 + unit(engine));
-            mesh.c[pair * W + l] = mesh_damping_N_s_m(
-                layout.mesh_damping, mesh_damping(layout, inputs[l], static_cast<int>(pair)),
-                mesh.k[pair * W + l]);
+            mesh.c[pair * W + l] = mesh_damping_N_s_m(layout.mesh_damping,
+                                                      mesh_damping(layout, inputs[l], PairId{pair}),
+                                                      mesh.k[pair * W + l]);
         }
     }
     Model::accelerations(lanes, q.data(), v.data(), mesh, a.data());
@@ -139,8 +139,9 @@ TEST_CASE("At rest every planet carries the same share and the fixed ring takes 
     const Eigen::VectorXd q = static_equilibrium(matrices);
     CHECK((matrices.stiffness * q - matrices.force).norm() < 1e-9 * matrices.force.norm());
     for (int n = 0; n < 4; ++n) {
-        CHECK(5e8 * pair_row(layout, n).dot(q) == Approx(torque / r_s / 4).epsilon(1e-9));
-        CHECK(5e8 * pair_row(layout, 4 + n).dot(q) == Approx(torque / r_s / 4).epsilon(1e-9));
+        CHECK(5e8 * pair_row(layout, PairId{n}).dot(q) == Approx(torque / r_s / 4).epsilon(1e-9));
+        CHECK(5e8 * pair_row(layout, PairId{4 + n}).dot(q) ==
+              Approx(torque / r_s / 4).epsilon(1e-9));
     }
     const double reaction = in.support_stiffness_N_m * q(motion_index(ring) + 2);
     CHECK(reaction == Approx(-torque / r_s).epsilon(1e-9));
@@ -170,8 +171,10 @@ TEST_CASE("Shifted gears balance the carrier's torque at their own working angle
         const GearboxMatrices matrices = assemble(layout, in, k);
         const Eigen::VectorXd q = motions_from_degrees(layout) * static_equilibrium(matrices);
         for (int n = 0; n < 4; ++n) {
-            CHECK(5e8 * pair_row(layout, n).dot(q) == Approx(torque / r_s / 4).epsilon(1e-9));
-            CHECK(5e8 * pair_row(layout, 4 + n).dot(q) == Approx(torque / r_s / 4).epsilon(1e-9));
+            CHECK(5e8 * pair_row(layout, PairId{n}).dot(q) ==
+                  Approx(torque / r_s / 4).epsilon(1e-9));
+            CHECK(5e8 * pair_row(layout, PairId{4 + n}).dot(q) ==
+                  Approx(torque / r_s / 4).epsilon(1e-9));
         }
     }
 }

@@ -12,8 +12,8 @@ TEST_CASE("mesh phases of 19/31/81 with four planets are Liang's Table 2.2") {
     const double sun[] = {0, 0.75, 0.5, 0.25};
     const double ring[] = {0, -0.25, -0.5, -0.75};
     for (int n = 0; n < 4; ++n) {
-        CHECK(sun_mesh_phase(kLiang, n) == sun[n]);
-        CHECK(ring_mesh_phase(kLiang, n) == ring[n]);
+        CHECK(sun_mesh_phase(kLiang, PlanetId{n}) == sun[n]);
+        CHECK(ring_mesh_phase(kLiang, PlanetId{n}) == ring[n]);
     }
     CHECK(ring_to_sun_phase(kLiang) == 0);
 }
@@ -21,18 +21,18 @@ TEST_CASE("mesh phases of 19/31/81 with four planets are Liang's Table 2.2") {
 TEST_CASE("Park's phases 68/3 and -16/3 of counter-clockwise planets are 2/3 each") {
     const auto fraction = [](double phase) { return phase - std::floor(phase); };
     constexpr auto kSense = PlanetSense::counter_clockwise;
-    CHECK(fraction(ring_mesh_phase(kPark, 1, kSense)) == Approx(2.0 / 3));
-    CHECK(fraction(sun_mesh_phase(kPark, 1, kSense)) == Approx(2.0 / 3));
-    CHECK(fraction(ring_mesh_phase(kPark, 1, kSense)) == Approx(fraction(68.0 / 3)));
-    CHECK(fraction(sun_mesh_phase(kPark, 1, kSense)) == Approx(fraction(-16.0 / 3)));
+    CHECK(fraction(ring_mesh_phase(kPark, PlanetId{1}, kSense)) == Approx(2.0 / 3));
+    CHECK(fraction(sun_mesh_phase(kPark, PlanetId{1}, kSense)) == Approx(2.0 / 3));
+    CHECK(fraction(ring_mesh_phase(kPark, PlanetId{1}, kSense)) == Approx(fraction(68.0 / 3)));
+    CHECK(fraction(sun_mesh_phase(kPark, PlanetId{1}, kSense)) == Approx(fraction(-16.0 / 3)));
 }
 
 TEST_CASE(
     "Yang's planets are in phase and their ring meshes half a mesh later than their sun meshes") {
     // Source: Yang (2022), Table 3.
     for (int n = 0; n < 4; ++n) {
-        CHECK(sun_mesh_phase(kYang, n) == 0);
-        CHECK(ring_mesh_phase(kYang, n) == 0);
+        CHECK(sun_mesh_phase(kYang, PlanetId{n}) == 0);
+        CHECK(ring_mesh_phase(kYang, PlanetId{n}) == 0);
     }
     CHECK(ring_to_sun_phase(kYang) == 0.5);
 }
@@ -141,10 +141,13 @@ TEST_CASE("Explicit equal positions give the same phases as default positions") 
     CHECK(assembly_problems(given).empty());
     for (int n = 0; n < 3; ++n)
         for (const auto sense : {PlanetSense::clockwise, PlanetSense::counter_clockwise}) {
-            CHECK(sun_mesh_phase(given, n, sense) == Approx(sun_mesh_phase(equal, n, sense)));
-            CHECK(ring_mesh_phase(given, n, sense) == Approx(ring_mesh_phase(equal, n, sense)));
-            CHECK(sun_tooth_delay(given, n, sense) == Approx(sun_tooth_delay(equal, n, sense)));
-            CHECK(planet_angle(planet_positions(given), n) == Approx(kTurn * n / 3));
+            CHECK(sun_mesh_phase(given, PlanetId{n}, sense) ==
+                  Approx(sun_mesh_phase(equal, PlanetId{n}, sense)));
+            CHECK(ring_mesh_phase(given, PlanetId{n}, sense) ==
+                  Approx(ring_mesh_phase(equal, PlanetId{n}, sense)));
+            CHECK(sun_tooth_delay(given, PlanetId{n}, sense) ==
+                  Approx(sun_tooth_delay(equal, PlanetId{n}, sense)));
+            CHECK(planet_angle(planet_positions(given), PlanetId{n}) == Approx(kTurn * n / 3));
         }
 }
 
@@ -153,8 +156,8 @@ TEST_CASE("Planets a quarter turn apart are in phase on 16/26/68") {
     const PlanetaryTrain train = park_at({0, 90, 270});
     CHECK(assembly_problems(train).empty());
     for (int n = 0; n < 3; ++n) {
-        CHECK(sun_mesh_phase(train, n) == 0);
-        CHECK(ring_mesh_phase(train, n, PlanetSense::counter_clockwise) == 0);
+        CHECK(sun_mesh_phase(train, PlanetId{n}) == 0);
+        CHECK(ring_mesh_phase(train, PlanetId{n}, PlanetSense::counter_clockwise) == 0);
     }
 }
 
@@ -165,13 +168,14 @@ TEST_CASE("Phases at any position are Parker and Lin's Z psi / 2 pi") {
     const auto fraction = [](double phase) { return phase - std::floor(phase); };
     for (int n = 1; n < 3; ++n) {
         const double psi = train.positions_rad[static_cast<std::size_t>(n)];
-        CHECK(fraction(sun_mesh_phase(train, n)) == Approx(fraction(16 * psi / kTurn)));
-        CHECK(fraction(ring_mesh_phase(train, n)) == Approx(fraction(-68 * psi / kTurn)));
+        CHECK(fraction(sun_mesh_phase(train, PlanetId{n})) == Approx(fraction(16 * psi / kTurn)));
+        CHECK(fraction(ring_mesh_phase(train, PlanetId{n})) == Approx(fraction(-68 * psi / kTurn)));
         // The tooth that left planet 0 arrives after the meshes in between, consistent with the
         // phase.
-        CHECK(sun_tooth_delay(train, n) == Approx(16 * psi / kTurn));
-        CHECK(ring_tooth_delay(train, n) == Approx(68 - 68 * psi / kTurn));
-        CHECK(fraction(ring_tooth_delay(train, n)) == Approx(fraction(ring_mesh_phase(train, n))));
+        CHECK(sun_tooth_delay(train, PlanetId{n}) == Approx(16 * psi / kTurn));
+        CHECK(ring_tooth_delay(train, PlanetId{n}) == Approx(68 - 68 * psi / kTurn));
+        CHECK(fraction(ring_tooth_delay(train, PlanetId{n})) ==
+              Approx(fraction(ring_mesh_phase(train, PlanetId{n}))));
     }
 }
 
@@ -301,13 +305,13 @@ TEST_CASE(
     for (double& psi : real.positions_rad)
         psi = -psi;
     for (int n = 0; n < 3; ++n) {
-        CHECK(sun_tooth_delay(mirrored, n, PlanetSense::counter_clockwise) ==
-              Approx(sun_tooth_delay(real, n, PlanetSense::clockwise)));
-        const double ahead = sun_mesh_phase(mirrored, n, PlanetSense::counter_clockwise) -
-                             sun_mesh_phase(real, n, PlanetSense::clockwise);
+        CHECK(sun_tooth_delay(mirrored, PlanetId{n}, PlanetSense::counter_clockwise) ==
+              Approx(sun_tooth_delay(real, PlanetId{n}, PlanetSense::clockwise)));
+        const double ahead = sun_mesh_phase(mirrored, PlanetId{n}, PlanetSense::counter_clockwise) -
+                             sun_mesh_phase(real, PlanetId{n}, PlanetSense::clockwise);
         CHECK(ahead == Approx(std::round(ahead)).margin(1e-12));
-        CHECK(ring_tooth_delay(mirrored, n, PlanetSense::counter_clockwise) ==
-              Approx(ring_tooth_delay(real, n, PlanetSense::clockwise)));
+        CHECK(ring_tooth_delay(mirrored, PlanetId{n}, PlanetSense::counter_clockwise) ==
+              Approx(ring_tooth_delay(real, PlanetId{n}, PlanetSense::clockwise)));
     }
 }
 

@@ -114,7 +114,7 @@ class LiangRotations {
             row(0) = -std::cos(LiangTrain::kAngle);
             row(ring ? 1 : 2) = 1.0;
             row(3 + pair % 4) = ring ? -1.0 : 1.0;
-            const double k = train.pairs.total(pair, phase);
+            const double k = train.pairs.total(PairId{pair}, phase);
             const double m1 = in_.mass_kg[ring ? dynamics::ring : dynamics::sun];
             const double m2 = in_.mass_kg[dynamics::planet];
             stiffness += k * row * row.transpose();

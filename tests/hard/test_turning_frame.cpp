@@ -22,7 +22,7 @@ double growth_rate(const IntegrationPlan& plan, const dynamics::PlanetaryInputs&
     for (int i = 0; i < 8; ++i) {
         const auto& pair = LiangTrain::instance().pairs;
         for (int p = 0; p < 1000; ++p) {
-            mean[static_cast<std::size_t>(i)] += pair.total(i, (p + 0.5) / 1000) / 1000;
+            mean[static_cast<std::size_t>(i)] += pair.total(PairId{i}, (p + 0.5) / 1000) / 1000;
         }
     }
     const auto m = dynamics::assemble(plan.layout, in, mean);

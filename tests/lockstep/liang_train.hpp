@@ -50,10 +50,10 @@ struct LiangTrain {
             pairs.start.push_back(start - std::floor(start));
         };
         for (int n = 0; n < 4; ++n) {
-            add(gears::sun_mesh_phase(train, n), sun_planet);
+            add(gears::sun_mesh_phase(train, PlanetId{n}), sun_planet);
         }
         for (int n = 0; n < 4; ++n) {
-            add(gears::ring_mesh_phase(train, n), ring_planet);
+            add(gears::ring_mesh_phase(train, PlanetId{n}), ring_planet);
         }
     }
 
@@ -123,7 +123,8 @@ struct LiangTrain {
     // healthy.
     lockstep::FaultCurves ring_side_cracks(const std::vector<double>& depths_m) const {
         lockstep::FaultCurves f = no_fault(static_cast<int>(depths_m.size()));
-        f.pattern = lockstep::planet_fault_pattern(pairs, 0, lockstep::PlanetSide::ring, 31);
+        f.pattern =
+            lockstep::planet_fault_pattern(pairs, PlanetId{0}, lockstep::PlanetSide::ring, 31);
         for (std::size_t l = 0; l < depths_m.size(); ++l) {
             if (depths_m[l] > 0.0) {
                 f.curve[0][l] = stiffness::faulty_mesh(ring_planet, cracked.at(depths_m[l]));

@@ -1,10 +1,9 @@
-#include <catch2/catch.hpp>
 #include <concepts>
-#include <vector>
 
 #include "machine/ids.hpp"
+#include "tests/test.hpp"
 
-using namespace gearpod;
+namespace gearpod::test_ids {
 
 TEST_CASE("ids of different kinds, and numbers, are never taken for each other", "[ids]") {
     STATIC_REQUIRE_FALSE(std::convertible_to<int, PairId>);
@@ -29,3 +28,5 @@ TEST_CASE("sun pairs come before ring pairs, each in the order of the planets", 
         CHECK(planet_of(ring_pair(planet, 4), 4) == planet_of(sun_pair(planet), 4));
     }
 }
+
+}  // namespace gearpod::test_ids

@@ -24,7 +24,7 @@ inline std::vector<double> sensor_signal(const mc::Scene& scene, int meshes,
                                          std::uint64_t number = 0) {
     const auto tile = run_one(scene, false, number);
     REQUIRE(tile.integration.status[0] == lockstep::LaneStatus::ok);
-    return signals::synthesize(tile.views, 0, tile.integration.content, scene.record().span,
+    return signals::synthesize(tile.views, LaneId{0}, tile.integration.content, scene.record().span,
                                scene.sensors().front().paths.front(),
                                tile.realizations[0].inputs.path_exponent, 0, meshes);
 }

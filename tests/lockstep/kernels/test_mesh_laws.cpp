@@ -297,7 +297,8 @@ TEST_CASE("Errors shift with the pairs' phases and run backwards where contact d
     pairs.reversed = true;
     for (int pair = 0; pair < 8; ++pair) {
         const auto i = static_cast<std::size_t>(pair);
-        pairs.start[i] = phase_in_period(-pairs.start[i] - pairs.curve(pair).contact_ratio());
+        pairs.start[i] =
+            phase_in_period(-pairs.start[i] - pairs.curve(PairId{pair}).contact_ratio());
     }
     const StiffnessNodes mirrored = table();
     for (int step = 1; step < 20; ++step) {

@@ -92,7 +92,7 @@ class ToothByTooth {
         matrices_ = dynamics::assemble(plan.layout, bare, std::vector<double>(8, 0.0));
         inverse_mass_ = dynamics::inverse(matrices_.mass);
         for (int pair = 0; pair < 8; ++pair) {
-            rows_.push_back(dynamics::mesh_row(plan.layout, pair));
+            rows_.push_back(dynamics::mesh_row(plan.layout, PairId{pair}));
         }
         if (crack_m > 0.0) {
             const auto fault = LiangTrain::instance().cracked.at(crack_m);
@@ -159,7 +159,8 @@ class ToothByTooth {
         lost += any_gap && pressed > 0.0 ? 1 : 0;
         open += pressed > 0.0 ? 0 : 1;
         const double c = dynamics::mesh_damping_N_s_m(
-            dynamics::MeshDamping::ratio, dynamics::mesh_damping(plan_.layout, in_, pair), total);
+            dynamics::MeshDamping::ratio, dynamics::mesh_damping(plan_.layout, in_, PairId{pair}),
+            total);
         return pressed > 0.0 ? pressed + c * rate : 0.0;
     }
 

@@ -112,7 +112,7 @@ TEST_CASE("a planet tooth meets sun and ring half a planet turn apart") {
     for (const Train& train : trains()) {
         for (int planet = 0; planet < train.turns.planets(); ++planet) {
             const FaultPattern pattern =
-                planet_fault_pattern(train.pairs, planet, PlanetSide::both, train.planet);
+                planet_fault_pattern(train.pairs, PlanetId{planet}, PlanetSide::both, train.planet);
             REQUIRE(pattern.length == train.planet);
             REQUIRE(pattern.passages.size() == 2);
             const bool sun_first = pattern.passages[0].curve == 0;
@@ -137,13 +137,14 @@ TEST_CASE("a planet tooth meets sun and ring half a planet turn apart") {
 
 TEST_CASE("a planet tooth meets one side, and a shaft's gear its mate, once a turn") {
     const Train train(19, 31, 81, equal_planets(4), false);
-    const FaultPattern ring = planet_fault_pattern(train.pairs, 2, PlanetSide::ring, 31);
+    const FaultPattern ring = planet_fault_pattern(train.pairs, PlanetId{2}, PlanetSide::ring, 31);
     CHECK(ring.length == 31);
     REQUIRE(ring.passages.size() == 1);
     CHECK(ring.passages[0].pair == 6);
     CHECK(ring.passages[0].curve == 0);
     CHECK(ring.passages[0].start == train.pairs.start[6]);
-    CHECK(planet_fault_pattern(train.pairs, 2, PlanetSide::sun, 31).passages[0].pair == 2);
+    CHECK(planet_fault_pattern(train.pairs, PlanetId{2}, PlanetSide::sun, 31).passages[0].pair ==
+          2);
 
     PairSet shafts;
     shafts.mesh = {&kSunMesh};

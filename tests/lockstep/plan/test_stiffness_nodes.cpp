@@ -56,7 +56,8 @@ TEST_CASE("Reversed contact is forward contact run backwards") {
     const PairSet forward = ring_pair(mesh, 0.0, false);
     const PairSet backward = ring_pair(mesh, phase_in_period(-c), true);
     for (const double phase : {0.1, 0.3, 0.77, 0.9}) {
-        CHECK(backward.total(0, 1.0 - phase) == Approx(forward.total(0, phase)).epsilon(1e-12));
+        CHECK(backward.total(PairId{0}, 1.0 - phase) ==
+              Approx(forward.total(PairId{0}, phase)).epsilon(1e-12));
     }
 }
 

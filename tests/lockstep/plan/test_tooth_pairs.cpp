@@ -30,7 +30,7 @@ void check_sum(const PairSet& pairs, const stiffness::FaultyMesh& faulty) {
         if (steps.middle.empty()) {
             continue;
         }
-        const auto total = faulty_totals(pairs.curve(0), faulty, pairs.reversed, steps).all;
+        const auto total = faulty_totals(pairs.curve(PairId{0}), faulty, pairs.reversed, steps).all;
         const auto each = faulty_tooth_pairs(pairs, faulty, {0, k, start}, steps, 3);
         REQUIRE(each.size() == 3 * total.size());
         for (std::size_t i = 0; i < total.size(); ++i) {
@@ -62,7 +62,7 @@ TEST_CASE(
                     // Expected stiffness of the latest tooth pair, from the curve of a single tooth
                     // pair.
                     const double middle = step.phase + 0.5 * step.length;
-                    const double ratio = pairs.curve(static_cast<int>(pair)).contact_ratio();
+                    const double ratio = pairs.curve(PairId{pair}).contact_ratio();
                     double begun = pairs.start[pair];
                     begun -= begun > middle ? 1.0 : 0.0;
                     const double since = step.phase + grid.stage_nodes[node] * step.length - begun;
@@ -204,8 +204,8 @@ TEST_CASE("A tooth's error acts while it is in contact, and follows its slope al
                 double sum = 0.0;
                 for (std::size_t j = 0; j < 2; ++j) {
                     const auto k_j = plan.nodes.tooth_stiffness[((3 * s + 1) * 2 + j) * 8 + 1];
-                    const double gap =
-                        tooth_gap(plan, all, 1, static_cast<int>(s), 1, static_cast<int>(j), 0);
+                    const double gap = tooth_gap(plan, all, PairId{1}, static_cast<int>(s), 1,
+                                                 static_cast<int>(j), LaneId{0});
                     sum += k_j > 0.0 ? gap : 0.0;
                 }
                 // The sun drives: contact on its flank moves from the root to the tip.
@@ -233,7 +233,7 @@ TEST_CASE(
                 const auto pair = n + (on_sun ? 0 : 4);
                 // Latest tooth pair of the last node.
                 const auto youngest = [&](const auto& overrides) {
-                    return tooth_gap(plan, overrides, static_cast<int>(pair), last_step, 2, 0, 0);
+                    return tooth_gap(plan, overrides, PairId{pair}, last_step, 2, 0, LaneId{0});
                 };
                 if (youngest(before) == 0.0 && youngest(all) > 0.0) {
                     met[n] = k + pairs.start[pair];
@@ -339,7 +339,7 @@ TEST_CASE(
     plan.grid = make_phase_grid(16, 16, contact_transitions(pairs));
     plan.nodes = tabulate(pairs, plan.grid, dynamics::MeshDamping::proportional);
     add_tooth_pairs(pairs, plan.grid, plan.nodes);
-    const Eigen::VectorXd row = dynamics::mesh_row(plan.layout, 0);
+    const Eigen::VectorXd row = dynamics::mesh_row(plan.layout, PairId{0});
     plan.te_weight.assign(row.begin(), row.end());  // the deflection itself
 
     auto in = gearbox.inputs();

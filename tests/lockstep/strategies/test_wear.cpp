@@ -42,8 +42,7 @@ struct WornTrain {
 
     WornTrain() {
         for (std::size_t n = 0; n < 4; ++n) {
-            const double start =
-                base.pairs.pitch_phase(static_cast<int>(n)) - sun_planet.pitch_position();
+            const double start = base.pairs.pitch_phase(PairId{n}) - sun_planet.pitch_position();
             pairs.mesh[n] = &sun_planet;
             pairs.start[n] = phase_in_period(start);
         }

@@ -32,7 +32,8 @@ TEST_CASE("The mesh's damping force is the rate of its deflection times the law'
             forces.at(static_cast<int>(step), {}, q, v, &force);
             const double k = plan.nodes.stiffness[step * nodes];
             CHECK(force ==
-                  Approx(0.25 * mesh_damping_N_s_m(law, mesh_damping(plan.layout, inputs, 0), k)));
+                  Approx(0.25 *
+                         mesh_damping_N_s_m(law, mesh_damping(plan.layout, inputs, PairId{0}), k)));
         }
     }
 }

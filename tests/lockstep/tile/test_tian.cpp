@@ -96,7 +96,7 @@ double mean_between(const TianGearbox& gearbox, double from, double to) {
     double sum = 0.0;
     constexpr int kParts = 200;
     for (int i = 0; i < kParts; ++i) {
-        sum += gearbox.pairs.total(0, from + (to - from) * (i + 0.5) / kParts);
+        sum += gearbox.pairs.total(PairId{0}, from + (to - from) * (i + 0.5) / kParts);
     }
     return sum / kParts;
 }
@@ -133,7 +133,7 @@ DenseSolution trapezoidal_rule(const TianGearbox& gearbox, int meshes) {
     const Matrix stiffness = with(in.bearing_stiffness_N_m[0], in.coupling_stiffness_N_m_rad[0]);
     const Matrix damping = with(in.bearing_damping_N_s_m[0], in.coupling_damping_N_m_s_rad[0]);
     const auto k_at = [&](int step) {
-        return gearbox.pairs.total(0, static_cast<double>(step % kSteps) / kSteps);
+        return gearbox.pairs.total(PairId{0}, static_cast<double>(step % kSteps) / kSteps);
     };
 
     // Start: the train accelerates without vibration.

@@ -37,7 +37,7 @@ TEST_CASE("A record equals its gearbox integrated at that depth and torque") {
         inputs.gain *= record.gain;
         const auto tile = mc::run_realizations(scene.tile(), {gearbox}, 1);
         const auto integrated_features = features.compute(
-            mc::lane_signals(scene.tile(), tile, 0, scene.record().signal_meshes), gearbox);
+            mc::lane_signals(scene.tile(), tile, LaneId{0}, scene.record().signal_meshes), gearbox);
         for (std::size_t f = 0; f < integrated_features.size(); ++f) {
             INFO(r << " " << scene.features().used[f]->name);
             CHECK(life.values[f][r] == Approx(integrated_features[f]).epsilon(1e-6));
@@ -150,7 +150,7 @@ TEST_CASE("A change in lives equals that of the snapshot study") {
     mc::RealizationFeatures features(snapshot.tile(), &none);
     const auto tile = mc::run_gearboxes(snapshot.tile(), std::vector{id}, 1);
     const auto values = features.compute(
-        mc::lane_signals(snapshot.tile(), tile, 0, snapshot.record().signal_meshes),
+        mc::lane_signals(snapshot.tile(), tile, LaneId{0}, snapshot.record().signal_meshes),
         tile.realizations.front());
     for (std::size_t f = 0; f < values.size(); ++f) {
         INFO(snapshot.features().used[f]->name);

@@ -113,7 +113,7 @@ TEST_CASE("A record at another speed is close to an integration at that speed") 
         inputs.speed_rad_s *= record.speed;
         const auto tile = mc::run_realizations(scene.tile(), {gearbox}, 1);
         const auto integrated =
-            features.compute(mc::lane_signals(scene.tile(), tile, 0, 0), gearbox);
+            features.compute(mc::lane_signals(scene.tile(), tile, LaneId{0}, 0), gearbox);
         for (std::size_t f = 0; f < integrated.size(); ++f) {
             CHECK(life.values[f][r] == Approx(integrated[f]).epsilon(5.0 * errors.load));
         }

@@ -44,13 +44,14 @@ TEST_CASE("The springs of relieved teeth carry the force at the loaded approach"
                 const lockstep::Step& at = plan.grid.steps[step];
                 const double phase = at.phase + plan.grid.stage_nodes[0] * at.length;
                 for (int pair = 0; pair < plan.nodes.pairs; ++pair) {
-                    const double d = mc::loaded_approach(*scene.gearbox().stiffness, pair, phase);
+                    const double d =
+                        mc::loaded_approach(*scene.gearbox().stiffness, PairId{pair}, phase);
                     double force = 0;
                     for (int contact = 0; contact < plan.nodes.contacts(); ++contact) {
                         const double gap = lockstep::tooth_gap(
-                            plan, {}, pair, static_cast<int>(step), 0, contact, 0);
-                        const std::size_t i =
-                            lockstep::tooth_pair_at(plan, static_cast<int>(step), 0, contact, pair);
+                            plan, {}, PairId{pair}, static_cast<int>(step), 0, contact, LaneId{0});
+                        const std::size_t i = lockstep::tooth_pair_at(plan, static_cast<int>(step),
+                                                                      0, contact, PairId{pair});
                         force += plan.nodes.tooth_stiffness[i] * std::max(0.0, d - gap);
                         largest = std::max(largest, gap);
                     }

@@ -290,10 +290,11 @@ TEST_CASE("A scene of spatial cracks, coupled teeth and separation is built from
         std::get<dynamics::PlanetaryInputs>(scene.gearbox().inputs(scene.gearbox().nominal));
     CHECK(inputs.backlash_m == Approx(1e-4));
     // Every stage reduces the stiffness more than the one before it (Yang, Fig. 15).
-    double last = stiffness::total_at(scene.gearbox().pairs().curve(0), 0.3);
+    double last = stiffness::total_at(scene.gearbox().pairs().curve(PairId{0}), 0.3);
     for (const double stage : {1.0, 2.0, 3.0, 4.0, 5.0}) {
         const auto mesh = scene.gearbox().fault().mesh(0, stage);
-        const double now = total_at(*mesh, scene.gearbox().pairs().curve(0).transitions(), 0.3);
+        const double now =
+            total_at(*mesh, scene.gearbox().pairs().curve(PairId{0}).transitions(), 0.3);
         CHECK(now < last);
         last = now;
     }

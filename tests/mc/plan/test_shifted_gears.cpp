@@ -82,10 +82,10 @@ TEST_CASE("A shifted gearbox works at its centre distance, its planets at assemb
         dynamic_cast<const mc::PlanetaryDrivetrain&>(*scene.gearbox().drivetrain);
     for (int n = 0; n < 4; ++n) {
         const double turn = planets.step[static_cast<std::size_t>(n)] / 126.0;
-        CHECK(std::cos(2 * std::numbers::pi * (drivetrain.pitch_phase(n) - 27 * turn)) ==
+        CHECK(std::cos(2 * std::numbers::pi * (drivetrain.pitch_phase(PairId{n}) - 27 * turn)) ==
               Approx(1).margin(1e-9));
         CHECK(std::cos(2 * std::numbers::pi *
-                       (drivetrain.pitch_phase(4 + n) + 99 * turn -
+                       (drivetrain.pitch_phase(PairId{4 + n}) + 99 * turn -
                         drivetrain.ring_to_sun_phase())) == Approx(1).margin(1e-9));
     }
 }

@@ -22,7 +22,8 @@ RingMesh ring_mesh(int number, const std::vector<std::string>& overrides = {}) {
     const auto tile = run_one(scene, true, static_cast<std::uint64_t>(number));
     REQUIRE(tile.integration.status[0] == lockstep::LaneStatus::ok);
     const int pair = scene.gearbox().drivetrain->pairs_per_mesh();
-    const Eigen::VectorXd row = dynamics::mesh_row(scene.solve().integration().layout, pair);
+    const Eigen::VectorXd row =
+        dynamics::mesh_row(scene.solve().integration().layout, PairId{pair});
     const auto& motion = tile.integration.records[0].motion;
     const int samples = scene.record().samples;
     std::vector<double> pressed;
@@ -33,10 +34,10 @@ RingMesh ring_mesh(int number, const std::vector<std::string>& overrides = {}) {
         // Error with amplitude 0.4 um, phase 180 degrees.
         const double error =
             -0.4e-6 * std::sin(2.0 * std::numbers::pi *
-                               (phase - scene.gearbox().drivetrain->pitch_phase(pair)));
+                               (phase - scene.gearbox().drivetrain->pitch_phase(PairId{pair})));
         pressed.push_back(row.dot(q) - error);
-        result.mean_force_N +=
-            std::max(pressed.back(), 0.0) * scene.gearbox().pairs().total(pair, phase) / samples;
+        result.mean_force_N += std::max(pressed.back(), 0.0) *
+                               scene.gearbox().pairs().total(PairId{pair}, phase) / samples;
         result.apart += pressed.back() <= 0.0 ? 1.0 / samples : 0.0;
     }
     double mean = 0.0, square = 0.0;

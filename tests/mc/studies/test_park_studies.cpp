@@ -52,13 +52,13 @@ double pair_stiffness(const mc::Scene& scene, double size, int pair, double phas
     for (const auto& passage : scene.gearbox().fault().pattern().passages) {
         double since = phase - passage.start;
         since += since < 0.0 ? kPlanetTeeth : 0.0;
-        const auto& healthy = scene.gearbox().pairs().curve(pair);
+        const auto& healthy = scene.gearbox().pairs().curve(PairId{pair});
         if (size > 0.0 && passage.pair == pair && since < healthy.contact_ratio()) {
             return stiffness::total_at(*scene.gearbox().fault().mesh(passage.curve, size),
                                        healthy.transitions(), since);
         }
     }
-    return scene.gearbox().pairs().total(pair, phase);
+    return scene.gearbox().pairs().total(PairId{pair}, phase);
 }
 
 // Each planet is two springs in series; the planets are parallel.
@@ -138,7 +138,7 @@ TEST_CASE(
     "The planets' phases: 2/3 and 4/3 of a mesh relative to both gears, 5/8 from sun to ring") {
     const mc::Scene scene(shipped_study("published/park-fig-10.toml"));
     const auto phase = [&](int pair) {
-        return lockstep::phase_in_period(scene.gearbox().pairs().pitch_phase(pair));
+        return lockstep::phase_in_period(scene.gearbox().pairs().pitch_phase(PairId{pair}));
     };
     for (int n = 0; n < 3; ++n) {
         const double expected = lockstep::phase_in_period(n * 2.0 / 3.0 + 1e-9);

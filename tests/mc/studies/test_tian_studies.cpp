@@ -77,7 +77,7 @@ TEST_CASE(
     const int samples = scene.record().samples;
     const auto signal = sensor_signal(scene, 3);
     const double two = 1.0 + scene.gearbox().pairs().start[0];
-    const double one = two + scene.gearbox().pairs().curve(0).contact_ratio() - 1.0;
+    const double one = two + scene.gearbox().pairs().curve(PairId{0}).contact_ratio() - 1.0;
     const double shock = 0.06e-3 * kMesh_Hz;
     CHECK(ringing_Hz(signal, samples, two + shock, one) == Approx(3788.0).epsilon(0.08));
     CHECK(ringing_Hz(signal, samples, one + shock, two + 1.0) == Approx(3049.0).epsilon(0.08));
@@ -137,7 +137,7 @@ TEST_CASE("Fig. 4.7: the chipped tooth's signal departs from the healthy one at 
     const mc::Scene scene(shipped_study("published/tian-fig-4-6.toml"));
     // Rotation of the pinion since the tooth came into contact.
     const auto degrees = [](double meshes) { return meshes * 360.0 / kPinionTeeth; };
-    const auto& healthy = scene.gearbox().pairs().curve(0);
+    const auto& healthy = scene.gearbox().pairs().curve(PairId{0});
     const auto chipped = scene.gearbox().fault().mesh(0, 8e-3);
     double first = 0.0;
     while (first < healthy.contact_ratio() &&

@@ -126,7 +126,9 @@ TEST_CASE("Yang, sections 4.1 and 4.2: frequencies, mesh phases, 7 and 28 meshes
 
     // Source: Table 3, beta_s = beta_r = 0, beta_rs = 1/2.
     for (int n = 0; n < kPlanets; ++n) {
-        const auto phase = [&](int pair) { return scene.gearbox().drivetrain->pitch_phase(pair); };
+        const auto phase = [&](int pair) {
+            return scene.gearbox().drivetrain->pitch_phase(PairId{pair});
+        };
         CHECK(std::remainder(phase(n) - phase(0), 1.0) == Approx(0.0).margin(1e-12));
         CHECK(std::remainder(phase(kPlanets + n) - phase(n) - 0.5, 1.0) ==
               Approx(0.0).margin(1e-12));
@@ -135,7 +137,7 @@ TEST_CASE("Yang, sections 4.1 and 4.2: frequencies, mesh phases, 7 and 28 meshes
 
 TEST_CASE("Yang, Fig. 15: the stiffness decreases from case to case, very little in 1 and 2") {
     const mc::Scene scene(shipped_study(kStudy));
-    const auto& healthy = scene.gearbox().pairs().curve(scene.gearbox().faulty_pair());
+    const auto& healthy = scene.gearbox().pairs().curve(PairId{scene.gearbox().faulty_pair()});
     constexpr int kPoints = 400;
     std::vector<double> mean_loss, largest_loss;
     for (int number = 1; number <= 5; ++number) {

@@ -76,8 +76,9 @@ json matrices(const lockstep::IntegrationPlan& plan, const dynamics::GearboxInpu
              {"force", list(m.force)},
              {"rigid_rotation", list(dynamics::rigid_rotation(plan.layout))}};
     for (int pair = 0; pair < pairs; ++pair) {
-        all["mesh_rows"].push_back(list(dynamics::mesh_row(plan.layout, pair)));
-        all["mesh_damping"].push_back(dynamics::mesh_damping(plan.layout, inputs, pair).factor);
+        all["mesh_rows"].push_back(list(dynamics::mesh_row(plan.layout, PairId{pair})));
+        all["mesh_damping"].push_back(
+            dynamics::mesh_damping(plan.layout, inputs, PairId{pair}).factor);
     }
     for (int source = 0; source < dynamics::sources(plan.layout); ++source) {
         for (const int axis : {0, 1}) {

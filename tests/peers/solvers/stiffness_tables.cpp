@@ -32,7 +32,7 @@ StiffnessTables::StiffnessTables(const mc::Scene& scene, const lockstep::Integra
         for (const int pair : {0, kPlanets}) {
             factor_[side(pair)][l] =
                 dynamics::mesh_damping(plan.layout, gearboxes.inputs[static_cast<std::size_t>(l)],
-                                       pair)
+                                       PairId{pair})
                     .factor;
         }
     }

@@ -155,16 +155,16 @@ TEST_CASE(
     const PathGrid path(path_window("hamming"), 4, 6, layout);
     const Tones tones = rig_tones();
     const int lane = 3;
-    const auto signal = synthesize(tile.signals, lane, timeline, layout, path, kExponents[lane], 0,
-                                   layout.meshes(), tones);
+    const auto signal = synthesize(tile.signals, LaneId{lane}, timeline, layout, path,
+                                   kExponents[lane], 0, layout.meshes(), tones);
     const auto expected = direct_signal_with_tones(tile, lane, timeline, layout, tones);
     double worst = 0.0;
     for (std::size_t i = 0; i < signal.size(); ++i) {
         worst = std::max(worst, std::abs(signal[i] - expected[i]));
     }
     CHECK(worst < 1e-10);
-    const auto part =
-        synthesize(tile.signals, lane, timeline, layout, path, kExponents[lane], 1000, 70, tones);
+    const auto part = synthesize(tile.signals, LaneId{lane}, timeline, layout, path,
+                                 kExponents[lane], 1000, 70, tones);
     CHECK(std::equal(part.begin(), part.end(), signal.begin() + 6000));
 
     machine::AlignedVector folded;

@@ -36,7 +36,8 @@ TEST_CASE("A bearing's acceleration reaches the sensor as the component of a tur
               SensorPosition{.angle_deg = 18, .tangential = true}}) {
             const PathGrid path = path_of(kPlanets + 1, sense, sensor);
             const int lane = 2;
-            const auto signal = synthesize(views, lane, {0}, kSpan, path, 0.0, 0, kSpan.meshes());
+            const auto signal =
+                synthesize(views, LaneId{lane}, {0}, kSpan, path, 0.0, 0, kSpan.meshes());
             for (int i = 0; i < static_cast<int>(signal.size()); ++i) {
                 const double turn = 2.0 * kPi * i / (kPhases * kSpan.carrier_meshes);
                 const double angle = (sense == CarrierSense::negative ? -turn : turn) -

@@ -128,7 +128,7 @@ struct TravellingLoad {
             const PathGrid grid(RingLoad{nodal_diameters, axis},
                                 gears::planet_positions({.planets = kPlanets}), kPhases, kLayout,
                                 sense, sensor);
-            sum.add(synthesize(tile, 0, {0}, kLayout, grid, 0.0, 0, kLayout.meshes()),
+            sum.add(synthesize(tile, LaneId{0}, {0}, kLayout, grid, 0.0, 0, kLayout.meshes()),
                     kMeshSampling_Hz, of_ring);
         }
         return sum.take();

@@ -73,7 +73,7 @@ TEST_CASE("The path grid holds the angles of planets at given positions, for bot
                 worst = std::max({worst, std::abs(grid.sine()[place] - std::sin(theta)),
                                   std::abs(grid.cosine()[place] - std::cos(theta))});
                 for (int n = 0; n < 3; ++n) {
-                    const double angle = theta + gears::planet_angle(planets, n);
+                    const double angle = theta + gears::planet_angle(planets, PlanetId{n});
                     const int steps = (c - grid.centre()[p * 3 + n] + 68 + 34) % 68 - 34;
                     const double h = 2.0 * pi / 68.0;
                     const double from_sensor = h * (steps + grid.fraction()[p * 3 + n]);

@@ -55,8 +55,8 @@ TEST_CASE(
     for (const Tones& tones : {Tones{}, tones_of(0, 8)}) {
         INFO((tones.empty() ? "without tones" : "with tones"));
         const SensorResponse span = recorded_response(tile, path, kExponents, tones, kMeshes);
-        const auto expected =
-            synthesize(tile.signals, every_mesh(), kLayout, path, kExponents, 0, kMeshes, tones);
+        const auto expected = synthesize(tile.signals, LaneId{every_mesh()}, kLayout, path,
+                                         kExponents, 0, kMeshes, tones);
         CHECK(span.signals(8, kMeshes) == expected);
         CHECK(span.signal(3, kMeshes) == expected[3]);
         machine::AlignedVector te;

@@ -126,8 +126,8 @@ TEST_CASE(
     const Timeline timeline = event_timeline(19, 4, 4);
     const PathGrid path(path_window("hamming"), 4, 6, layout);
     const int lane = 3;
-    const std::vector<double> signal = synthesize(tile.signals, lane, timeline, layout, path,
-                                                  kExponents[lane], 0, layout.meshes());
+    const std::vector<double> signal = synthesize(tile.signals, LaneId{lane}, timeline, layout,
+                                                  path, kExponents[lane], 0, layout.meshes());
     const std::vector<double> expected = direct_signal(tile.signals, lane, timeline, layout,
                                                        path_window("hamming"), kExponents[lane]);
     double worst = 0.0;
@@ -137,13 +137,13 @@ TEST_CASE(
     CHECK(worst < 1e-12);
 
     const std::vector<double> part =
-        synthesize(tile.signals, lane, timeline, layout, path, kExponents[lane], 100, 7);
+        synthesize(tile.signals, LaneId{lane}, timeline, layout, path, kExponents[lane], 100, 7);
     CHECK(std::equal(part.begin(), part.end(), signal.begin() + 600));
 
     machine::AlignedVector folded;
     fold_squares(tile.signals, FoldPlan(timeline, layout), path, kExponents, folded);
     std::vector<double> bins(folded.size() / 8);
-    copy_lane(folded, 8, lane, bins);
+    copy_lane(folded, 8, LaneId{lane}, bins);
     double sum = 0.0;
     for (const double y : signal) {
         sum += y * y;

@@ -33,7 +33,7 @@ class Computed {
     const std::vector<std::vector<double>>& values() const { return values_; }
     const mc::Scene& scene() const { return scene_; }
     mc::LaneSignals signals(int lane = 0) const {
-        return lane_signals(scene_.tile(), tile_, lane, scene_.record().signal_meshes);
+        return lane_signals(scene_.tile(), tile_, LaneId{lane}, scene_.record().signal_meshes);
     }
     int meshes() const { return tile_.meshes; }
     double noise_m_s2() const { return tile_.realizations[0].inputs.noise_m_s2; }

@@ -44,7 +44,7 @@ struct TwoSignals {
 
 TwoSignals signals_of(const mc::Scene& scene, const mc::GearboxTile& tile) {
     const mc::LaneSignals all =
-        mc::lane_signals(scene.tile(), tile, 0, scene.record().span.carrier_meshes);
+        mc::lane_signals(scene.tile(), tile, LaneId{0}, scene.record().span.carrier_meshes);
     return {all.sensor, all.additional.front().sensor};
 }
 

@@ -18,7 +18,8 @@ TEST_CASE("A fault changes the meshes after its passage begins, and no others") 
     gearbox.inputs.gain = 1.0;
     gearbox.inputs.fault_size = 3e-3;
     const GearboxTile all = run_realizations(scene.tile(), {gearbox}, 1);
-    const LaneSignals expected = lane_signals(scene.tile(), all, 0, scene.record().span.meshes());
+    const LaneSignals expected =
+        lane_signals(scene.tile(), all, LaneId{0}, scene.record().span.meshes());
 
     const HealthySolution healthy_solution(scene.tile(), {gearbox}, 1);
     REQUIRE(healthy_solution.healthy().status.front() == Status::ok);

@@ -19,7 +19,7 @@ using namespace test;
 std::vector<double> sensor_signal(const mc::TilePlan& plan, const mc::Realization& gearbox) {
     const auto tile = mc::run_realizations(plan, {gearbox}, 1);
     REQUIRE(tile.status.front() == mc::Status::ok);
-    return mc::lane_signals(plan, tile, 0, plan.record.span.meshes()).sensor;
+    return mc::lane_signals(plan, tile, LaneId{0}, plan.record.span.meshes()).sensor;
 }
 
 // Values of a signal of that period, at positions in samples, by its Fourier series.

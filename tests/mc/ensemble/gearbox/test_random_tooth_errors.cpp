@@ -33,10 +33,12 @@ Gaps gaps_of(const Scene& scene, const lockstep::ToothErrors& errors, int pair, 
         for (std::size_t s = 0; s < plan.grid.steps.size(); ++s) {
             const lockstep::Step& step = plan.grid.steps[s];
             const auto gap = [&](std::size_t at, int slot) {
-                return lockstep::tooth_gap(plan, all, pair, static_cast<int>(at), 0, slot, 0);
+                return lockstep::tooth_gap(plan, all, PairId{pair}, static_cast<int>(at), 0, slot,
+                                           LaneId{0});
             };
             const double middle = step.phase + 0.5 * step.length;
-            const int count = lockstep::engaged_teeth(scene.gearbox().pairs(), pair, middle).count;
+            const int count =
+                lockstep::engaged_teeth(scene.gearbox().pairs(), PairId{pair}, middle).count;
             if (count == 2) {
                 gaps.apart = std::max(gaps.apart, std::abs(gap(s, 0) - gap(s, 1)));
             }

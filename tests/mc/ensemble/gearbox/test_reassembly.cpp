@@ -27,7 +27,7 @@ const GearboxId kTest{Group::test, 4};
 std::vector<double> sensor_of(const Scene& scene, const GearboxId& id) {
     const Realization one = scene.sampler().draw(id);
     const GearboxTile tile = run_realizations(scene.tile(), {one}, 8);
-    return lane_signals(scene.tile(), tile, 0, scene.record().span.meshes()).sensor;
+    return lane_signals(scene.tile(), tile, LaneId{0}, scene.record().span.meshes()).sensor;
 }
 
 TEST_CASE("An assembly keeps its inputs in all records, and a record has its own") {

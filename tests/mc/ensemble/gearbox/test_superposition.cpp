@@ -38,7 +38,8 @@ class Tile {
     const GearboxTile& operator*() const { return tile_; }
     const GearboxTile* operator->() const { return &tile_; }
     std::vector<double> sensor(int lane) const {
-        return lane_signals(scene_.tile(), tile_, lane, scene_.record().signal_meshes).sensor;
+        return lane_signals(scene_.tile(), tile_, LaneId{lane}, scene_.record().signal_meshes)
+            .sensor;
     }
     double forecast_meshes() const { return scene_.solve().integrated_meshes; }
 

@@ -57,13 +57,13 @@ TEST_CASE("The pairs of the worn gear have gaps that grow from the pitch point")
         const bool spur = study.gearbox.helix_angle_rad == 0.0;
         for (int pair = 0; pair < nodes.pairs; ++pair) {
             const double pitch =
-                lockstep::phase_in_period(scene.gearbox().pairs().pitch_phase(pair));
+                lockstep::phase_in_period(scene.gearbox().pairs().pitch_phase(PairId{pair}));
             double least_at_pitch = 1.0, largest = 0.0;
             for (std::size_t step = 0; step < plan.grid.steps.size(); ++step) {
                 const bool at_pitch = std::abs(plan.grid.steps[step].phase - pitch) < 1e-9;
                 for (int contact = 0; contact < nodes.contacts(); ++contact) {
-                    const std::size_t i =
-                        lockstep::tooth_pair_at(plan, static_cast<int>(step), 0, contact, pair);
+                    const std::size_t i = lockstep::tooth_pair_at(plan, static_cast<int>(step), 0,
+                                                                  contact, PairId{pair});
                     if (nodes.tooth_stiffness[i] > 0.0) {
                         const double wear = nodes.tooth_wear[i];
                         largest = std::max(largest, wear);
@@ -71,7 +71,7 @@ TEST_CASE("The pairs of the worn gear have gaps that grow from the pitch point")
                     }
                 }
             }
-            INFO(scene.gearbox().drivetrain->pair_name(pair));
+            INFO(scene.gearbox().drivetrain->pair_name(PairId{pair}));
             const bool wears = std::ranges::count(worn, pair) > 0;
             CHECK(largest == Approx(wears ? 1.0 : 0.0).margin(spur ? 0.05 : 0.2));
             // Steps of worn spur teeth end at the pitch point; some integrators do not evaluate
