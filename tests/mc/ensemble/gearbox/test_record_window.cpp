@@ -130,7 +130,12 @@ TEST_CASE("Records that are integrated alone are those of the whole signal") {
     for (std::uint64_t index = 16; index < 24; ++index) {
         ids.push_back({Group::test, index});
     }
-    const std::vector<double> values = Computed(real_teeth({}), ids).values()[3];
+    const GearboxTile tile = run_gearboxes(other.scene().tile(), ids, 8);
+    const HealthyReference healthy;
+    RealizationFeatures features(other.scene().tile(), &healthy);
+    const std::vector<double> values = features.compute(
+        lane_signals(other.scene().tile(), tile, 3, other.scene().record().signal_meshes),
+        tile.realizations[3]);
     for (const std::size_t feature : {0, 1, 2, 3}) {
         CHECK(values[feature] == other.value(feature));
     }
