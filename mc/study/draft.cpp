@@ -11,10 +11,13 @@ Position StudyDraft::position(const std::string& path) const {
     if (const auto found = given_random.find(path); found != given_random.end()) {
         return found->second;
     }
-    for (std::size_t dot = path.rfind('.'); dot != std::string::npos && dot > 0;
-         dot = path.rfind('.', dot - 1)) {
-        if (const auto found = sections.find(path.substr(0, dot)); found != sections.end()) {
+    for (std::string table = path; !table.empty();
+         table.resize(std::min(table.rfind('.'), table.size()))) {
+        if (const auto found = sections.find(table); found != sections.end()) {
             return found->second;
+        }
+        if (table.find('.') == std::string::npos) {
+            break;
         }
     }
     return sections.at("");

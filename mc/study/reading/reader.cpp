@@ -59,17 +59,17 @@ void read_title(StudyDraft& draft, const Entry& entry) {
 
 // Rejects a top-level name that is no section: a key outside its section, or a misspelling.
 void reject_unknown_section(StudyDraft& draft, const Entry& entry) {
+    if (const std::string table = "gearbox." + entry.name; is_table(table)) {
+        draft.reject(entry.position, entry.name, "unknown section",
+                     fmt::format("write [{}]", table));
+        return;
+    }
     for (const Key& key : schema()) {
         if (key.label() == entry.name) {
             draft.reject(entry.position, entry.name, "unknown section",
                          fmt::format("the key belongs in [{}]", key.table()));
             return;
         }
-    }
-    if (const std::string table = "gearbox." + entry.name; is_table(table)) {
-        draft.reject(entry.position, entry.name, "unknown section",
-                     fmt::format("write [{}]", table));
-        return;
     }
     const auto names = section_names();
     std::vector<std::string_view> candidates(names.begin(), names.end());

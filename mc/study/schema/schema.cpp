@@ -26,7 +26,8 @@ const std::vector<KeyTable>& key_tables() {
     static const std::vector<KeyTable> tables = [] {
         std::vector<KeyTable> all;
         for (const std::string_view section : section_names()) {
-            const auto first = all.insert(all.end(), {std::string(section), {}}) - all.begin();
+            const auto first = static_cast<std::ptrdiff_t>(all.size());
+            all.push_back({std::string(section), {}});
             for (const Key& key : schema()) {
                 if (key.section == section) {
                     const auto found = std::ranges::find(all.begin() + first, all.end(),
