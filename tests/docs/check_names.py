@@ -28,7 +28,7 @@ class Known:
         reference = json.loads(text.stdout)
         self.sections = reference["sections"]
         self.keys = {f"{key['section']}.{key['name']}" for key in reference["keys"]}
-        self.names = {key["name"] for key in reference["keys"]}
+        self.names = {key["name"].rpartition(".")[2] for key in reference["keys"]}
         self.names |= {field["name"] for key in reference["keys"] for field in key.get("fields", ())}
         self.options = OWN_OPTIONS | {
             name for command in reference["commands"] for option in command["options"]
