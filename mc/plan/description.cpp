@@ -178,7 +178,7 @@ class Describer {
         add("teeth (sun/planet/ring)", "{}/{}/{}, {} planets", train.sun_teeth, train.planet_teeth,
             train.ring_teeth, train.planets);
         std::vector<std::string> sun, ring;
-        for (int n = 0; n < train.planets; ++n) {
+        for (PlanetId n{0}; n < train.planets; ++n) {
             sun.push_back(
                 fmt::format("{:.4g}", gears::sun_mesh_phase(train, n, drivetrain.sense())));
             ring.push_back(
@@ -187,7 +187,7 @@ class Describer {
         if (!train.positions_rad.empty()) {
             const gears::PlanetPositions planets = gears::planet_positions(train);
             std::vector<std::string> positions;
-            for (int n = 0; n < train.planets; ++n) {
+            for (PlanetId n{0}; n < train.planets; ++n) {
                 positions.push_back(fmt::format(
                     "{:.6g}", gears::planet_angle(planets, n) * 180.0 / std::numbers::pi));
             }

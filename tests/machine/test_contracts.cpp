@@ -15,7 +15,7 @@ int halved(int value) {
 TEST_CASE("A violated contract is reported with its file, line and condition", "[contracts]") {
     CHECK(halved(4) == 2);
     CHECK_THROWS_AS(halved(3), ContractViolation);
-    CHECK_THROWS_WITH(halved(3), Catch::EndsWith("test_contracts.cpp:13: precondition value % 2 == "
+    CHECK_THROWS_WITH(halved(3), Catch::EndsWith("test_contracts.cpp:9: precondition value % 2 == "
                                                  "0 is violated"));
     CHECK_THROWS_WITH(
         halved(400), Catch::Contains("postcondition") && Catch::EndsWith("half < 100 is violated"));

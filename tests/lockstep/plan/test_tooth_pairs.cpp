@@ -31,7 +31,7 @@ void check_sum(const PairSet& pairs, const stiffness::FaultyMesh& faulty) {
             continue;
         }
         const auto total = faulty_totals(pairs.curve(PairId{0}), faulty, pairs.reversed, steps).all;
-        const auto each = faulty_tooth_pairs(pairs, faulty, {0, k, start}, steps, 3);
+        const auto each = faulty_tooth_pairs(pairs, faulty, {PairId{0}, k, start}, steps, 3);
         REQUIRE(each.size() == 3 * total.size());
         for (std::size_t i = 0; i < total.size(); ++i) {
             const double sum = each[3 * i] + each[3 * i + 1] + each[3 * i + 2];

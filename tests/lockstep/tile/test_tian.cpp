@@ -249,7 +249,7 @@ TEST_CASE(
     const stiffness::BrokenTooth family;
     FaultCurves faults = gearbox.no_fault(1);
     faults.pattern.length = 19;
-    faults.pattern.passages = {{0, 0.0}};
+    faults.pattern.passages = {{PairId{0}, 0.0}};
     faults.curve[0][0] = stiffness::faulty_mesh(gearbox.pair, family.at(1.0));
     IntegrationPlan plan = gearbox.plan(kSamples, 1200, Integrator::sdirk3);
     plan.low_pass_rad_s = kLowPass_rad_s;

@@ -118,7 +118,8 @@ TEST_CASE("Faults of shifted teeth weaken them, up to a size that follows their 
             CHECK(scene.gearbox().fault().largest_size() > 3e-3);
             const auto& healthy =
                 *scene.gearbox()
-                     .stiffness->meshes()[scene.gearbox().faulty_pair() < 4 ? 0 : 1]
+                     .stiffness
+                     ->meshes()[scene.gearbox().fault().pattern().passages[0].pair < 4 ? 0 : 1]
                      .stiffness;
             const auto cracked = scene.gearbox().fault().mesh(0, 2e-3);
             const double tau = 0.5 * healthy.contact_ratio();

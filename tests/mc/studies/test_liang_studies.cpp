@@ -8,7 +8,8 @@ using namespace gearpod::test;
 
 // Lowest mesh stiffness during the contact of the cracked tooth, at each crack level of a study.
 std::vector<double> lowest_stiffness(const mc::Scene& scene, const std::vector<double>& depths_m) {
-    const auto& healthy = scene.gearbox().pairs().curve(PairId{scene.gearbox().faulty_pair()});
+    const auto& healthy =
+        scene.gearbox().pairs().curve(scene.gearbox().fault().pattern().passages[0].pair);
     std::vector<double> lowest;
     for (const double depth : depths_m) {
         const auto cracked = depth > 0 ? scene.gearbox().fault().mesh(0, depth) : nullptr;

@@ -137,7 +137,8 @@ TEST_CASE("Yang, sections 4.1 and 4.2: frequencies, mesh phases, 7 and 28 meshes
 
 TEST_CASE("Yang, Fig. 15: the stiffness decreases from case to case, very little in 1 and 2") {
     const mc::Scene scene(shipped_study(kStudy));
-    const auto& healthy = scene.gearbox().pairs().curve(PairId{scene.gearbox().faulty_pair()});
+    const auto& healthy =
+        scene.gearbox().pairs().curve(scene.gearbox().fault().pattern().passages[0].pair);
     constexpr int kPoints = 400;
     std::vector<double> mean_loss, largest_loss;
     for (int number = 1; number <= 5; ++number) {

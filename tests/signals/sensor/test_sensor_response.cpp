@@ -55,10 +55,10 @@ TEST_CASE(
     for (const Tones& tones : {Tones{}, tones_of(0, 8)}) {
         INFO((tones.empty() ? "without tones" : "with tones"));
         const SensorResponse span = recorded_response(tile, path, kExponents, tones, kMeshes);
-        const auto expected = synthesize(tile.signals, LaneId{every_mesh()}, kLayout, path,
-                                         kExponents, 0, kMeshes, tones);
+        const auto expected =
+            synthesize(tile.signals, every_mesh(), kLayout, path, kExponents, 0, kMeshes, tones);
         CHECK(span.signals(8, kMeshes) == expected);
-        CHECK(span.signal(3, kMeshes) == expected[3]);
+        CHECK(span.signal(LaneId{3}, kMeshes) == expected[3]);
         machine::AlignedVector te;
         Timeline in_span = every_mesh();
         in_span.resize(kMeshes - kBeyond);
@@ -90,7 +90,7 @@ TEST_CASE("A gearbox's signals have the same bits alone, among others and on eve
                                   tones_of(first, count), kMeshes);
             CHECK(some.folded() == lanes_of(all.folded(), first, count));
             CHECK(some.averaged_te() == lanes_of(all.averaged_te(), first, count));
-            CHECK(some.signal(0, kMeshes) == all.signal(first, kMeshes));
+            CHECK(some.signal(LaneId{0}, kMeshes) == all.signal(LaneId{first}, kMeshes));
         }
     }
     machine::use_instruction_set(best);
@@ -102,9 +102,9 @@ TEST_CASE("Samples that are not requested are not stored") {
     const SensorResponse none = recorded_response(tile, path, kExponents, {}, 0),
                          some = recorded_response(tile, path, kExponents, {}, 2);
     CHECK(none.folded() == some.folded());
-    CHECK_THROWS_AS(none.signal(0, 1), std::invalid_argument);
+    CHECK_THROWS_AS(none.signal(LaneId{0}, 1), std::invalid_argument);
     CHECK_THROWS_AS(some.signals(8, 3), std::invalid_argument);
-    CHECK(some.signal(1, 2).size() == 2 * kPhases);
+    CHECK(some.signal(LaneId{1}, 2).size() == 2 * kPhases);
     CHECK_THROWS_AS(SensorResponse(path, kLayout, {8, kExponents, nullptr, 4, kMeshes, 0}),
                     std::invalid_argument);
     CHECK_THROWS_AS(SensorResponse(path, kLayout, {8, kExponents, nullptr, kTePhases, 62, 0}),

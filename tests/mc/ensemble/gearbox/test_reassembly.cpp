@@ -105,7 +105,7 @@ TEST_CASE("Redrawn teeth are the gearbox's own errors, shifted by whole teeth") 
     CHECK(any);
 }
 
-TEST_CASE("Redrawn pins have other positions on the same bearings") {
+TEST_CASE("Redrawn pins have other positions, the same in all baseline records") {
     const auto planets = [](const std::vector<std::string>& more, const GearboxId& id) {
         std::vector<std::string> keys{"gearbox.pin_tangential_rms_um=20"};
         keys.insert(keys.end(), more.begin(), more.end());
@@ -119,7 +119,6 @@ TEST_CASE("Redrawn pins have other positions on the same bearings") {
         CHECK(pin(then[n]) != pin(now[n]));
         CHECK(pin(again[n]) == pin(then[n]));
         CHECK(pin(same[n]) == pin(now[n]));
-        CHECK(then[n].bearing_stiffness == now[n].bearing_stiffness);
     }
 }
 

@@ -134,7 +134,7 @@ TEST_CASE("Records that are integrated alone are those of the whole signal") {
     const HealthyReference healthy;
     RealizationFeatures features(other.scene().tile(), &healthy);
     const std::vector<double> values = features.compute(
-        lane_signals(other.scene().tile(), tile, 3, other.scene().record().signal_meshes),
+        lane_signals(other.scene().tile(), tile, LaneId{3}, other.scene().record().signal_meshes),
         tile.realizations[3]);
     for (const std::size_t feature : {0, 1, 2, 3}) {
         CHECK(values[feature] == other.value(feature));
