@@ -110,7 +110,7 @@ TEST_CASE("Bad input of any kind exits with 2, prints a message and leaves no fi
     } cases[] = {
         {"run " + folder.file("missing.toml") + " --out " + out, "missing.toml"},
         {"run " + good + " --set gearbox.modul_mm=3 --out " + out, "module_mm"},
-        {"run " + good + " --set gearbox.sun.mass_kg=-1 --out " + out, "sun_mass_kg"},
+        {"run " + good + " --set gearbox.sun.mass_kg=-1 --out " + out, "sun.mass_kg"},
         {"run " + good + " --set gearbox.ring.teeth=80 --out " + out, "ring"},
         {"run " + good + " --set numerics.steps_per_mesh=500 --out " + out, "unstable"},
         {"run " + study("published/tian-fig-4-3.toml") +
