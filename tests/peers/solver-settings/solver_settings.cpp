@@ -126,7 +126,7 @@ void write_problem(const mc::Study& study) {
             for (std::size_t lane = 0; lane < lockstep::kPilotLanes; ++lane) {
                 all["gearboxes"][lane]["passages"].push_back(
                     {{"mesh", mesh},
-                     {"pair", o.pair},
+                     {"pair", int{o.pair}},
                      {"first", o.first_step},
                      {"stiffness", lane_of(o.stiffness, lane)}});
             }
