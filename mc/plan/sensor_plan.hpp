@@ -74,7 +74,7 @@ struct NoiseStage {
     std::optional<signals::NoiseSpectrum> background;
     double first_low_pass_Hz = 0.0, first_quantisation_m_s2 = 0.0;  // of the first sensor
     double factor = 1.0;  // on the noise of the first sensor
-    // Of this sensor if they differ from those of the first one.
+    // Values of this sensor; each is empty if it is that of the first one.
     std::optional<double> own_low_pass_Hz, own_quantisation_m_s2, sampling_Hz;
 
     // Noise of this sensor in a gearbox whose first one has `first`: times the factor, after its

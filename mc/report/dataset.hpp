@@ -43,7 +43,7 @@ class RowIdentities {
     std::vector<std::string> recorded_;  // name of the gearbox of each row; may be empty
 };
 
-// What the Python program that writes a dataset for machine learning needs in addition to the
+// Input of the Python program that writes a dataset for machine learning, in addition to the
 // report: "file", "recorded", "computed_by", "written_by", "inputs" with their meanings, and "rows"
 // with [row in the whole study, gearbox, record, split] of each of `rows` rows. All rows of a
 // gearbox are in one split, which depends on the seed and the gearbox only, or on the name of a
