@@ -59,7 +59,7 @@ void add_feature(const PilotRecord& record, const PilotRecord& reference, std::s
 // that of a run.
 std::vector<GearboxId> filled(std::span<const GearboxId> ids, int lanes) {
     std::vector<GearboxId> all;
-    for (LaneId lane{0}; lane < static_cast<std::size_t>(lanes); ++lane) {
+    for (LaneId lane{0}; lane < lanes; ++lane) {
         all.push_back(ids[lane % ids.size()]);
     }
     return all;

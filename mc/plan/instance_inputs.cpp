@@ -272,6 +272,7 @@ void add_random_planets(const PlanetScatter& scatter, const InputValues& values,
     const double tangential_m = values.or_0<"gearbox.pin_tangential_rms_um">(),
                  radial_m = values.or_0<"gearbox.pin_radial_rms_um">();
     for (std::size_t n = 0; n < scatter.angles_rad.size(); ++n) {
+        // Five variates for each planet, as in earlier versions: fewer would change all later ones.
         std::array<double, 5> variates{};
         std::ranges::generate(variates, std::ref(normal));
         move_pin(scatter.angles_rad[n], tangential_m * variates[0], radial_m * variates[1],

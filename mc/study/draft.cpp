@@ -1,6 +1,5 @@
 #include "mc/study/draft.hpp"
 
-#include <algorithm>
 
 namespace gearpod::mc {
 
@@ -11,13 +10,10 @@ Position StudyDraft::position(const std::string& path) const {
     if (const auto found = given_random.find(path); found != given_random.end()) {
         return found->second;
     }
-    for (std::string table = path; !table.empty();
-         table.resize(std::min(table.rfind('.'), table.size()))) {
-        if (const auto found = sections.find(table); found != sections.end()) {
+    for (std::size_t end = path.size(); end != std::string::npos && end > 0;
+         end = path.rfind('.', end - 1)) {
+        if (const auto found = sections.find(path.substr(0, end)); found != sections.end()) {
             return found->second;
-        }
-        if (table.find('.') == std::string::npos) {
-            break;
         }
     }
     return sections.at("");

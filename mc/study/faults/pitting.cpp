@@ -121,7 +121,7 @@ class PittingKind final : public FaultKind {
         const Pits& pits = study.fault.shapes.get<Pits>();
         return std::make_unique<const stiffness::ToothPitting>(
             tooth.geometry.value(), material_of(study, tooth.mesh), profile_of(study), tooth.gear,
-            stiffness::PitBand{*pits.radius_m, *pits.length_m, *pits.depth_m, pits.teeth, 0.5});
+            stiffness::PitBand{*pits.radius_m, *pits.length_m, *pits.depth_m, pits.teeth});
     }
 };
 

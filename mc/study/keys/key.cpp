@@ -33,10 +33,9 @@ std::string Key::column() const {
 
 std::string flat_path(std::string_view path) {
     std::string flat(path);
-    const std::size_t dot = std::min(flat.find('.'), flat.size());
-    std::replace(
-        std::next(flat.begin(), static_cast<std::ptrdiff_t>(std::min(dot + 1, flat.size()))),
-        flat.end(), '.', '_');
+    if (const auto dot = std::ranges::find(flat, '.'); dot != flat.end()) {
+        std::replace(std::next(dot), flat.end(), '.', '_');
+    }
     return flat;
 }
 
