@@ -50,6 +50,11 @@ if(GEARPOD_MPI)
   endif()
 endif()
 
+if(HDF5_IS_PARALLEL AND NOT GEARPOD_WITH_MPI)
+  message(FATAL_ERROR "HDF5 is parallel (${HDF5_C_INCLUDE_DIRS}) and needs MPI: install MPI and configure with \
+-DGEARPOD_MPI=ON, or use a serial HDF5")
+endif()
+
 if(missing)
   list(JOIN missing " " names)
   message(NOTICE "gearpod is missing: ${names}")  # a line of its own, which the launcher looks for

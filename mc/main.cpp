@@ -9,6 +9,7 @@
 #include "mc/commands/help/reference.hpp"
 #include "mc/commands/options/options.hpp"
 #include "mc/commands/options/program.hpp"
+#include "mc/ensemble/ranks.hpp"
 #include "mc/files/input/spelling.hpp"
 #include "mc/numerics/forecast/memory.hpp"
 #include "mc/results/provenance.hpp"
@@ -54,7 +55,9 @@ int run_program(int argc, char** argv) {
     CLI::App app{
         "gearpod: which gear-tooth faults do a sensor, a feature and a threshold detect, and with "
         "what probability?"};
-    app.set_version_flag("--version", build_text(), "print the version and the build settings");
+    app.set_version_flag(
+        "--version", [] { return build_text(Ranks::library()); },
+        "print the version and the build settings");
     add_descriptions(app);
     app.require_subcommand(1);
     int code = kDone;

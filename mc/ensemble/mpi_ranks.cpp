@@ -7,6 +7,7 @@
 #include <mpi.h>
 
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <cstdio>
 #include <cstdlib>
@@ -52,19 +53,21 @@ bool Ranks::built_with_mpi() {
     return true;
 }
 
-// Checks the environment variables that Open MPI's mpirun, PMIx (srun, prun) and PMI-1/2 (srun,
-// mpiexec) set.
-bool Ranks::launched() {
-    for (const char* name : {"OMPI_COMM_WORLD_SIZE", "PMIX_RANK", "PMI_RANK"}) {
-        if (std::getenv(name) != nullptr) {
-            return true;
-        }
-    }
-    return false;
+std::string Ranks::library() {
+    char text[MPI_MAX_LIBRARY_VERSION_STRING] = "";
+    int length = 0;
+    MPI_Get_library_version(text, &length);
+    const std::string all(text, static_cast<std::size_t>(length));
+    return all.substr(0, all.find_first_of(",\n"));
 }
 
 Ranks::Ranks() {
-    if (!launched()) {
+    // Variables of Open MPI's mpirun, PMIx (srun, prun) and PMI-1/2 (srun, mpiexec).
+    const bool launched =
+        std::ranges::any_of(std::array{"OMPI_COMM_WORLD_SIZE", "PMIX_RANK", "PMI_RANK"},
+                            [](const char* name) { return std::getenv(name) != nullptr; });
+    if (!launched) {
+        require_connected();
         return;
     }
     int provided = 0;
@@ -72,6 +75,7 @@ Ranks::Ranks() {
     started_ = true;
     MPI_Comm_rank(MPI_COMM_WORLD, &rank_);
     MPI_Comm_size(MPI_COMM_WORLD, &size_);
+    require_connected();
     MPI_Comm machine = MPI_COMM_NULL;
     MPI_Comm_split_type(MPI_COMM_WORLD, MPI_COMM_TYPE_SHARED, 0, MPI_INFO_NULL, &machine);
     MPI_Comm_size(machine, &on_this_machine_);

@@ -11,14 +11,14 @@ namespace gearpod::mc {
 
 // Access to the MPI ranks. MPI is initialized only if a launcher is present, so that the program
 // also runs without it. Without MPI in the build (single_rank.cpp instead of mpi_ranks.cpp) there
-// is one rank, and a launcher with several processes is an error. Each process has one object; all
-// calls come from the thread that created it. MPI failures end all ranks.
+// is one rank. A launcher that started more processes than are connected is an error. Each process
+// has one object; all calls come from the thread that created it. MPI failures end all ranks.
 class Ranks {
   public:
     // True if the program was built with MPI.
     static bool built_with_mpi();
-    // True if an MPI launcher has started this process.
-    static bool launched();
+    // Name and version of the MPI library, or "none".
+    static std::string library();
 
     Ranks();
     Ranks(const Ranks&) = delete;
@@ -56,6 +56,9 @@ class Ranks {
     [[noreturn]] void abort(int code) const;
 
   private:
+    // Throws std::runtime_error if a launcher started more processes than size().
+    void require_connected() const;
+
     int rank_ = 0;
     int size_ = 1;
     int on_this_machine_ = 1;

@@ -7,37 +7,18 @@
 
 namespace gearpod::mc {
 
-namespace {
-
-// Number of processes that a launcher started; null if there is no launcher or only one.
-const char* copies() {
-    for (const char* name : {"OMPI_COMM_WORLD_SIZE", "PMI_SIZE"}) {
-        const char* count = std::getenv(name);
-        if (count != nullptr && std::atoi(count) > 1) {
-            return count;
-        }
-    }
-    return nullptr;
-}
-
-}  // namespace
-
 bool Ranks::built_with_mpi() {
     return false;
 }
 
-bool Ranks::launched() {
-    return copies() != nullptr;
+std::string Ranks::library() {
+    return "none";
 }
 
 // Several processes that do not communicate would all compute the same and overwrite each other's
 // output.
 Ranks::Ranks() {
-    if (launched()) {
-        throw std::runtime_error("started as one of " + std::string(copies()) +
-                                 " processes, but this program was built without MPI; start a "
-                                 "single process, or rebuild it with -DGEARPOD_MPI=ON");
-    }
+    require_connected();
 }
 
 Ranks::~Ranks() = default;

@@ -25,10 +25,10 @@ std::string version_text(const std::string& code_version, const std::string& git
                        modified ? ", modified" : "");
 }
 
-std::string build_text() {
-    return fmt::format("{}\ncompiler: gcc {}\nkernels: {}\nHDF5: {}.{}.{}\n", version_text(),
-                       __VERSION__, lockstep::built_kernels(), H5_VERS_MAJOR, H5_VERS_MINOR,
-                       H5_VERS_RELEASE);
+std::string build_text(const std::string& mpi) {
+    return fmt::format("{}\ncompiler: gcc {}\nkernels: {}\nMPI: {}\nHDF5: {}.{}.{}\n",
+                       version_text(), __VERSION__, lockstep::built_kernels(), mpi,
+                       H5_VERS_MAJOR, H5_VERS_MINOR, H5_VERS_RELEASE);
 }
 
 std::string host_name() {

@@ -15,8 +15,8 @@ std::string version_text();
 // The same for the attributes code_version and git_hash of a results file.
 std::string version_text(const std::string& code_version, const std::string& git_hash);
 
-// version_text(), then one line each for the compiler, the kernels and HDF5.
-std::string build_text();
+// version_text(), then one line each for the compiler, the kernels, the MPI library and HDF5.
+std::string build_text(const std::string& mpi);
 
 // Root attributes of a results file, in order. `threads`: number of threads of all ranks.
 std::vector<std::pair<std::string, std::string>> provenance(const EnsemblePlan& plan, int ranks,

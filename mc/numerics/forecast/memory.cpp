@@ -7,6 +7,7 @@
 #include <fstream>
 #include <limits>
 #include <string>
+#include <utility>
 
 namespace gearpod::mc {
 namespace {
@@ -25,15 +26,10 @@ double entry_of(const char* path, const std::string& name, double otherwise) {
 }
 
 // Number in a file. "max" or a missing file means no limit.
-double number_in(const char* path) {
+double number_in(const std::filesystem::path& path) {
     std::ifstream stream(path);
     double number = 0.0;
     return stream >> number ? number : kUnlimited;
-}
-
-double left_in_group() {
-    const double most = number_in("/sys/fs/cgroup/memory.max");
-    return most < kUnlimited ? most - number_in("/sys/fs/cgroup/memory.current") : kUnlimited;
 }
 
 double left_of_limit() {
@@ -62,9 +58,40 @@ void fix_memory_limits() {
 #endif
 }
 
+double left_in_control_groups(std::istream& groups, const std::filesystem::path& mounted) {
+    double left = kUnlimited;
+    for (std::string line; std::getline(groups, line);) {  // for example "0::/system.slice/job"
+        const auto first = line.find(':'), second = line.find(':', first + 1);
+        if (second == std::string::npos) {
+            continue;
+        }
+        const std::string controllers = line.substr(first + 1, second - first - 1);
+        const bool version_1 = ("," + controllers + ",").find(",memory,") != std::string::npos;
+        if (!controllers.empty() && !version_1) {
+            continue;
+        }
+        const auto [most, used] = version_1
+                                      ? std::pair{"memory.limit_in_bytes", "memory.usage_in_bytes"}
+                                      : std::pair{"memory.max", "memory.current"};
+        const auto top = version_1 ? mounted / "memory" : mounted;
+        const std::filesystem::path path(line.substr(second + 1));
+        // Every group above limits it too. In a container, only the top may be visible.
+        for (auto group = path.relative_path();; group = group.parent_path()) {
+            if (const double limit = number_in(top / group / most); limit < kUnlimited) {
+                left = std::min(left, limit - number_in(top / group / used));
+            }
+            if (group.empty()) {
+                break;
+            }
+        }
+    }
+    return left;
+}
+
 double available_memory_bytes() {
-    return std::min(
-        {entry_of("/proc/meminfo", "MemAvailable:", kUnlimited), left_in_group(), left_of_limit()});
+    std::ifstream groups("/proc/self/cgroup");
+    return std::min({entry_of("/proc/meminfo", "MemAvailable:", kUnlimited),
+                     left_in_control_groups(groups, "/sys/fs/cgroup"), left_of_limit()});
 }
 
 }  // namespace gearpod::mc
