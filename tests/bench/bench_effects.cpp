@@ -69,19 +69,20 @@ class Tile {
         const std::vector<mc::Realization> gearboxes(
             kLanes, {{mc::Group::test, 0}, scene_->gearbox().nominal});
         for (const mc::Realization& gearbox : gearboxes) {
-            inputs_.push_back(scene_->inputs(gearbox.inputs));
+            inputs_.push_back(scene_->gearbox().inputs(gearbox.inputs));
         }
-        excitation_ =
-            mc::draw_excitation(scene_->gearbox(), scene_->draw().seed,
-                                {scene_->solve().longest_run_in(), scene_->record().signal_meshes}, gearboxes);
+        excitation_ = mc::draw_excitation(
+            scene_->gearbox(), scene_->draw().seed,
+            {scene_->solve().longest_run_in(), scene_->record().signal_meshes}, gearboxes);
         if (excitation_) {
-            mesh_integrator_ =
-                lockstep::make_excited_integrator<kLanes>(scene_->plan(), *excitation_, inputs_);
+            mesh_integrator_ = lockstep::make_excited_integrator<kLanes>(
+                scene_->solve().integration(), *excitation_, inputs_);
         } else {
-            steady_ = lockstep::make_mesh_integrator<kLanes>(scene_->plan(), inputs_);
+            steady_ =
+                lockstep::make_mesh_integrator<kLanes>(scene_->solve().integration(), inputs_);
         }
-        state_ = lockstep::equilibrium_state(scene_->plan(), inputs_);
-        record_ = lockstep::make_record(scene_->plan(), kLanes, false);
+        state_ = lockstep::equilibrium_state(scene_->solve().integration(), inputs_);
+        record_ = lockstep::make_record(scene_->solve().integration(), kLanes, false);
     }
 
     void integrate_mesh(int mesh) {
@@ -92,7 +93,7 @@ class Tile {
         }
     }
     double gearbox_steps() const {
-        return kLanes * static_cast<double>(scene_->plan().grid.steps.size());
+        return kLanes * static_cast<double>(scene_->solve().integration().grid.steps.size());
     }
 
   private:
