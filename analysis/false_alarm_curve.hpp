@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "analysis/detection/detection_table.hpp"
-#include "analysis/detection/healthy_thresholds.hpp"
+#include "analysis/detection/threshold.hpp"
 #include "analysis/pod/pod_curve.hpp"
 #include "analysis/statistics/interval.hpp"
 #include "machine/fields.hpp"

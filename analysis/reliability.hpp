@@ -7,11 +7,9 @@
 #include <string>
 #include <vector>
 
-#include "analysis/detection/condition_detection.hpp"
+#include "analysis/detection/detection.hpp"
 #include "analysis/false_alarm_curve.hpp"
 #include "analysis/inputs/input_effects.hpp"
-#include "analysis/inputs/miss_sensitivity.hpp"
-#include "analysis/inputs/uncertain_inputs.hpp"
 #include "analysis/pod/hit_miss_pod.hpp"
 #include "analysis/pod/signal_response_pod.hpp"
 #include "analysis/ranking/feature_ranking.hpp"
@@ -78,7 +76,7 @@ struct ReliabilityData {
     std::span<const double> test_size;
     std::vector<FeatureColumns> features;
     std::vector<InputColumn> inputs;         // inputs of the test gearboxes
-    std::vector<InputColumn> uncertain;      // epistemic inputs among them (uncertain_inputs.hpp)
+    std::vector<InputColumn> uncertain;      // epistemic inputs among them (input_effects.hpp)
     std::vector<ConditionColumn> condition;  // at most one
     std::optional<Costs> costs = {};
     // Gearbox of each row of the features' `records`, or of the threshold sample if there are none.

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "analysis/detection/detection.hpp"
-#include "analysis/statistics/difference_tests.hpp"
+#include "analysis/statistics/interval.hpp"
 #include "machine/fields.hpp"
 
 namespace gearpod::analysis {

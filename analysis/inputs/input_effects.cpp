@@ -1,18 +1,155 @@
 #include "analysis/inputs/input_effects.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numeric>
+#include <set>
 
 #include "analysis/statistics/binary_regression.hpp"
-#include "analysis/statistics/difference_tests.hpp"
 #include "analysis/statistics/distributions.hpp"
 #include "analysis/statistics/interval.hpp"
+#include "analysis/statistics/link.hpp"
+#include "analysis/statistics/rank_statistics.hpp"
 #include "features/statistics/signal_statistics.hpp"
 #include "machine/contracts.hpp"
+#include "machine/no_value.hpp"
 
 namespace gearpod::analysis {
+
+namespace {
+
+constexpr std::size_t kNeighbours = 100;
+constexpr long kFewestOutcomes = 10;  // fewest misses, and hits, for the large-sample approximation
+
+struct Stratum {
+    std::vector<std::size_t> hits, misses;  // gearboxes
+};
+
+// Faulty gearboxes with a value, in strata of equal size or else of neighbouring sizes.
+std::vector<Stratum> strata_of(std::span<const double> sizes, std::span<const int> hit) {
+    std::vector<std::size_t> order;
+    for (std::size_t i = 0; i < sizes.size(); ++i) {
+        if (sizes[i] > 0.0 && hit[i] >= 0) {
+            order.push_back(i);
+        }
+    }
+    std::stable_sort(order.begin(), order.end(),
+                     [&](std::size_t a, std::size_t b) { return sizes[a] < sizes[b]; });
+    std::vector<Stratum> strata;
+    for (std::size_t first = 0; first < order.size();) {
+        const auto equal = [&](std::size_t i) { return sizes[order[i]] == sizes[order[first]]; };
+        std::size_t last = first;
+        while (last < order.size() && (equal(last) || last - first < kNeighbours)) {
+            if (!equal(last) && last > first + 1 && equal(first + 1)) {
+                break;  // a repeated size is a stratum of its own
+            }
+            ++last;
+        }
+        Stratum stratum;
+        for (std::size_t i = first; i < last; ++i) {
+            (hit[order[i]] == 1 ? stratum.hits : stratum.misses).push_back(order[i]);
+        }
+        if (stratum.hits.size() >= 2 && stratum.misses.size() >= 2 &&
+            stratum.hits.size() >= stratum.misses.size()) {
+            strata.push_back(std::move(stratum));
+        }
+        first = last;
+    }
+    return strata;
+}
+
+std::vector<double> values_at(const InputColumn& input, const std::vector<std::size_t>& rows) {
+    std::vector<double> values;
+    for (const std::size_t row : rows) {
+        values.push_back(input.values[row]);
+    }
+    return values;
+}
+
+bool varies(const InputColumn& input, const std::vector<Stratum>& strata) {
+    const double first = input.values[strata.front().hits.front()];
+    const auto differs = [&](std::size_t row) { return input.values[row] != first; };
+    return std::any_of(strata.begin(), strata.end(), [&](const Stratum& stratum) {
+        return std::any_of(stratum.hits.begin(), stratum.hits.end(), differs) ||
+               std::any_of(stratum.misses.begin(), stratum.misses.end(), differs);
+    });
+}
+
+InputInfluence influence(const InputColumn& input, const std::vector<Stratum>& strata,
+                         double confidence) {
+    double weights = 0.0, area = 0.0, variance = 0.0;
+    long pairs = 0;
+    for (const Stratum& stratum : strata) {
+        const AucComponents components =
+            auc_components(values_at(input, stratum.hits), values_at(input, stratum.misses));
+        const auto m = static_cast<double>(stratum.hits.size());
+        const auto n = static_cast<double>(stratum.misses.size());
+        const double weight = m * n / (m + n + 1.0);
+        weights += weight;
+        area += weight * components.auc;
+        variance += weight * weight * auc_covariance(components, components);
+        pairs += static_cast<long>(std::min(stratum.hits.size(), stratum.misses.size()));
+    }
+    area /= weights;
+    variance /= weights * weights;
+    InputInfluence result{input.name, input.unit, area,
+                          auc_interval(area, variance, pairs, confidence), 0.0};
+    const double distance = std::abs(area - 0.5);
+    result.p_value = variance > 0.0
+                         ? 2.0 * link_probability(Link::probit, -distance / std::sqrt(variance))
+                         : kNan;
+    return result;
+}
+
+}  // namespace
+
+MissSensitivity miss_sensitivity(std::span<const double> sizes, std::span<const int> hit,
+                                 const std::vector<InputColumn>& inputs, double confidence) {
+    MissSensitivity result;
+    const std::vector<Stratum> strata = strata_of(sizes, hit);
+    if (strata.empty()) {
+        result.refusal = "no fault size at which most, but not all gearboxes are detected";
+        return result;
+    }
+    result.smallest = std::numeric_limits<double>::infinity();
+    for (const Stratum& stratum : strata) {
+        result.hits += static_cast<long>(stratum.hits.size());
+        result.misses += static_cast<long>(stratum.misses.size());
+        for (const auto* rows : {&stratum.hits, &stratum.misses}) {
+            for (const std::size_t row : *rows) {
+                result.smallest = std::min(result.smallest, sizes[row]);
+                result.largest = std::max(result.largest, sizes[row]);
+            }
+        }
+    }
+    if (std::min(result.misses, result.hits) < kFewestOutcomes) {
+        result.refusal = fmt::format("{} misses and {} hits, {} of each are needed", result.misses,
+                                     result.hits, kFewestOutcomes);
+        return result;
+    }
+    std::vector<double> p_values;
+    for (const InputColumn& input : inputs) {
+        if (!varies(input, strata)) {
+            result.left_out.push_back(input.name);
+            continue;
+        }
+        result.inputs.push_back(influence(input, strata, confidence));
+        p_values.push_back(result.inputs.back().p_value);
+    }
+    p_values = holm_adjusted(p_values);
+    for (std::size_t i = 0; i < result.inputs.size(); ++i) {
+        result.inputs[i].p_value = p_values[i];
+    }
+    std::stable_sort(result.inputs.begin(), result.inputs.end(),
+                     [](const InputInfluence& a, const InputInfluence& b) {
+                         return std::abs(a.larger_in_misses - 0.5) >
+                                std::abs(b.larger_in_misses - 0.5);
+                     });
+    return result;
+}
 
 InputBins equal_count_bins(std::span<const double> values, std::size_t bins) {
     EXPECTS(std::ranges::all_of(values, [](double value) { return std::isfinite(value); }));
@@ -212,7 +349,7 @@ std::vector<double> quantiles_of(const std::vector<double>& ascending) {
 // Computes the test and a90 of one input.
 void fit_input(InputEffect& effect, const std::vector<double>& values, const Outcomes& outcomes,
                const Eigen::VectorXd& x, const HitMissPod& pod, const BinaryFit& without,
-               const BinaryModel& model, double confidence) {
+               const OutcomeCurve& model, double confidence) {
     effect.statistic = effect.p_value = kNan;
     const std::vector<double> ascending = sorted(values);
     effect.values = quantiles_of(ascending);
@@ -276,7 +413,7 @@ InputEffects input_effects(std::span<const double> sizes, std::span<const int> h
     InputEffects result{range.low, range.high, {}, {}};
     const Outcomes outcomes(sizes, hit);
     const PodForm& form = pod.chosen.curve.form;
-    const BinaryModel model{form.link, form.floor, pod.chosen.curve.ceiling};
+    const OutcomeCurve model{form.link, form.floor, pod.chosen.curve.ceiling};
     Eigen::VectorXd x;
     BinaryFit without;
     if (pod.refusal.empty() && !outcomes.rows.empty()) {
@@ -301,6 +438,112 @@ InputEffects input_effects(std::span<const double> sizes, std::span<const int> h
     p_values = holm_adjusted(p_values);
     for (std::size_t i = 0; i < result.inputs.size(); ++i) {
         result.inputs[i].p_value = p_values[i];
+    }
+    return result;
+}
+
+namespace {
+
+constexpr double kFound = 0.9;  // POD
+
+// Standardises the columns of a design to mean 0 and standard deviation 1 and keeps the scales.
+struct Standard {
+    Eigen::RowVectorXd centre, spread;
+
+    Eigen::MatrixXd operator()(const Eigen::MatrixXd& values) {
+        centre = values.colwise().mean();
+        const Eigen::MatrixXd away = values.rowwise() - centre;
+        spread = (away.array().square().colwise().mean()).sqrt();
+        return away.array().rowwise() / spread.array();
+    }
+};
+
+// The inputs and, for those with more than two values, their squares.
+Eigen::MatrixXd covariates(const Eigen::MatrixXd& scaled) {
+    Eigen::MatrixXd all(scaled.rows(), 2 * scaled.cols());
+    Eigen::Index count = 0;
+    for (Eigen::Index c = 0; c < scaled.cols(); ++c) {
+        const auto column = scaled.col(c);
+        all.col(count++) = column;
+        if (std::set<double>(column.begin(), column.end()).size() > 2) {
+            all.col(count++) = column.array().square();
+        }
+    }
+    return all.leftCols(count);
+}
+
+double quantile(std::vector<double>& values, double share) {
+    const auto at =
+        static_cast<std::ptrdiff_t>(std::lround(share * static_cast<double>(values.size() - 1)));
+    std::nth_element(values.begin(), values.begin() + at, values.end());
+    return values[static_cast<std::size_t>(at)];
+}
+
+}  // namespace
+
+EpistemicBand epistemic_band(std::span<const double> sizes, std::span<const int> hit,
+                             const std::vector<InputColumn>& inputs, const HitMissPod& pod) {
+    EpistemicBand result;
+    std::vector<const InputColumn*> varying;
+    for (const InputColumn& input : inputs) {
+        if (varies(input.values)) {
+            varying.push_back(&input);
+            result.inputs.push_back(input.name);
+        }
+    }
+    result.refusal = pod.refusal;
+    if (varying.empty() || !result.refusal.empty()) {
+        return result;
+    }
+    const Outcomes outcomes(sizes, hit);
+    Eigen::MatrixXd values(outcomes.rows.size(), varying.size());
+    for (std::size_t c = 0; c < varying.size(); ++c) {
+        const std::vector<double> column = outcomes.values(*varying[c]);
+        values.col(static_cast<Eigen::Index>(c)) =
+            Eigen::VectorXd::Map(column.data(), values.rows());
+    }
+    const PodForm& form = pod.chosen.curve.form;
+    const OutcomeCurve model{form.link, form.floor, pod.chosen.curve.ceiling};
+    Standard size_scale, input_scale;
+    const Eigen::VectorXd u = size_scale(scaled_sizes(outcomes, form)).col(0);
+    const Eigen::MatrixXd z = covariates(input_scale(values));
+    Eigen::MatrixXd design(u.size(), 2 + z.cols());
+    design << Eigen::VectorXd::Ones(u.size()), u, z;
+    const BinaryFit fit = fit_binary(design, outcomes.hits, model);
+    result.refusal = fit.refusal;
+    if (!result.refusal.empty()) {
+        return result;
+    }
+    const double intercept = fit.coefficients[0], slope = fit.coefficients[1];
+    const Eigen::VectorXd shift = z * fit.coefficients.tail(z.cols());
+    const double target =
+        kFound < model.ceiling
+            ? link_quantile(model.link, (kFound - model.floor) / (model.ceiling - model.floor))
+            : std::numeric_limits<double>::infinity();
+    std::vector<double> a90, pods(static_cast<std::size_t>(shift.size()));
+    for (const double offset : shift) {
+        const double standardised = slope > 0.0 ? (target - intercept - offset) / slope
+                                                : std::numeric_limits<double>::infinity();
+        a90.push_back(std::isfinite(standardised)
+                          ? form.size(size_scale.centre[0] + size_scale.spread[0] * standardised)
+                          : std::numeric_limits<double>::infinity());
+    }
+    const auto estimate = [&](double share) {
+        return estimate_within(quantile(a90, share), pod.smallest, pod.largest);
+    };
+    result.a90_low = estimate(kEpistemicQuantiles[0]);
+    result.a90_high = estimate(kEpistemicQuantiles[1]);
+    for (const PodPoint& point : pod.band) {
+        const double eta = intercept + slope * (form.scaled(point.size) - size_scale.centre[0]) /
+                                           size_scale.spread[0];
+        for (std::size_t i = 0; i < pods.size(); ++i) {
+            pods[i] = model.floor +
+                      (model.ceiling - model.floor) *
+                          link_probability(model.link, eta + shift[static_cast<Eigen::Index>(i)]);
+        }
+        result.band.push_back({point.size, quantile(pods, 0.5),
+                               quantile(pods, kEpistemicQuantiles[0]),
+                               quantile(pods, kEpistemicQuantiles[1])});
     }
     return result;
 }

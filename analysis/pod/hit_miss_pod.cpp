@@ -10,7 +10,7 @@
 #include <stdexcept>
 
 #include "analysis/detection/threshold.hpp"
-#include "analysis/pod/curve_covariance.hpp"
+#include "analysis/pod/pod_curve.hpp"
 #include "machine/no_value.hpp"
 
 namespace gearpod::analysis {

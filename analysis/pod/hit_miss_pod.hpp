@@ -13,8 +13,6 @@
 #include <vector>
 
 #include "analysis/detection/detection.hpp"
-#include "analysis/pod/curve_covariance.hpp"
-#include "analysis/pod/hit_miss_table.hpp"
 #include "analysis/pod/pod_bounds.hpp"
 #include "analysis/pod/pod_curve.hpp"
 #include "analysis/pod/pod_likelihood.hpp"
@@ -46,14 +44,14 @@ struct HitMissPod {
     std::vector<PodPoint> band;  // over the tested sizes
     bool doubtful = false;       // the goodness of fit rejects the curve at 5 %
     BoundRule rule;
-    // Clusters of outcomes and the design effect on the bounds (curve_covariance.hpp); 0 and 1
+    // Clusters of outcomes and the design effect on the bounds (pod_curve.hpp); 0 and 1
     // without.
     long clusters = 0;
     double design_effect = 1.0;
     // Share of tables simulated from the chosen curve in which the bound holds a90. NaN if not
     // simulated.
     double simulated_coverage = kNan;
-    // Covariance of the chosen curve's location and scale (curve_covariance.hpp). NaN with a fitted
+    // Covariance of the chosen curve's location and scale (pod_curve.hpp). NaN with a fitted
     // ceiling or without individual outcomes.
     Eigen::Matrix2d covariance = Eigen::Matrix2d::Constant(kNan);
     // Number of specimens needed to bring a90's upper bound to the requested target, as a factor on
@@ -76,7 +74,7 @@ struct HitMissRequest {
     bool fit_ceiling = true;    // also fit curves with a ceiling
     bool firth = false;
     // Individual outcomes, for Wald bounds and the covariance. With more outcomes than clusters the
-    // covariance is robust, and calibrated bounds are those of curve_covariance.hpp.
+    // covariance is robust, and calibrated bounds are those of pod_curve.hpp.
     std::vector<ClusteredOutcome> outcomes = {};
     std::optional<double> target = {};  // size to which a90's bound should come down
     std::string tested = "faulty gearbox";

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <set>
 
-#include "analysis/pod/calibrated_bounds.hpp"
+#include "analysis/pod/response_bounds.hpp"
 #include "analysis/statistics/interval.hpp"
 
 namespace gearpod::analysis {

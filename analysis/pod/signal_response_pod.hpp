@@ -16,7 +16,6 @@
 #include <string>
 #include <vector>
 
-#include "analysis/pod/calibrated_bounds.hpp"
 #include "analysis/pod/response_bounds.hpp"
 #include "analysis/pod/response_fit.hpp"
 #include "analysis/statistics/interval.hpp"

@@ -7,7 +7,6 @@
 #include <functional>
 #include <numeric>
 
-#include "analysis/statistics/difference_tests.hpp"
 #include "analysis/statistics/interval.hpp"
 #include "analysis/statistics/link.hpp"
 #include "machine/contracts.hpp"

@@ -29,7 +29,7 @@ std::vector<RocPoint> roc_curve(std::span<const double> healthy, std::span<const
                                 bool high, std::size_t most_points = 101);
 
 // Ranking of features by the area under their ROC curve, with paired tests of their differences on
-// the same gearboxes (DeLong et al. (1988)), adjusted over all pairs (difference_tests.hpp).
+// the same gearboxes (DeLong et al. (1988)), adjusted over all pairs (interval.hpp).
 
 // Largest share of missing values with which a feature is still ranked.
 inline constexpr double kMostMissing = 0.1;

@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "analysis/inspection.hpp"
-#include "analysis/pod/curve_covariance.hpp"
+#include "analysis/pod/pod_curve.hpp"
 #include "analysis/report/detection_json.hpp"
 #include "analysis/report/json_values.hpp"
 #include "analysis/report/wording.hpp"

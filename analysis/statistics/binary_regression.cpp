@@ -5,8 +5,6 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "analysis/statistics/outcome_terms.hpp"
-
 namespace gearpod::analysis {
 namespace {
 
@@ -16,12 +14,12 @@ struct Slopes {
     Eigen::MatrixXd information;
 };
 
-Slopes evaluate(const Eigen::MatrixXd& design, std::span<const char> yes, const BinaryModel& model,
+Slopes evaluate(const Eigen::MatrixXd& design, std::span<const char> yes, const OutcomeCurve& model,
                 const Eigen::VectorXd& b) {
     const Eigen::VectorXd eta = design * b;
     Eigen::VectorXd logarithm(eta.size()), left(eta.size()), weight(eta.size());
-    outcome_terms({model.link, model.floor, model.ceiling}, eta.size(), eta.data(), yes.data(),
-                  logarithm.data(), left.data(), weight.data());
+    outcome_terms(model, eta.size(), eta.data(), yes.data(), logarithm.data(), left.data(),
+                  weight.data());
     Slopes slopes;
     slopes.log_likelihood = logarithm.sum();
     slopes.score = design.transpose() * left;
@@ -31,7 +29,7 @@ Slopes evaluate(const Eigen::MatrixXd& design, std::span<const char> yes, const 
 
 // Fisher scoring from `b` until the gain of a further step is negligible. False if no maximum is
 // found within the limits.
-bool ascend(const Eigen::MatrixXd& design, std::span<const char> yes, const BinaryModel& model,
+bool ascend(const Eigen::MatrixXd& design, std::span<const char> yes, const OutcomeCurve& model,
             Eigen::VectorXd& b, Slopes& here) {
     constexpr int kMostSteps = 200;
     constexpr double kConverged = 1e-10;  // gain of the log likelihood
@@ -66,7 +64,7 @@ bool ascend(const Eigen::MatrixXd& design, std::span<const char> yes, const Bina
 }  // namespace
 
 BinaryFit fit_binary(const Eigen::MatrixXd& design, std::span<const char> yes,
-                     const BinaryModel& model, const Eigen::VectorXd& start) {
+                     const OutcomeCurve& model, const Eigen::VectorXd& start) {
     if (design.rows() != static_cast<Eigen::Index>(yes.size()) || design.cols() == 0) {
         throw std::invalid_argument("binary regression: needs one row of the design per outcome");
     }

@@ -7,15 +7,9 @@
 #include <span>
 #include <string>
 
-#include "analysis/statistics/link.hpp"
+#include "analysis/statistics/outcome_terms.hpp"
 
 namespace gearpod::analysis {
-
-struct BinaryModel {
-    Link link = Link::logit;
-    double floor = 0.0;
-    double ceiling = 1.0;
-};
 
 struct BinaryFit {
     Eigen::VectorXd coefficients;
@@ -27,6 +21,6 @@ struct BinaryFit {
 // Fits the model. `design`: outcomes x coefficients, its first column 1; the others should be of
 // order 1. `start`: initial values of the first coefficients, from a fit with fewer.
 BinaryFit fit_binary(const Eigen::MatrixXd& design, std::span<const char> yes,
-                     const BinaryModel& model, const Eigen::VectorXd& start = {});
+                     const OutcomeCurve& model, const Eigen::VectorXd& start = {});
 
 }  // namespace gearpod::analysis

@@ -12,8 +12,8 @@
 #include "mc/library/run/command_files.hpp"
 #include "mc/library/stiffness_modes.hpp"
 #include "mc/numerics/numerics_choice.hpp"
+#include "mc/plan/gearbox_plan.hpp"
 #include "mc/plan/scene_error.hpp"
-#include "mc/plan/coupled_shafts.hpp"
 #include "mc/report/page.hpp"
 #include "mc/study/gears.hpp"
 

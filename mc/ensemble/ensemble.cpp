@@ -390,19 +390,6 @@ class Follower {
     bool closed_ = false, signal_reported_ = false;
 };
 
-}  // namespace
-
-EnsembleOutcome run_leader(WorkerTeam& team, const BatchPlan& plan, const EnsembleRun& run) {
-    return Leader(team, plan, run).run();
-}
-
-EnsembleOutcome run_follower(WorkerTeam& team, const EnsembleRun& run) {
-    Follower(team, run).run();
-    return {};
-}
-
-namespace {
-
 // Prepares this rank for its batches. Returns the reason if preparation was interrupted, else "".
 std::string prepare(const std::function<BatchComputers()>& make, const EnsembleRun& run,
                     BatchComputers& computers) {
@@ -435,7 +422,11 @@ EnsembleOutcome run_batches(const EnsemblePlan& ensemble, const BatchPlan& plan,
         static_cast<std::size_t>(thread_count(ensemble, run.ranks.on_this_machine())),
         plan.batches());
     WorkerTeam team(computers, plan, std::max(1, static_cast<int>(threads)));
-    return run.ranks.leads() ? run_leader(team, plan, run) : run_follower(team, run);
+    if (run.ranks.leads()) {
+        return Leader(team, plan, run).run();
+    }
+    Follower(team, run).run();
+    return {};
 }
 
 EnsembleOutcome run_batches(const TilePlan& tile, const EnsemblePlan& ensemble,

@@ -56,14 +56,6 @@ struct EnsembleOutcome {
 // rank. A rank that has finished a batch sends its rows and gets another, so a slow rank does not
 // delay the others. Only the main thread of a rank communicates; it sleeps between polls.
 
-// Runs the part of rank 0.
-EnsembleOutcome run_leader(WorkerTeam& team, const BatchPlan& plan, const EnsembleRun& run);
-
-// Runs the part of the other ranks; returns an empty outcome.
-EnsembleOutcome run_follower(WorkerTeam& team, const EnsembleRun& run);
-
-// Computes the whole ensemble: the features of every gearbox, in the order of the gearboxes.
-
 // Computes all batches that the store does not have, on the threads of all ranks. Every rank must
 // call it. Rank 0 assigns the batches in order and stores them. The outcome is empty in the other
 // ranks.

@@ -31,17 +31,19 @@ struct MissRecords {
     }
 };
 
-}  // namespace
-
+// Reason why a run of batches has no result, or "".
 std::string failure_reason(const EnsembleOutcome& outcome) {
     return outcome.failure.empty() && !outcome.interruption.empty()
                ? "stopped by " + outcome.interruption
                : outcome.failure;
 }
 
+// Sample size of plain counting that gives this relative variance of a rate; NaN for a rate of 1.
 double equivalent_sample_size(double rate, double variance) {
     return rate < 1.0 ? (1.0 - rate) / (rate * variance) : kNan;
 }
+
+}  // namespace
 
 MissRateResult estimate_miss_rate(const TilePlan& tile, const EnsemblePlan& ensemble,
                                   const MissRateRequest& request, const Ranks& ranks,

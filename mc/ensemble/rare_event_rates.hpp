@@ -26,12 +26,7 @@ struct MissRateResult {
     double counted = 0.0;
 };
 
-// Reason why a run of batches has no result, or "".
-std::string failure_reason(const EnsembleOutcome& outcome);
-// Sample size of plain counting that gives this relative variance of a rate; NaN for a rate of 1.
-double equivalent_sample_size(double rate, double variance);
-
-// Every rank must call it with the plans of study_for_miss_rate(); only rank 0 gets the result.
+// Every rank must call it with the plans of miss_rate_text(); only rank 0 gets the result.
 // Throws std::runtime_error if a batch fails or the run is interrupted.
 MissRateResult estimate_miss_rate(const TilePlan& tile, const EnsemblePlan& ensemble,
                                   const MissRateRequest& request, const Ranks& ranks,
@@ -64,7 +59,7 @@ struct RareRateResult {
 // Largest number of gearboxes that estimate_rare_rate() computes.
 long largest_gearbox_count(const RareRateRequest& request);
 
-// Every rank must call it with the plans of study_for_rare_rate(); only rank 0 gets the result.
+// Every rank must call it with the plans of rare_rate_text(); only rank 0 gets the result.
 // Throws std::runtime_error if a batch fails or the run is interrupted.
 RareRateResult estimate_rare_rate(const TilePlan& tile, const EnsemblePlan& ensemble,
                                   const RareRateRequest& request, const Ranks& ranks,

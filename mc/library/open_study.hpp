@@ -9,7 +9,7 @@
 
 #include "mc/ensemble/gearbox/simulation.hpp"
 #include "mc/plan/ensemble_plan.hpp"
-#include "mc/plan/modal_plan.hpp"
+#include "mc/plan/gearbox_plan.hpp"
 
 namespace gearpod::mc {
 

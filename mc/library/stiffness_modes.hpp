@@ -6,7 +6,6 @@
 
 #include "mc/files/signal_file.hpp"
 #include "mc/plan/gearbox_plan.hpp"
-#include "mc/plan/modal_plan.hpp"
 
 namespace gearpod::mc {
 

@@ -10,7 +10,6 @@
 #include "machine/no_value.hpp"
 #include "mc/ensemble/gearbox/healthy_solution.hpp"
 #include "mc/lives/crack_life.hpp"
-#include "mc/lives/load_axis.hpp"
 #include "mc/lives/superposition.hpp"
 #include "mc/results/results_file.hpp"
 

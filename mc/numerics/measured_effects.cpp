@@ -5,9 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "mc/numerics/time_budget.hpp"
-
 namespace gearpod::mc {
+
 namespace {
 
 // Signals may cover fewer mesh periods after the change: both records keep the common ones.

@@ -2,13 +2,30 @@
 // out, or added where the study leaves it out.
 #pragma once
 
+#include <cmath>
 #include <functional>
 #include <string>
 #include <vector>
 
+#include "machine/clocks.hpp"
 #include "mc/numerics/pilot.hpp"
 
 namespace gearpod::mc {
+
+// Remaining processor time of a measurement. No new part is started when it has run out.
+
+class TimeBudget {
+  public:
+    // `seconds` 0: no limit.
+    explicit TimeBudget(double seconds)
+        : end_s_(seconds > 0.0 ? thread_processor_s() + seconds : INFINITY) {}
+
+    double seconds() const { return end_s_ - thread_processor_s(); }
+    bool enough(double needed_s = 0.0) const { return seconds() > needed_s; }
+
+  private:
+    double end_s_;
+};
 
 // Relative change of a feature that matters where the feature's scatter is unknown.
 inline constexpr double kChangeOfFeature = 1e-2;

@@ -13,7 +13,6 @@
 #include "mc/ensemble/batch_workers.hpp"
 #include "mc/numerics/numerical_error.hpp"
 #include "mc/numerics/pilot.hpp"
-#include "mc/numerics/reference.hpp"
 #include "mc/numerics/solver_setting.hpp"
 
 namespace gearpod::mc {

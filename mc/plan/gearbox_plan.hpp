@@ -14,6 +14,7 @@
 #include "lockstep/plan/tooth_pairs.hpp"
 #include "mc/plan/drivetrain.hpp"
 #include "mc/plan/scene_stiffness.hpp"
+#include "mc/study/study.hpp"
 #include "signals/noise/bearing_impulses.hpp"
 
 namespace gearpod::mc {
@@ -128,5 +129,45 @@ struct GearboxPlan {
 // Impulses of one of the study's bearings in a gearbox with these inputs.
 signals::BearingImpulses bearing_impulses(const GearboxPlan& gearbox, const InstanceInputs& inputs,
                                           const Bearing& bearing);
+
+// Gearbox of a study as far as its vibration modes depend on it.
+
+struct ModalPlan {
+    BodyModel bodies;
+    InstanceInputs nominal;          // inputs of the nominal gearbox
+    std::vector<double> mean_pairs;  // mean stiffness of every gear pair, N/m
+    // Null without tooth numbers: modes then are those at rest only.
+    std::shared_ptr<const Drivetrain> drivetrain;
+    Member speed_member;  // whose speed the study gives
+    bool coupled;         // true if elastic shafts couple the gearbox to neighbouring stages
+};
+
+// The study may lack tooth numbers if its mesh stiffness is constant. Throws SceneError if masses
+// or inertias are missing.
+ModalPlan make_modal_plan(const Study& study);
+
+// Elastic shafts between a gearbox and its neighbouring stages: ends, torques, natural frequencies
+// and run-in.
+
+// Shaft of a stage between these gearboxes.
+StageShaft make_shaft(const NeighbourStage& given, const GearboxPlan& other,
+                      const GearboxPlan& stage);
+
+// Gearbox at the other end of a stage's shaft: an earlier stage, or the study's.
+const GearboxPlan& other_end(const GearboxPlan& gearbox, const StagePlan& stage);
+
+// External torque of a gearbox with these inputs on one of its shafts, N m, positive in the sense
+// in which this shaft turns.
+double shaft_torque_N_m(const GearboxPlan& gearbox, Member shaft, const InstanceInputs& inputs);
+
+// Natural frequencies of the whole train, all gearboxes that elastic shafts couple, at mean mesh
+// stiffness and without rotation of the carriers, Hz, ascending.
+std::vector<double> train_frequencies_Hz(const GearboxPlan& gearbox);
+
+// Mesh periods of the run-in with coupled stages: at least that many, and until the motion of the
+// gearboxes against each other has decayed to the tolerance.
+double coupled_run_in(const GearboxPlan& gearbox, double tolerance, int run_in_meshes);
+// Mesh periods of a stage by which its records extend beyond those of the study's gearbox.
+inline constexpr int kMarginMeshes = 2;
 
 }  // namespace gearpod::mc

@@ -27,8 +27,8 @@ Study with_fault(const Study& study, double size) {
     return restricted;
 }
 
-}  // namespace
-
+// Study of test gearboxes that all have a fault of the requested size. The other inputs keep their
+// distributions.
 Study study_for_miss_rate(const Study& study, const MissRateRequest& request) {
     Study restricted =
         with_fault(of_feature(study, request.feature, request.noise_level), request.size);
@@ -38,11 +38,8 @@ Study study_for_miss_rate(const Study& study, const MissRateRequest& request) {
     return restricted;
 }
 
-analysis::Alarm RareRateRequest::towards() const {
-    const analysis::Alarm alarm = features::find_feature(feature)->alarm;
-    return rate ? alarm : analysis::opposite(alarm);
-}
-
+// Study for multilevel splitting. Healthy gearboxes are those of its threshold group, faulty ones
+// are as for a miss rate.
 Study study_for_rare_rate(const Study& study, const RareRateRequest& request) {
     Study restricted = of_feature(study, request.feature, request.noise_level);
     if (!request.rate) {
@@ -53,6 +50,13 @@ Study study_for_rare_rate(const Study& study, const RareRateRequest& request) {
     restricted.ensemble.importance_sampling.reset();
     restricted.ensemble.sampling = SamplingKind::plain;
     return restricted;
+}
+
+}  // namespace
+
+analysis::Alarm RareRateRequest::towards() const {
+    const analysis::Alarm alarm = features::find_feature(feature)->alarm;
+    return rate ? alarm : analysis::opposite(alarm);
 }
 
 RareEventSource rare_event_source(const std::string& text, const std::string& name) {

@@ -22,9 +22,6 @@ struct MissRateRequest {
     long gearboxes = 0;
     int records = 0;  // per gearbox, a multiple of NoiseImportanceSampler::kKinds
 };
-// Study of test gearboxes that all have a fault of the requested size. The other inputs keep their
-// distributions.
-Study study_for_miss_rate(const Study& study, const MissRateRequest& request);
 
 // Either the threshold of healthy gearboxes for a false-alarm rate, or the miss rate of a given
 // threshold for gearboxes with a fault.
@@ -39,9 +36,6 @@ struct RareRateRequest {
     // Side on which the rare values lie. Misses lie on the opposite side of alarms.
     analysis::Alarm towards() const;
 };
-// Study for multilevel splitting. Healthy gearboxes are those of its threshold group, faulty ones
-// are as for a miss rate.
-Study study_for_rare_rate(const Study& study, const RareRateRequest& request);
 
 // Study of stored results, as far as rare events need it.
 struct RareEventSource {

@@ -12,7 +12,7 @@
 #include "lockstep/integrators/facts.hpp"
 #include "lockstep/steps/stability.hpp"
 #include "lockstep/tile/tile_integrators.hpp"
-#include "mc/plan/coupled_shafts.hpp"
+#include "mc/plan/gearbox_plan.hpp"
 #include "mc/study/fluctuations.hpp"
 #include "mc/study/gears.hpp"
 #include "mc/study/housing.hpp"

@@ -6,12 +6,56 @@
 #include <memory>
 #include <optional>
 #include <variant>
+#include <vector>
 
+#include "lockstep/plan/integration_plan.hpp"
+#include "lockstep/plan/integrator.hpp"
+#include "lockstep/plan/mode_inertia.hpp"
+#include "lockstep/steps/graded_grid.hpp"
 #include "lockstep/tile/tile.hpp"
+#include "mc/plan/drivetrain.hpp"
+#include "mc/plan/gearbox_plan.hpp"
 #include "mc/plan/record_plan.hpp"
-#include "mc/plan/scene_plan.hpp"
+#include "mc/plan/sampling.hpp"
+#include "mc/plan/scene_stiffness.hpp"
 
 namespace gearpod::mc {
+
+// Integrator and numbers of steps per mesh period of a study.
+struct Stepping {
+    lockstep::Integrator integrator = lockstep::kUsualExplicit;
+    int steps = 1;
+    // Smallest number of steps per mesh period. With fewer, the integrator is unstable for some
+    // gearbox of the pilot sample or the sensor's low-pass is inaccurate.
+    int least = 1;
+    // Number of mesh periods in which a disturbance of the nominal gearbox decays by 1/e; infinite
+    // without damping.
+    double decay_meshes = 0.0;
+    // Longest step, in mesh periods, at which the integrator is stable with a margin and the
+    // sensor's low-pass still accurate.
+    double longest_step = 1.0;
+    // Number of steps per mesh period with which lockstep::kUsualExplicit is stable, used or not.
+    double explicit_steps = 0.0;
+};
+// Result of calibrating the steps on a pilot sample.
+struct Calibration {
+    double signal_error = 0.0;
+    lockstep::Grading grading;
+};
+
+// Integration plan of a study's gearboxes: integrator, steps and samples, and the stiffness at
+// their nodes. It does not depend on the convergence tolerance, so scenes that differ only in that
+// share one plan.
+struct ScenePlan {
+    lockstep::IntegrationPlan integration;
+    Stepping stepping;
+    // Calibration of the steps on a pilot sample; empty if there was none.
+    std::optional<Calibration> calibration;
+    int te_samples = 0;  // number of encoder samples per mesh period
+};
+
+// Throws SceneError.
+ScenePlan make_plan(const Study& study, const Sampler& sampler, const GearboxPlan& gearbox);
 
 // The periodic orbit of a mesh period is integrated, and the passages of the faulty tooth.
 struct PeriodicOrbit {};

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "analysis/monitoring/sustained_alarms.hpp"
+#include "analysis/monitoring/false_alarms.hpp"
 #include "analysis/report/report.hpp"
 #include "machine/fields.hpp"
 #include "mc/results/result_rows.hpp"

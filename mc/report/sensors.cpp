@@ -7,7 +7,7 @@
 #include <limits>
 
 #include "analysis/report/wording.hpp"
-#include "analysis/statistics/difference_tests.hpp"
+#include "analysis/statistics/interval.hpp"
 #include "analysis/statistics/learned_sum.hpp"
 #include "features/feature.hpp"
 #include "features/statistics/signal_statistics.hpp"

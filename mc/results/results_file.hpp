@@ -119,7 +119,7 @@ struct RowSignals {
 
 // Difference of a feature at one noise level between gearboxes computed with fine steps and with
 // those of the run: fine - own = offset + by_value * own + by_size * size, fitted by least squares
-// (mc/numerics/paired_correction.hpp). NaN for too few pairs.
+// (mc/numerics/numerical_error.hpp). NaN for too few pairs.
 struct PairedCorrection {
     double offset = 0.0, by_value = 0.0;             // in the feature's unit; relative
     double by_size = 0.0, by_size_error = 0.0;       // per unit of fault size; standard error

@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "dynamics/effects/mesh_damping.hpp"
-#include "lockstep/plan/fault_pattern.hpp"
+#include "lockstep/plan/fault_schedule.hpp"
 #include "lockstep/plan/integrator.hpp"
 #include "machine/contracts.hpp"
 #include "machine/instruction_sets.hpp"
@@ -112,7 +112,7 @@ struct Life {
     // Number of torques and speeds at which a gearbox is integrated if its records' values differ,
     // by default as many as interpolation_tolerance needs. Signals between them are interpolated.
     std::optional<int> given_torques, given_speeds;
-    // The same with nodes of one polynomial, which converges faster (load_axis.hpp).
+    // The same with nodes of one polynomial, which converges faster (superposition.hpp).
     std::optional<int> polynomial_torques, polynomial_speeds;
     // Instead of that: number of torques and speeds, equally frequent, that records have at all.
     std::optional<int> distinct_torques, distinct_speeds;
@@ -416,7 +416,7 @@ struct Until {
 };
 
 // Sampling of the gearboxes' random inputs: independent, or as points of a scrambled Sobol sequence
-// (mc/plan/draw_plan.hpp).
+// (mc/plan/sampling.hpp).
 enum class SamplingKind { plain, sobol };
 
 struct Ensemble {

@@ -2,7 +2,7 @@
 
 Prints one line per problem of the sources below TREE and exits with 1 if there are any. Problems
 are includes against the order of floors.txt, includes and imports in a circle, missing headers and modules,
-names of missing files in comments, constants of one name in two sources of a library, scripts that
+names of missing files in comments, paths of files in pages of which one does not include the next, constants of one name in two sources of a library, scripts that
 cannot be run, and numbers above those of ceilings.txt, which are printed too.
 """
 
@@ -30,6 +30,9 @@ FOLDER = re.compile(r"`([\w/]+)/`")
 # Sources that have compiler options of their own and are never compiled together with others.
 ALONE = re.compile(r"_kernel\.cpp$")
 CONSTANT = re.compile(r"(?:inline |static )?constexpr [^(=]*?\b(k[A-Z]\w*)\s*(?:\[|=|\{)")
+# A step of a path in a page, and the most that a path may have.
+STEP = re.compile(r"\| (\d+) `([\w./]+\.cpp)` \|")
+MOST_STEPS = 8
 STRING = re.compile(r'"(\\.|[^"\\])*"')
 
 # Folder of a package that scripts of other folders import, and packages from outside.
@@ -250,6 +253,20 @@ def missing_folders(tree):
                     yield f"{file}:{number} names {name}/, which does not exist"
 
 
+def broken_paths(tree):
+    """Yields steps of a page's table of numbered sources in which no include leads to the next."""
+    headers = collections.defaultdict(set)
+    for arrow in tree.resolved_arrows:
+        headers[module(arrow.file)].add(module(arrow.target))
+    for page in (file for file in tree.files if file.endswith(".md")):
+        steps = [match.groups() for line in tree.lines(page) if (match := STEP.match(line))]
+        for (_, file), (number, following) in zip(steps, steps[1:]):
+            if int(number) > 1 and module(following) not in headers[module(file)]:
+                yield f"{page}: {file} does not include the next file of its path, {following}"
+        if any(int(number) > MOST_STEPS for number, _ in steps):
+            yield f"{page}: a path has more than {MOST_STEPS} files"
+
+
 def namespace(file):
     """Folder whose sources share a namespace: analysis, mc, and each folder of src."""
     parts = file.split("/")
@@ -321,6 +338,7 @@ def complaints(tree, floors):
     yield from circles(tree.imports, module, "Python modules")
     yield from missing_names(tree)
     yield from missing_folders(tree)
+    yield from broken_paths(tree)
     yield from clashing_constants(tree)
     yield from not_executable(tree)
 

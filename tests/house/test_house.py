@@ -200,6 +200,12 @@ class House(unittest.TestCase):
                      "src/README.md:1 names low/gone_*.cpp, which does not exist",
                      "src/low/sand.cpp:1 names gone.hpp, which does not exist")
 
+    def test_paths_of_pages(self):
+        page = "| 1 `mc/roof.cpp` | a |\n| 2 `src/low/stone.cpp` | b |\n"
+        self.assertIn("README.md: mc/roof.cpp does not include the next file of its path, src/low/stone.cpp",
+                      self.run_on({"README.md": page})[0])
+        self.assertEqual(self.run_on({"README.md": page, "mc/roof.hpp": '#include "low/stone.hpp"\n'})[0].count("path"), 0)
+
     def test_names_of_missing_folders(self):
         self.refused({"src/README.md": "`low/`, `src/low/`, `build/`\n| `gone/` | \n"},
                      "src/README.md:2 names gone/, which does not exist")

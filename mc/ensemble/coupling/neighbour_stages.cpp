@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "mc/ensemble/coupling/record_positions.hpp"
-#include "mc/plan/coupled_shafts.hpp"
+#include "mc/plan/gearbox_plan.hpp"
 #include "mc/plan/tile_plan.hpp"
 
 namespace gearpod::mc {

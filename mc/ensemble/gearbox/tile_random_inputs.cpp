@@ -13,6 +13,17 @@ namespace gearpod::mc {
 
 namespace {
 
+// Knots per second (1 / D) of noise whose power spectrum falls to one half at `half_power_Hz`,
+// where sinc(0.2275...)^8 = 1/2 (excitation.hpp).
+double knots_per_s(double half_power_Hz) {
+    constexpr double kHalfPower = 0.2275119577344975;
+    return half_power_Hz / kHalfPower;
+}
+
+// Standard deviation of the knots that gives noise of rms 1: the mean square of the cubic B-spline
+// is 151/315.
+const double kKnotDeviation = std::sqrt(315.0 / 151.0);
+
 // Parameters of a sinusoidal fluctuation; next, of a random one.
 struct SineInputs {
     double amplitude, turns_per_mesh, turns_per_s, phase_rad;
@@ -36,7 +47,7 @@ void draw_noise(std::vector<NoiseInputs> noise, std::span<const double> mesh_per
     std::vector<std::size_t> count(lanes);
     for (std::size_t l = 0; l < lanes; ++l) {
         boost::random::uniform_real_distribution<double> part(0.0, 1.0);
-        const double a_mesh = lockstep::knots_per_s(noise[l].band_Hz) * mesh_period_s[l];
+        const double a_mesh = knots_per_s(noise[l].band_Hz) * mesh_period_s[l];
         f.knots_per_s.push_back(a_mesh / mesh_period_s[l]);
         f.first_knot.push_back(1.0 + part(engines[l]) - first_mesh * a_mesh);
         // The spline uses two further knots.
@@ -46,7 +57,7 @@ void draw_noise(std::vector<NoiseInputs> noise, std::span<const double> mesh_per
     for (std::size_t l = 0; l < lanes; ++l) {
         boost::random::normal_distribution<double> unit;
         for (std::size_t knot = 0; knot < count[l]; ++knot) {
-            f.knot[knot * lanes + l] = noise[l].rms * lockstep::knot_deviation() * unit(engines[l]);
+            f.knot[knot * lanes + l] = noise[l].rms * kKnotDeviation * unit(engines[l]);
         }
     }
 }

@@ -5,21 +5,343 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <variant>
 
 #include "lockstep/integrators/facts.hpp"
+#include "lockstep/steps/stability.hpp"
 #include "machine/upper_median.hpp"
+#include "mc/ensemble/ensemble.hpp"
 #include "mc/ensemble/gearbox/solution_choice.hpp"
-#include "mc/numerics/accuracy/measured_settings.hpp"
+#include "mc/ensemble/ranks.hpp"
 #include "mc/numerics/accuracy/report.hpp"
+#include "mc/numerics/measured_effects.hpp"
 #include "mc/numerics/numerical_error.hpp"
 #include "mc/numerics/numerics_choice.hpp"
 #include "mc/numerics/solver_setting.hpp"
-#include "mc/numerics/time_budget.hpp"
+#include "mc/results/reliability_of_results.hpp"
+#include "mc/results/result_rows.hpp"
 #include "mc/study/random/philox.hpp"
 
 namespace gearpod::mc {
 
 namespace {
+
+using analysis::SizeEstimate;
+
+// True if a value raises the alarm.
+bool alarm(const analysis::FeatureDetection& feature, std::size_t level, double value) {
+    return analysis::is_alarm(value, feature.levels[level].threshold, feature.alarm);
+}
+
+double share_of_alarms_changed(const Results& a, const Results& b) {
+    const std::size_t levels = a.noise_levels.size();
+    long changed = 0, all = 0;
+    for (std::size_t f = 0; f < a.features.size(); ++f) {
+        for (std::size_t row = 0; row < a.group.size(); ++row) {
+            if (a.group[row] != static_cast<int>(Group::test)) {
+                continue;
+            }
+            for (std::size_t level = 0; level < levels; ++level) {
+                const std::size_t value = row * levels + level;
+                changed += alarm(a.detection[f], level, a.features[f].values[value]) !=
+                                   alarm(b.detection[f], level, b.features[f].values[value])
+                               ? 1
+                               : 0;
+                ++all;
+            }
+        }
+    }
+    return all > 0 ? static_cast<double>(changed) / static_cast<double>(all) : 0.0;
+}
+
+void compare_rates(const Results& here, const Results& reference, DetectionChange& change) {
+    for (std::size_t f = 0; f < reference.detection.size(); ++f) {
+        for (std::size_t level = 0; level < reference.noise_levels.size(); ++level) {
+            const auto& cells = reference.detection[f].levels[level].cells;
+            for (std::size_t c = 0; c < cells.size(); ++c) {
+                const double moved =
+                    std::abs(here.detection[f].levels[level].cells[c].pd - cells[c].pd);
+                if (moved > change.pd || change.pd_half_width == 0.0) {
+                    change.pd = std::max(change.pd, moved);
+                    change.pd_half_width = 0.5 * (cells[c].upper - cells[c].lower);
+                }
+            }
+        }
+    }
+}
+
+bool reached(const SizeEstimate& estimate) {
+    return estimate.where == SizeEstimate::Where::reached;
+}
+
+void compare_sizes(const analysis::Reliability& here, const analysis::Reliability& reference,
+                   DetectionChange& change) {
+    for (std::size_t f = 0; f < reference.features.size(); ++f) {
+        for (std::size_t level = 0; level < reference.features[f].levels.size(); ++level) {
+            const auto& there = reference.features[f].levels[level].hit_miss;
+            const auto& compared = here.features[f].levels[level].hit_miss;
+            if (!there.refusal.empty() || !compared.refusal.empty() ||
+                !reached(there.a90.estimate) || !reached(compared.a90.estimate)) {
+                continue;
+            }
+            const double a90 = there.a90.estimate.size;
+            const double moved = std::abs(compared.a90.estimate.size - a90) / a90;
+            if (moved > change.a90) {
+                change.a90 = moved;
+                change.a90_interval =
+                    reached(there.a90.upper) ? (there.a90.upper.size - a90) / a90 : INFINITY;
+            }
+        }
+    }
+}
+
+// Results of a pilot ensemble and the reliability derived from them.
+struct PilotEnsemble {
+    Results results;
+    std::optional<analysis::Reliability> reliability;
+};
+
+PilotEnsemble run_pilot_ensemble(const TilePlan& tile, const EnsemblePlan& ensemble) {
+    Progress silent(1, true);
+    PilotEnsemble pilot;
+    pilot.results = run_ensemble(tile, ensemble, silent);
+    pilot.results.detection = detect_all(pilot.results);
+    pilot.reliability =
+        reliability_of(pilot.results, ColumnRows(pilot.results), "", thread_count(ensemble));
+    return pilot;
+}
+
+// True if the healthy sample is large enough for thresholds.
+bool has_rates(const PilotEnsemble& pilot) {
+    const auto has_threshold = [](const analysis::LevelDetection& level) {
+        return std::isfinite(level.threshold);
+    };
+    return std::any_of(pilot.results.detection.begin(), pilot.results.detection.end(),
+                       [&](const analysis::FeatureDetection& feature) {
+                           return std::any_of(feature.levels.begin(), feature.levels.end(),
+                                              has_threshold);
+                       });
+}
+
+DetectionChange detection_change(const PilotEnsemble& here, const PilotEnsemble& reference) {
+    DetectionChange change;
+    change.gearboxes = std::count(reference.results.group.begin(), reference.results.group.end(),
+                                  static_cast<int>(Group::test));
+    change.alarms = share_of_alarms_changed(here.results, reference.results);
+    compare_rates(here.results, reference.results, change);
+    if (here.reliability && reference.reliability) {
+        compare_sizes(*here.reliability, *reference.reliability, change);
+    }
+    return change;
+}
+
+void stiffen_bearings(dynamics::GearboxInputs& inputs, double factor) {
+    std::visit(
+        [&](auto& kind) {
+            for (double& stiffness : kind.bearing_stiffness_N_m) {
+                stiffness *= factor;
+            }
+        },
+        inputs);
+}
+
+struct HardSystem {
+    const char* name;
+    dynamics::GearboxMatrices matrices;
+};
+
+// The nominal gearbox with the properties of tests/hard that change its stable steps.
+std::vector<HardSystem> hard_systems(const StabilityCase& gearbox) {
+    const auto& [layout, nominal, pairs] = gearbox;
+    dynamics::GearboxInputs stiff = nominal, undamped = nominal;
+    stiffen_bearings(stiff, 100.0);
+    std::visit([](auto& kind) { kind.mesh_damping = {}; }, undamped);
+    std::vector<double> broken = pairs;
+    broken.front() = 0.0;
+    return {{"bearings 100 times as stiff", dynamics::assemble(layout, stiff, pairs)},
+            {"broken tooth: a mesh without stiffness", dynamics::assemble(layout, nominal, broken)},
+            {"no mesh damping", dynamics::assemble(layout, undamped, pairs)}};
+}
+
+}  // namespace
+
+StabilityMap stability_map(const StabilityCase& gearbox, const PlannedSteps& own) {
+    constexpr int kFactors = 13;  // from 0.01 to 100, three in a decade
+    const double period_s = dynamics::mesh_period_s(gearbox.nominal);
+    StabilityMap map;
+    map.own = lockstep::name(own.integrator);
+    map.own_steps = own.steps;
+    std::vector<dynamics::GearboxMatrices> systems;
+    for (int i = 0; i < kFactors; ++i) {
+        map.factors.push_back(std::pow(10.0, (i - kFactors / 2) / 3.0));
+        std::vector<double> pairs = gearbox.stiffest_pairs;
+        for (double& stiffness : pairs) {
+            stiffness *= map.factors.back();
+        }
+        systems.push_back(dynamics::assemble(gearbox.layout, gearbox.nominal, pairs));
+    }
+    const std::vector<HardSystem> hard = hard_systems(gearbox);
+    for (const HardSystem& system : hard) {
+        map.hard.push_back({system.name, {}});
+    }
+    for (const lockstep::Integrator integrator : lockstep::all_integrators()) {
+        if (!lockstep::is_explicit(integrator)) {
+            map.implicit.emplace_back(lockstep::name(integrator));
+            continue;
+        }
+        const auto fewest_steps = [&](const dynamics::GearboxMatrices& system) {
+            return period_s / lockstep::longest_stable_step(system, integrator);
+        };
+        StabilityCurve curve{lockstep::name(integrator), {}};
+        for (const dynamics::GearboxMatrices& system : systems) {
+            curve.steps.push_back(fewest_steps(system));
+        }
+        for (std::size_t i = 0; i < hard.size(); ++i) {
+            map.hard[i].steps.push_back(fewest_steps(hard[i].matrices));
+        }
+        map.curves.push_back(std::move(curve));
+    }
+    return map;
+}
+
+namespace {
+
+// Numerics without a given integrator, number of steps, mass scaling and single precision.
+Numerics without_setting(Numerics numerics) {
+    numerics.integrator.reset();
+    numerics.steps_per_mesh = 0;
+    numerics.mass_scaling_Hz = 0.0;
+    numerics.precision = Precision::double_precision;
+    numerics.lanes = std::min(numerics.lanes, full_lanes(Precision::double_precision));
+    return numerics;
+}
+
+// Candidates have up to this many times the steps of an integrator's own rule, which aims at 0.1 %.
+constexpr double kListedBeyondOwnRule = 1.5;
+// Only three graded grids are measured, because each one costs a pilot. None is made if its fewest
+// steps would cost more than this many times the least expensive integrator's own steps.
+constexpr double kListedGridTolerances[] = {1e-2, 1e-3, 1e-4};
+constexpr double kWorthGrading = 3.0;
+
+// Cost of the integrator's own uniform steps, in rk4 steps.
+double own_cost(const SolverFacts& facts, const SolverFamily& family) {
+    const auto cost = step_cost(facts, family.common);
+    return cost && family.own_steps > 0 ? *cost * family.own_steps : INFINITY;
+}
+
+void add_graded(const SolverFacts& facts, const SolverFamily& family, double least_cost,
+                std::vector<ListedSetting>& all) {
+    const double over = kFewestGradedFraction * own_cost(facts, family) / least_cost;
+    if (over > kWorthGrading) {
+        all.push_back({family.common,
+                       fmt::format("not measured: even with an eighth of its {} uniform steps it "
+                                   "would cost {:.0f} times as much as the least expensive "
+                                   "integrator",
+                                   family.own_steps, over)});
+        return;
+    }
+    for (std::size_t i = 0; i < family.size(); ++i) {
+        if (std::find(std::begin(kListedGridTolerances), std::end(kListedGridTolerances),
+                      family.grid_tolerances[i]) != std::end(kListedGridTolerances)) {
+            all.push_back({family.setting(i, convergence_tolerances().front()), ""});
+        }
+    }
+}
+
+// Longer steps of central differences by mass scaling, in both precisions; none for a study that
+// cannot use it.
+void add_scaled(const Planner& planner, std::vector<ListedSetting>& all) {
+    constexpr int kMostScaledSteps = 8;  // per sample
+    SolverSetting setting = own_setting(without_setting(planner.facts().numerics));
+    setting.numerics.integrator = lockstep::Integrator::central_difference;
+    setting.numerics.convergence_tolerance = convergence_tolerances().front();
+    setting.options.emplace_back("mass_scaling_Hz");
+    for (const Precision precision : {Precision::double_precision, Precision::single_precision}) {
+        setting.numerics.precision = precision;
+        if (precision == Precision::single_precision) {
+            setting.options.emplace_back("precision");
+        }
+        try {
+            const PlannedSteps unscaled = steps_of(planner, setting);
+            const double fastest_Hz = planner.fastest_mode_Hz(setting.numerics);
+            for (int a_sample = 1;
+                 a_sample <= kMostScaledSteps && a_sample * unscaled.samples < unscaled.least;
+                 ++a_sample) {
+                if (const auto numerics = scaled_numerics(planner, setting.numerics, fastest_Hz,
+                                                          a_sample * unscaled.samples)) {
+                    all.push_back({{*numerics, setting.options}, ""});
+                }
+            }
+        } catch (const SceneError&) {  // the method or the scaling is invalid for this study
+        }
+    }
+}
+
+}  // namespace
+
+std::vector<ListedSetting> listed_settings(const Planner& planner) {
+    const SolverFacts& facts = planner.facts();
+    const std::vector<SolverFamily> all_families =
+        solver_families(planner, without_setting(facts.numerics), kListedBeyondOwnRule);
+    double least_cost = INFINITY;
+    for (const SolverFamily& family : all_families) {
+        least_cost = family.graded() ? least_cost : std::min(least_cost, own_cost(facts, family));
+    }
+    std::vector<ListedSetting> all{{own_setting(facts.numerics), ""}};
+    for (const SolverFamily& family : all_families) {
+        if (family.graded()) {
+            add_graded(facts, family, least_cost, all);
+            continue;
+        }
+        if (family.size() == 0) {
+            all.push_back({family.common, family.refusal});
+        }
+        for (std::size_t i = 0; i < family.size(); ++i) {
+            all.push_back({family.setting(i, convergence_tolerances().front()), ""});
+        }
+    }
+    add_scaled(planner, all);
+    if (facts.every_mesh) {
+        SolverSetting full = own_setting(facts.numerics);
+        full.numerics.horizon = *facts.every_mesh;
+        full.options.emplace_back("horizon");
+        all.push_back({full, ""});
+    }
+    return all;
+}
+
+namespace {
+
+bool integrates_every_mesh(const SolverSetting& setting) {
+    return setting.chooses("horizon");
+}
+
+// Index of a setting in `settings`; settings.size() if it is not among them.
+std::size_t index_of(const SolverSetting& setting, const std::vector<SettingResult>& settings) {
+    const auto same = std::ranges::find(settings, setting, &SettingResult::setting);
+    return static_cast<std::size_t>(same - settings.begin());
+}
+
+// Indices of `settings` from `from` on in the order of measurement: index 0 first, then by the cost
+// model's time of a mesh period, those of unknown cost last.
+std::vector<std::size_t> cheapest_first(const SolverFacts& facts,
+                                        const std::vector<SettingResult>& settings,
+                                        std::size_t from) {
+    std::vector<std::pair<double, std::size_t>> costs;
+    for (std::size_t i = from; i < settings.size(); ++i) {
+        const SolverSetting& setting = settings[i].setting;
+        const auto step = step_cost(facts, setting);
+        const int steps = setting.numerics.steps_per_mesh;
+        const double cost = step && steps > 0 ? *step * steps : INFINITY;
+        costs.emplace_back(i == 0 ? 0.0 : cost, i);
+    }
+    std::sort(costs.begin(), costs.end());
+    std::vector<std::size_t> order;
+    for (const auto& [cost, index] : costs) {
+        order.push_back(index);
+    }
+    return order;
+}
 
 // Number of gearboxes of the pilot ensemble, both groups: default, and smallest for which results
 // are given.

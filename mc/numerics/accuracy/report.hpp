@@ -7,14 +7,74 @@
 #include <string>
 #include <vector>
 
+#include "analysis/reliability.hpp"
 #include "machine/fields.hpp"
-#include "mc/numerics/accuracy/pilot_detection.hpp"
-#include "mc/numerics/accuracy/stability_map.hpp"
 #include "mc/numerics/measured_effects.hpp"
-#include "mc/numerics/reference.hpp"
+#include "mc/numerics/pilot.hpp"
 #include "mc/numerics/solver_setting.hpp"
+#include "mc/plan/planner.hpp"
+#include "mc/plan/scene.hpp"
+#include "mc/results/results_file.hpp"
 
 namespace gearpod::mc {
+
+// Effect of a solver setting on detection rates: the same ensemble computed with two settings.
+struct DetectionChange {
+    long gearboxes = 0;   // test gearboxes
+    double alarms = 0.0;  // fraction of alarm decisions (gearbox, feature, noise level) that differ
+    double pd = 0.0;      // largest change of a detection rate
+    double pd_half_width = 0.0;  // of that rate's interval, in the reference
+    double a90 = -1.0;           // largest relative change of an a90 that both reach; -1: none
+    double a90_interval = 0.0;   // of that a90: (upper bound - a90) / a90; infinite if not reached
+};
+GEARPOD_FIELDS(DetectionChange, gearboxes, alarms_changed, pd_change, pd_half_width, a90_change_,
+               a90_interval)
+
+// Stability map of a study: steps per mesh period at which each integrator is stable, over the
+// stiffness of the meshes.
+
+struct StabilityCurve {
+    std::string integrator;
+    std::vector<double> steps;  // fewest stable ones, by factor
+};
+GEARPOD_FIELDS(StabilityCurve, integrator, steps)
+
+// The gearbox with one of the properties that tests/hard examines.
+struct HardCase {
+    std::string name;
+    std::vector<double> steps;  // fewest stable ones, by curve of the map
+};
+GEARPOD_FIELDS(HardCase, name, steps)
+
+struct StabilityMap {
+    std::vector<double> factors;         // on the largest stiffness of every gear pair
+    std::vector<StabilityCurve> curves;  // of explicit integrators
+    std::vector<HardCase> hard;          // at the study's own mesh stiffness
+    std::vector<std::string> implicit;   // integrators that are stable everywhere
+    std::string own;                     // the study's integrator
+    double own_steps = 0.0;
+};
+
+// Gearbox of which a map is made: the nominal one, with the largest stiffness of every gear pair.
+struct StabilityCase {
+    dynamics::GearboxLayout layout;
+    dynamics::GearboxInputs nominal;
+    std::vector<double> stiffest_pairs;
+};
+// Bearings and masses stay; mesh damping follows the study's law. `own`: integrator and steps of
+// the study.
+StabilityMap stability_map(const StabilityCase& gearbox, const PlannedSteps& own);
+
+// Solver settings that `accuracy` measures first, before their errors are known.
+
+struct ListedSetting {
+    SolverSetting setting;
+    std::string refusal;  // why it is not measured
+};
+
+// Settings to measure: the study's own first; then all uniform steps and graded grids with the
+// tightest convergence tolerance; last the study's own with every mesh period integrated.
+std::vector<ListedSetting> listed_settings(const Planner& planner);
 
 // Largest numerical error, as a share of a feature's scatter between gearboxes, that hardly changes
 // this scatter: by the factor sqrt(1 + 0.2^2) = 1.02.

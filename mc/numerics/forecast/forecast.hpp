@@ -2,11 +2,81 @@
 // from a few computed gearboxes.
 #pragma once
 
-#include "mc/numerics/forecast/run_cost.hpp"
+#include <array>
+#include <vector>
+
+#include "mc/ensemble/batch_workers.hpp"
+#include "mc/ensemble/gearbox/integration_cache.hpp"
 #include "mc/plan/planner.hpp"
+#include "mc/plan/scene.hpp"
 #include "mc/results/results_file.hpp"
 
 namespace gearpod::mc {
+
+// Measures the cost of a run on some of its gearboxes, with the code of the run itself.
+
+// Seconds of one thread for a tile: as many gearboxes as there are lanes, computed together.
+struct TileCost {
+    Seconds whole;      // per tile, full or not: sampling, stiffness, time integration, signals
+    Seconds row;        // per record: noise, features
+    double rest = 0.0;  // per tile: diagnosis of failed gearboxes, waiting for a processor
+
+    double seconds(std::size_t rows) const {
+        return whole.sum() + rest + static_cast<double>(rows) * row.sum();
+    }
+};
+
+// Cost of the gearboxes of one group.
+struct GroupCost {
+    TileCost integrated;  // integrated
+    TileCost reused;      // with the motion of an earlier tile (integration_cache.hpp)
+};
+
+// Process memory in bytes.
+struct MemoryUse {
+    double before = 0.0;   // peak before the first gearbox was computed
+    double peak = 0.0;     // peak afterwards
+    double records = 0.0;  // additional memory of a run: motion that was not recorded here
+    double kept = 0.0;     // additional memory of a run: motion cached for later tiles
+    double held = 0.0;     // memory after the gearboxes, freed blocks included
+    // Additional memory of a run with many tiles: free blocks between used ones.
+    double fragments = 0.0;
+};
+
+struct RunCost {
+    int threads = 0;
+    double wall_s = 0.0;  // for the tiles
+    double task_s = 0.0;  // data common to all threads: path tables, healthy records
+    // Additional time of a thread's first tile: its tables, cold caches, new memory.
+    double start_s = 0.0;
+    std::array<GroupCost, 2> cost;  // indexed by Group
+    // Computed gearboxes, one entry per record; rows as in BatchRows.
+    std::vector<GearboxId> gearboxes;
+    BatchRows rows;
+    // Number of mesh periods recorded here and in a run. They differ only if every mesh period is
+    // integrated and a tile would take too long. `cost` is that of all mesh periods.
+    int recorded = 0, to_record = 0;
+    long meshes = 0;  // total number integrated
+    std::size_t lanes = 0;
+    // Motion that a tile of the run keeps, and tiles that the run integrates.
+    double motion_bytes = 0.0;
+    IntegrationCounts integrations;
+    MemoryUse memory;
+    // True if even a tile with the fewest mesh periods takes too long. Then only one healthy mesh
+    // period is computed, and `cost` contains only the time integration extrapolated from it.
+    bool integration_only = false;
+};
+
+inline constexpr int kFewestMeshes = 8;
+// Longest tile that is computed, in seconds, estimated from the time of one mesh period.
+inline constexpr double kLongestTile_s = 5.0;
+
+// Computes tiles from the whole ensemble on all threads: two per thread (unless there are fewer or
+// they are slow), and more until `budget_s` seconds are over. If every mesh period is integrated
+// and a tile would take longer, it records fewer mesh periods, at least kFewestMeshes. The measured
+// time is then extrapolated to all mesh periods.
+RunCost measure_run_cost(const TilePlan& whole, const EnsemblePlan& ensemble,
+                         const BatchPlan& batches, int threads, double budget_s);
 
 struct AnalysisTrial {
     double total_s = 0.0;    // for all gearboxes and noise levels

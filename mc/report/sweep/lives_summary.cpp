@@ -10,7 +10,7 @@
 #include "analysis/monitoring/monitor_performance.hpp"
 #include "analysis/report/json_values.hpp"
 #include "analysis/report/wording.hpp"
-#include "analysis/statistics/difference_tests.hpp"
+#include "analysis/statistics/interval.hpp"
 #include "mc/files/input/terminal_text.hpp"
 #include "mc/lives/campaign.hpp"
 #include "mc/report/lives_report.hpp"

@@ -7,14 +7,249 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <type_traits>
+#include <utility>
 
-#include "lockstep/integrators/contact_rows.hpp"
-#include "lockstep/integrators/integration_state.hpp"
 #include "lockstep/integrators/sensor_filter.hpp"
 #include "lockstep/plan/integration_plan.hpp"
 #include "machine/instruction_sets.hpp"
 
 namespace gearpod::lockstep {
+
+// State that a kernel advances within a mesh period: in double precision the tile's state itself,
+// in single precision a copy of it.
+//
+// Single precision represents a position by a float and its rounding error (compensated summation,
+// Kahan 1965). A step changes a position by a relative 1e-4 or less, and thousands of such changes
+// would be lost in a float's 6e-8. Velocities need no compensation. Rounding one is equivalent to
+// an acceleration of 6e-8 v / h, 1e-5 of those at the sensor, and dampers remove its effect. The
+// filter's states need none either, because each step recomputes them.
+
+// Floating-point type of a model's kernels.
+template <class Model>
+using RealOf = std::remove_all_extents_t<decltype(std::declval<typename Model::Pairs>().k)>;
+
+struct SingleState {
+    machine::AlignedArray<float> q, v, filter;
+    machine::AlignedArray<float> q_rounding;
+
+    explicit SingleState(const TileState& state)
+        : q(state.q.begin(), state.q.end()),
+          v(state.v.begin(), state.v.end()),
+          filter(state.filter.begin(), state.filter.end()),
+          q_rounding(q.size()) {
+        for (std::size_t i = 0; i < q.size(); ++i) {
+            q_rounding[i] = static_cast<float>(state.q[i] - double{q[i]});
+        }
+    }
+
+    void copy_to(TileState& state) const {
+        for (std::size_t i = 0; i < q.size(); ++i) {
+            state.q[i] = double{q[i]} + double{q_rounding[i]};
+        }
+        state.v.assign(v.begin(), v.end());
+        state.filter.assign(filter.begin(), filter.end());
+    }
+};
+
+// Rounding errors of a state's positions; none in double precision.
+struct NoRounding {};
+GEARPOD_INLINE NoRounding position_rounding(TileState&) {
+    return {};
+}
+GEARPOD_INLINE float* position_rounding(SingleState& state) {
+    return state.q_rounding.data();
+}
+
+// Returns sum + h rate, compensated for single precision; `i` is the index of the sum in `rest`.
+GEARPOD_INLINE double advance(double sum, double h, double rate, NoRounding, int) {
+    return std::fma(h, rate, sum);
+}
+GEARPOD_INLINE float advance(float sum, float h, float rate, float* __restrict rest, int i) {
+    const float change = std::fma(h, rate, rest[i]);
+    const float next = sum + change;
+    rest[i] = change - (next - sum);
+    return next;
+}
+
+GEARPOD_INLINE double position(const TileState& state, int i) {
+    return state.q[static_cast<std::size_t>(i)];
+}
+GEARPOD_INLINE double position(const SingleState& state, int i) {
+    const auto index = static_cast<std::size_t>(i);
+    return double{state.q[index]} + double{state.q_rounding[index]};
+}
+
+// States at the ends of the steps of a mesh period, recorded on request.
+
+// Fraction of a step by which an integrator's positions are ahead of its velocities, between steps
+// without a sample.
+template <class Integrator>
+constexpr double position_lead() {
+    if constexpr (requires { Integrator::kPositionLead; }) {
+        return Integrator::kPositionLead;
+    }
+    return 0.0;
+}
+
+// Writes row `step` of MeshRecord::step_states: the state at the start of that step, or after the
+// last one.
+template <class Integrator, class Model, class State, int W = Model::kWidth>
+GEARPOD_INLINE void write_step_state(const IntegrationPlan& plan,
+                                     const typename Model::Lanes& lanes, int step,
+                                     const State& state, MeshRecord& record) {
+    const int size = static_cast<int>(plan.te_weight.size()) * W;
+    double* __restrict q = record.step_states.data() + 2 * step * size;
+    double* __restrict v = q + size;
+    const auto row = static_cast<std::size_t>(step);
+    const bool parted =
+        step == 0 || row == plan.grid.steps.size() || plan.grid.steps[row].sample >= 0;
+    const double ahead = parted ? 0.0 : position_lead<Integrator>() * plan.grid.steps[row].length;
+    for (int i = 0; i < size; ++i) {
+        v[i] = double{state.v[static_cast<std::size_t>(i)]};
+        q[i] = position(state, i) - ahead * double{lanes.mesh_period[i % W]} * v[i];
+    }
+}
+
+// Rows of W values for one stage node: stiffness and gaps of the springs of unilateral contact.
+
+// Fills a row with one value for all lanes.
+template <int W, class Real>
+GEARPOD_INLINE void broadcast(double value, Real* __restrict row) {
+    const Real rounded = static_cast<Real>(value);
+#pragma omp simd
+    for (int l = 0; l < W; ++l) {
+        row[l] = rounded;
+    }
+}
+
+// row = values / divisor, lane by lane.
+template <int W, class Real>
+GEARPOD_INLINE void divide(const Real* __restrict values, const Real* __restrict divisor,
+                           Real* __restrict row) {
+#pragma omp simd
+    for (int l = 0; l < W; ++l) {
+        row[l] = values[l] / divisor[l];
+    }
+}
+
+// Converts a row of the plan's doubles to the precision of the integration.
+template <int W, class Real>
+GEARPOD_INLINE void round_row(const double* __restrict values, Real* __restrict row) {
+#pragma omp simd
+    for (int l = 0; l < W; ++l) {
+        row[l] = static_cast<Real>(values[l]);
+    }
+}
+
+template <class Model>
+GEARPOD_INLINE void clear_errors(typename Model::Pairs& m) {
+    using Real = RealOf<Model>;
+    std::fill(std::begin(m.e), std::end(m.e), Real(0));
+    std::fill(std::begin(m.de), std::end(m.de), Real(0));
+}
+
+// Sets the rows that stay constant from this step until other teeth engage.
+template <class Model, int W = Model::kWidth>
+GEARPOD_INLINE void set_constant_rows(const IntegrationPlan& plan, const MeshOverrides& overrides,
+                                      int step, typename Model::Pairs& m) {
+    using Real = RealOf<Model>;
+    constexpr int kRows = Model::Pairs::kRows;
+    const int teeth = std::max(1, plan.nodes.tooth_pairs);
+    m.contacts = teeth * plan.nodes.slices;
+    clear_errors<Model>(m);
+    std::fill_n(m.tooth_k, m.contacts * kRows, Real(0));
+    std::fill_n(m.tooth_e, m.contacts * kRows, Real(0));
+    std::fill_n(m.gap, teeth * kRows, Real(0));
+    std::fill_n(m.growth, teeth * kRows, Real(0));
+    m.constant_from = step;
+    m.constant_until = static_cast<int>(plan.grid.steps.size());
+    for (const PairGaps& g : overrides.gaps) {
+        if (step < g.last_step) {
+            m.constant_until =
+                std::min(m.constant_until, step < g.first_step ? g.first_step : g.last_step);
+        }
+        if (step < g.first_step || step >= g.last_step) {
+            continue;
+        }
+        for (int j = 0; j < plan.nodes.tooth_pairs; ++j) {
+            const int row = j * kRows + g.pair * W;
+            round_row<W>(g.gap.data() + j * W, m.gap + row);
+            round_row<W>(g.growth.data() + j * W, m.growth + row);
+        }
+    }
+}
+
+// Sets stiffness and gap of a spring at a position on the flank; `shared` is the gap common to all
+// lanes, m.
+template <int W, class Real>
+GEARPOD_INLINE void load_contact(double stiffness, double position, double shared,
+                                 const Real* __restrict gap, const Real* __restrict growth,
+                                 Real* __restrict k, Real* __restrict e) {
+    const Real pair_stiffness = static_cast<Real>(stiffness), at = static_cast<Real>(position);
+    const Real all = static_cast<Real>(shared);
+#pragma omp simd
+    for (int l = 0; l < W; ++l) {
+        k[l] = pair_stiffness;
+        e[l] = std::fma(at, growth[l], gap[l]) + all;
+    }
+}
+
+// Adds wear of unit depth times its depth, [lane], to the gaps of a spring.
+template <int W, class Real>
+GEARPOD_INLINE void add_wear(double unit_gap, const double* __restrict depth, Real* __restrict e) {
+    const Real shape = static_cast<Real>(unit_gap);
+#pragma omp simd
+    for (int l = 0; l < W; ++l) {
+        e[l] = std::fma(shape, static_cast<Real>(depth[l]), e[l]);
+    }
+}
+
+// Loads stiffness and gaps of all pairs' springs at a stage node; call it after loading the pairs.
+template <class Model, int W = Model::kWidth>
+GEARPOD_INLINE void load_contacts(const IntegrationPlan& plan, const MeshOverrides& overrides,
+                                  int step, int node, typename Model::Pairs& m) {
+    constexpr int kRows = Model::Pairs::kRows;
+    const StiffnessNodes& table = plan.nodes;
+    const int pairs = table.pairs, slices = table.slices, known = table.contacts();
+    const int nodes = static_cast<int>(plan.grid.stage_nodes.size());
+    const int first = (step * nodes + node) * known * pairs;
+    const double* shared = table.tooth_stiffness.data() + first;
+    const double* positions = table.tooth_position.data() + first;
+    const double* gaps = table.tooth_gap.empty() ? nullptr : table.tooth_gap.data() + first;
+    for (int j = 0; j < known; ++j) {
+        const int tooth = j / slices * kRows;
+        for (int pair = 0; pair < pairs; ++pair) {
+            const int row = j * kRows + pair * W, i = j * pairs + pair;
+            load_contact<W>(shared[i], positions[i], gaps == nullptr ? 0.0 : gaps[i],
+                            m.gap + tooth + pair * W, m.growth + tooth + pair * W, m.tooth_k + row,
+                            m.tooth_e + row);
+        }
+    }
+    if (known == 0) {  // one spring carries the whole load
+        std::copy_n(m.k, pairs * W, m.tooth_k);
+    }
+    if (!overrides.wear.empty()) {
+        const double* worn = table.tooth_wear.data() + first;
+        for (int j = 0; j < known; ++j) {
+            for (int pair = 0; pair < pairs; ++pair) {
+                add_wear<W>(worn[j * pairs + pair], overrides.wear.data(),
+                            m.tooth_e + j * kRows + pair * W);
+            }
+        }
+    }
+    for (const PairOverride& o : overrides.faults) {
+        if (step < o.first_step || step >= o.last_step || o.tooth_stiffness.empty()) {
+            continue;
+        }
+        const int from = ((step - o.first_step) * nodes + node) * known * W;
+        for (int j = 0; j < known; ++j) {
+            round_row<W>(o.tooth_stiffness.data() + from + j * W,
+                         m.tooth_k + j * kRows + o.pair * W);
+        }
+    }
+}
 
 // Loads the static transmission error of all pairs at a stage node.
 template <class Model, int W = Model::kWidth>

@@ -20,13 +20,6 @@
 
 namespace gearpod::lockstep {
 
-// Knots per second (1 / D) of noise whose power spectrum falls to one half at `half_power_Hz`,
-// where sinc(0.2275...)^8 = 1/2.
-double knots_per_s(double half_power_Hz);
-// Standard deviation of the knots that gives noise of rms 1: the mean square of the cubic B-spline
-// is 151/315.
-double knot_deviation();
-
 // One fluctuation of W lanes. All arrays are [lane] unless noted; an empty part is absent.
 struct Fluctuation {
     // Sine: x = amplitude sin(2 pi (turns_per_mesh phase + turns_per_s time + turns)). A speed

@@ -1,4 +1,4 @@
-#include "lockstep/strategies/integrated_solutions.hpp"
+#include "lockstep/strategies/solution.hpp"
 
 #include <algorithm>
 #include <array>

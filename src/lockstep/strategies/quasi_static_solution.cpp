@@ -1,4 +1,4 @@
-#include "lockstep/strategies/quasi_static_solution.hpp"
+#include "lockstep/strategies/solution.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "lockstep/strategies/superposed_solution.hpp"
+#include "lockstep/strategies/solution.hpp"
 
 #include <optional>
 #include <ranges>

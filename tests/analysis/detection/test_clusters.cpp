@@ -3,7 +3,6 @@
 
 #include "analysis/detection/detection.hpp"
 #include "analysis/detection/false_alarm_rate.hpp"
-#include "analysis/detection/healthy_thresholds.hpp"
 #include "analysis/detection/threshold.hpp"
 #include "tests/test.hpp"
 

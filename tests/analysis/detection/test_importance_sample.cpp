@@ -4,7 +4,7 @@
 #include <boost/math/distributions/normal.hpp>
 
 #include "analysis/detection/detection.hpp"
-#include "analysis/detection/healthy_thresholds.hpp"
+#include "analysis/detection/threshold.hpp"
 #include "tests/test.hpp"
 
 namespace gearpod::analysis::test_importance_sample {

@@ -1,5 +1,6 @@
 #include "analysis/inputs/input_effects.hpp"
 #include "analysis/statistics/interval.hpp"
+#include "analysis/statistics/link.hpp"
 #include "tests/analysis/reference_data.hpp"
 #include "tests/test.hpp"
 
@@ -199,6 +200,165 @@ TEST_CASE("Bounds of the a90 map cover the truth; the test keeps its level", "[.
         CHECK(lower[i] / kStudies == Approx(0.95).margin(0.015));
     }
     CHECK(false_alarms / kStudies == Approx(0.05).margin(0.015));
+}
+
+// Gearboxes are detected where size - torque's effect + scatter exceeds 1.
+struct MissStudy {
+    std::vector<double> size, torque, bearing, fixed;
+    std::vector<int> hit;
+    std::vector<InputColumn> inputs() const {
+        return {{"torque_N_m", "N m", torque}, {"bearing", "N/m", bearing}, {"fixed", "1", fixed}};
+    }
+};
+
+MissStudy study(bool levels, unsigned seed, double effect) {
+    std::mt19937_64 engine(seed);
+    std::normal_distribution<double> draw;
+    std::uniform_real_distribution<double> sizes(0.2, 3.0);
+    MissStudy out;
+    for (int i = 0; i < 1500; ++i) {
+        out.size.push_back(levels ? 0.5 * (i % 6) : sizes(engine));
+        out.torque.push_back(draw(engine));
+        out.bearing.push_back(draw(engine));
+        out.fixed.push_back(7.0);
+        const double distance =
+            out.size.back() - effect * out.torque.back() + 0.3 * draw(engine) - 1.0;
+        out.hit.push_back(i % 50 == 7 ? -1 : distance > 0.0 ? 1 : 0);
+    }
+    return out;
+}
+
+TEST_CASE("The input that decides the misses ranks first; irrelevant inputs stay at 1/2") {
+    for (const bool levels : {true, false}) {
+        const MissStudy drawn = study(levels, 4, 0.6);
+        const MissSensitivity result =
+            miss_sensitivity(drawn.size, drawn.hit, drawn.inputs(), 0.95);
+        REQUIRE(result.inputs.size() == 2);
+        CHECK(result.inputs[0].name == "torque_N_m");
+        CHECK(result.inputs[0].larger_in_misses > 0.85);
+        CHECK(result.inputs[0].p_value < 1e-6);
+        CHECK(result.inputs[1].bounds.lower < 0.5);
+        CHECK(result.inputs[1].bounds.upper > 0.5);
+        CHECK(result.left_out == std::vector<std::string>{"fixed"});
+        CHECK(result.smallest >= 0.9);  // at least half are detected
+    }
+}
+
+TEST_CASE("With one size the influence is the area between two shifted normal laws") {
+    // Misses and hits differ by 1: Phi(1 / sqrt 2).
+    std::mt19937_64 engine(9);
+    std::normal_distribution<double> draw;
+    std::vector<double> size(20000, 2.0), input;
+    std::vector<int> hit;
+    for (int i = 0; i < 20000; ++i) {
+        hit.push_back(i % 4 != 0);
+        input.push_back(draw(engine) + (hit.back() == 1 ? 0.0 : 1.0));
+    }
+    const MissSensitivity result = miss_sensitivity(size, hit, {{"x", "1", input}}, 0.95);
+    const double truth = link_probability(Link::probit, 1.0 / std::sqrt(2.0));
+    CHECK(result.misses == 5000);
+    CHECK(result.inputs[0].bounds.lower < truth);
+    CHECK(result.inputs[0].bounds.upper > truth);
+    CHECK(result.inputs[0].larger_in_misses == Approx(truth).margin(0.015));
+}
+
+TEST_CASE("Intervals of an irrelevant input cover 1/2 over 1,000 studies") {
+    int covered = 0, checked = 0;
+    for (unsigned seed = 0; seed < 1000; ++seed) {
+        const MissStudy drawn = study(true, 100 + seed, 0.0);
+        const auto inputs = drawn.inputs();
+        const MissSensitivity result = miss_sensitivity(drawn.size, drawn.hit, {inputs[1]}, 0.95);
+        if (result.misses < 10) {
+            CHECK_THAT(result.refusal, Catch::Contains("10 of each are needed"));
+            continue;
+        }
+        REQUIRE(result.inputs.size() == 1);
+        ++checked;
+        covered += result.inputs[0].bounds.lower <= 0.5 && result.inputs[0].bounds.upper >= 0.5;
+    }
+    CHECK(checked > 700);
+    // The margin is three standard deviations.
+    CHECK(covered / static_cast<double>(checked) == Approx(0.95).margin(0.025));
+}
+
+TEST_CASE("Without misses or hits there is no influence to estimate") {
+    const std::vector<double> size{0.0, 1.0, 1.0, 1.0, 2.0, 2.0};
+    const std::vector<double> input{1.0, 2.0, 3.0, 4.0, 5.0, 6.0};
+    for (const int outcome : {0, 1, -1}) {
+        const std::vector<int> hit(6, outcome);
+        CHECK_THAT(miss_sensitivity(size, hit, {{"x", "1", input}}, 0.95).refusal,
+                   Catch::Contains("no fault size"));
+    }
+    CHECK(!miss_sensitivity({}, {}, {}, 0.95).refusal.empty());
+}
+
+// Synthetic campaign with logit POD = -6 + 3 a + effect . z for independent standard normal z. The
+// a90 is then normal with mean (log 9 + 6) / 3; its standard deviation is the root sum of squares
+// of the effects over 3.
+struct Campaign {
+    std::vector<double> size, first, second;
+    std::vector<int> hit;
+    HitMissPod pod;
+
+    Campaign(std::size_t gearboxes, double of_first, double of_second) {
+        std::mt19937 engine(7);
+        std::normal_distribution<double> normal;
+        std::uniform_real_distribution<double> unit;
+        for (std::size_t i = 0; i < gearboxes; ++i) {
+            size.push_back(5.0 * unit(engine));
+            first.push_back(normal(engine));
+            second.push_back(100.0 + 10.0 * normal(engine));
+            const double eta = -6.0 + 3.0 * size.back() + of_first * first.back() +
+                               of_second * 0.1 * (second.back() - 100.0);
+            hit.push_back(unit(engine) < 1.0 / (1.0 + std::exp(-eta)) ? 1 : 0);
+        }
+        pod.chosen.curve = {{Link::logit, false, 0.0, false}, -6.0, 3.0, 1.0};
+        pod.smallest = 0.0;
+        pod.largest = 5.0;
+        pod.band = {{1.0, 0.0, 0.0, 0.0}, {2.0, 0.0, 0.0, 0.0}};
+    }
+    EpistemicBand band() const {
+        return epistemic_band(size, hit, {{"first", "1", first}, {"second", "N", second}}, pod);
+    }
+};
+
+constexpr double kQuantile = 1.6448536;  // of the normal law at 95 %
+const double kMiddle = (std::log(9.0) + 6.0) / 3.0;
+
+TEST_CASE("The band of two uncertain inputs has their combined width") {
+    const Campaign campaign(40000, 1.5, 2.0);
+    const EpistemicBand found = campaign.band();
+    REQUIRE(found.refusal.empty());
+    CHECK(found.inputs == std::vector<std::string>{"first", "second"});
+    const double half = kQuantile * 2.5 / 3.0;
+    CHECK(found.a90_low.size == Approx(kMiddle - half).margin(0.05));
+    CHECK(found.a90_high.size == Approx(kMiddle + half).margin(0.05));
+    // The logit at size 2 is 2.5 times a standard normal number.
+    REQUIRE(found.band.size() == 2);
+    CHECK(found.band[1].pod == Approx(0.5).margin(0.02));
+    CHECK(found.band[1].upper == Approx(1.0 / (1.0 + std::exp(-2.5 * kQuantile))).margin(0.01));
+    CHECK(found.band[1].lower == Approx(1.0 / (1.0 + std::exp(2.5 * kQuantile))).margin(0.01));
+}
+
+TEST_CASE(
+    "Inputs without effect leave no uncertainty, and there is no extrapolation beyond the tested "
+    "sizes") {
+    const EpistemicBand none = Campaign(40000, 0.0, 0.0).band();
+    CHECK(none.a90_high.size - none.a90_low.size < 0.1);
+    const EpistemicBand wide = Campaign(40000, 8.0, 0.0).band();
+    CHECK(wide.a90_low.where == SizeEstimate::Where::below_tested);
+    CHECK(wide.a90_high.where == SizeEstimate::Where::not_reached);
+}
+
+TEST_CASE("Without a varying input, or without a curve, there is no band") {
+    Campaign campaign(200, 1.0, 0.0);
+    std::fill(campaign.first.begin(), campaign.first.end(), 1.0);
+    std::fill(campaign.second.begin(), campaign.second.end(), 1.0);
+    CHECK(campaign.band().inputs.empty());
+    Campaign refused(200, 1.0, 0.0);
+    refused.pod.refusal = "no curve";
+    CHECK(refused.band().refusal == "no curve");
+    CHECK(refused.band().band.empty());
 }
 
 }  // namespace gearpod::analysis::test_input_effects

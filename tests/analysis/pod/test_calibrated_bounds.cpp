@@ -5,8 +5,8 @@
 #include <nlohmann/json.hpp>
 
 #include "analysis/inspection.hpp"
-#include "analysis/pod/calibrated_bounds.hpp"
-#include "analysis/pod/curve_covariance.hpp"
+#include "analysis/pod/pod_curve.hpp"
+#include "analysis/pod/response_bounds.hpp"
 #include "analysis/report/inspection_report.hpp"
 #include "analysis/statistics/link.hpp"
 #include "tests/analysis/pod/inspection_examples.hpp"

@@ -1,5 +1,4 @@
 // Checks few nodes in place of many sizes: moments, and log likelihoods of curves of any slope.
-#include "analysis/pod/hit_miss_table.hpp"
 #include "analysis/pod/pod_curve.hpp"
 #include "analysis/pod/pod_likelihood.hpp"
 #include "tests/test.hpp"

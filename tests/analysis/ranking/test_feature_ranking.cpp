@@ -1,6 +1,6 @@
 // Checks the ROC against a small hand-drawn one and against the area from ranks (auc()).
 #include "analysis/ranking/feature_ranking.hpp"
-#include "analysis/statistics/difference_tests.hpp"
+#include "analysis/statistics/interval.hpp"
 #include "analysis/statistics/rank_statistics.hpp"
 #include "tests/analysis/reference_data.hpp"
 #include "tests/test.hpp"

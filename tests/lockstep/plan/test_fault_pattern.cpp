@@ -1,6 +1,6 @@
 // Checks which pair a faulty tooth meets and when, from the gears' rotation angles.
 #include "gears/planetary.hpp"
-#include "lockstep/plan/fault_pattern.hpp"
+#include "lockstep/plan/fault_schedule.hpp"
 #include "stiffness/square_wave_mesh.hpp"
 #include "tests/test.hpp"
 

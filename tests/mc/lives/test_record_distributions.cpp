@@ -5,7 +5,7 @@
 #include <boost/math/distributions/normal.hpp>
 
 #include "mc/lives/life_tile.hpp"
-#include "mc/lives/load_axis.hpp"
+#include "mc/lives/superposition.hpp"
 #include "tests/mc/lives/life_example.hpp"
 #include "tests/mc/program.hpp"
 

@@ -1,5 +1,5 @@
 // Checks the correction by gearboxes computed twice against differences that are known.
-#include "mc/numerics/paired_correction.hpp"
+#include "mc/numerics/numerical_error.hpp"
 #include "mc/results/reliability_of_results.hpp"
 #include "tests/test.hpp"
 

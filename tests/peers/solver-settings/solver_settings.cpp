@@ -16,7 +16,6 @@
 #include "lockstep/plan/fault_schedule.hpp"
 #include "lockstep/steps/graded_grid.hpp"
 #include "mc/numerics/pilot.hpp"
-#include "mc/numerics/reference.hpp"
 #include "mc/study/schema/schema.hpp"
 
 using namespace gearpod;

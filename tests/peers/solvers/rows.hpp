@@ -8,7 +8,6 @@
 
 #include "mc/numerics/numerics_choice.hpp"
 #include "mc/numerics/pilot.hpp"
-#include "mc/numerics/reference.hpp"
 #include "peer_runs.hpp"
 #include "tests/bench/median.hpp"
 

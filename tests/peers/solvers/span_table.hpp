@@ -6,7 +6,7 @@
 #include <optional>
 
 #include "gearpod_solver.hpp"
-#include "mc/numerics/reference.hpp"
+#include "mc/numerics/pilot.hpp"
 
 namespace gearpod::peers {
 

@@ -6,7 +6,7 @@
 #include <map>
 
 #include "gearpod_solver.hpp"
-#include "mc/numerics/reference.hpp"
+#include "mc/numerics/pilot.hpp"
 #include "tests/bench/peaks.hpp"
 
 namespace gearpod::peers {

@@ -5,7 +5,7 @@
 #include "mc/ensemble/coupling/neighbour_stages.hpp"
 #include "mc/ensemble/coupling/record_positions.hpp"
 #include "mc/ensemble/gearbox/simulation.hpp"
-#include "mc/plan/coupled_shafts.hpp"
+#include "mc/plan/gearbox_plan.hpp"
 #include "tests/mc/ensemble/gearbox/stage_files.hpp"
 #include "tests/mc/study_file.hpp"
 

@@ -3,11 +3,10 @@
 #include <nlohmann/json.hpp>
 
 #include "mc/library/run/run_options.hpp"
-#include "mc/numerics/accuracy/measured_settings.hpp"
 #include "mc/numerics/accuracy/report.hpp"
 #include "mc/numerics/numerical_error.hpp"
 #include "mc/numerics/numerics_choice.hpp"
-#include "mc/numerics/reference.hpp"
+#include "mc/numerics/pilot.hpp"
 #include "mc/numerics/solver_setting.hpp"
 #include "tests/mc/program.hpp"
 #include "tests/mc/study_file.hpp"
@@ -386,6 +385,32 @@ TEST_CASE("accuracy reports what it cannot do", "[accuracy]") {
                                 " --quiet --peers " + folder.file("bad.csv"));
     CHECK(bad.code == kBadInput);
     CHECK(bad.mentions("bad.csv:2: sensor: \"z\" is not a number >= 0"));
+}
+
+// Checks the stability map of a study and its hard cases.
+
+TEST_CASE("the stability map has the steps of hard cases next to those of the study",
+          "[accuracy]") {
+    const Study study = test::shipped_study("published/tian-fig-4-9.toml", {});
+    const Scene plan(study);
+    const StabilityMap map = stability_map(
+        {plan.solve().integration().layout, plan.gearbox().inputs(nominal_inputs(study)),
+         plan.gearbox().stiffness->stiffest_pairs()},
+        Planner(study).steps(study.numerics));
+    const std::size_t own = map.factors.size() / 2;
+    REQUIRE(map.factors[own] == Approx(1.0));
+    REQUIRE(map.hard.size() == 3);
+    for (const HardCase& hard : map.hard) {
+        REQUIRE(hard.steps.size() == map.curves.size());
+    }
+    for (std::size_t i = 0; i < map.curves.size(); ++i) {
+        INFO(map.curves[i].integrator);
+        // Stiffer bearings raise the fastest mode, a mesh without stiffness lowers that of the
+        // mesh.
+        CHECK(map.hard[0].steps[i] >= (1.0 - 1e-9) * map.curves[i].steps[own]);
+        CHECK(map.hard[1].steps[i] <= (1.0 + 1e-9) * map.curves[i].steps[own]);
+        CHECK(map.curves[i].steps.back() >= map.curves[i].steps[own]);
+    }
 }
 
 }  // namespace gearpod::mc::test_accuracy
