@@ -14,7 +14,6 @@
 #include <string_view>
 
 #include "mc/files/file_descriptor.hpp"
-#include "mc/files/hdf5_index.hpp"
 #include "mc/files/input/file_text.hpp"
 #include "mc/files/input/terminal_text.hpp"
 #include "mc/files/python_process.hpp"
@@ -87,41 +86,35 @@ class OutputFile {
     std::string name_;
 };
 
-ForeignChannel channel_of(hid_t dataset) {
-    ForeignChannel channel;
-    const std::pair<std::string_view, std::string*> texts[] = {
-        {"name", &channel.name},
-        {"title", &channel.title},
-        {"text", &channel.text},
-        {"unit", &channel.unit},
-        {"quantity", &channel.quantity},
-        {"unit_text", &channel.unit_text},
-        {"unit_by_lengths", &channel.unit_by_lengths},
-        {"times", &channel.times},
-        {"note", &channel.note},
-        {"problem", &channel.problem},
-        {"unreadable", &channel.unreadable}};
-    const std::pair<std::string_view, std::optional<double>*> numbers[] = {
-        {"lengths_per_metre", &channel.lengths_per_metre},
-        {"sampling_Hz", &channel.sampling_Hz},
-        {"start_s", &channel.start_s}};
-    for (const Hdf5Attribute& attribute : attributes_of(dataset)) {
-        for (const auto& [name, text] : texts) {
-            *text = name == attribute.name && !attribute.texts.empty() ? attribute.texts[0] : *text;
-        }
-        for (const auto& [name, number] : numbers) {
-            *number = name == attribute.name ? attribute.number() : *number;
-        }
-    }
-    channel.text = channel.text.empty() ? channel.name : channel.text;
-    const Hdf5Handle space(H5Dget_space(dataset), H5Sclose, "shape");
-    channel.shape.resize(2);
-    check(H5Sget_simple_extent_dims(space.get(), channel.shape.data(), nullptr), "shape");
-    return channel;
-}
-
 std::string dataset_name(std::size_t channel) {
     return fmt::format("{:06}", channel);
+}
+
+ForeignChannel channel_of(hid_t file, const std::string& dataset) {
+    const auto has = [&](const char* name) {
+        return H5Aexists_by_name(file, dataset.c_str(), name, H5P_DEFAULT) > 0;
+    };
+    const auto text = [&](const char* name) {
+        return has(name) ? read_text(file, dataset, name) : "";
+    };
+    const auto number = [&](const char* name) {
+        return has(name) ? std::optional(read_number(file, dataset, name)) : std::nullopt;
+    };
+    return {text("name"),
+            text("title"),
+            text(has("text") ? "text" : "name"),
+            text("unit"),
+            text("quantity"),
+            text("unit_text"),
+            text("unit_by_lengths"),
+            number("lengths_per_metre"),
+            number("sampling_Hz"),
+            number("start_s"),
+            text("times"),
+            text("note"),
+            text("problem"),
+            text("unreadable"),
+            shape_of(open_dataset(file, dataset), dataset)};
 }
 
 }  // namespace
@@ -190,19 +183,14 @@ ForeignFile::ForeignFile(const std::string& path, const std::string& reader) : p
         throw SignalError(
             fmt::format("{}: is damaged: reading it {}", path, ended_text(output.status)));
     }
-    const SilentHdf5 silent;
     try {
-        file_.emplace(H5Fopen(temporary.name().c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), H5Fclose,
-                      path);
+        file_.emplace(open_file(temporary.name(), path));
         separator_ = read_text(file_->get(), ".", "separator").front();
         note_ = read_text(file_->get(), ".", "note");
         H5G_info_t info{};
         check(H5Gget_info(file_->get(), &info), path);
         for (std::size_t i = 0; i < info.nlinks; ++i) {
-            const std::string name = dataset_name(i);
-            const Hdf5Handle dataset(H5Dopen2(file_->get(), name.c_str(), H5P_DEFAULT), H5Dclose,
-                                     name);
-            channels_.push_back(channel_of(dataset.get()));
+            channels_.push_back(channel_of(file_->get(), dataset_name(i)));
         }
     } catch (const Hdf5Error& error) {
         throw SignalError(
@@ -211,7 +199,6 @@ ForeignFile::ForeignFile(const std::string& path, const std::string& reader) : p
 }
 
 std::vector<double> ForeignFile::values(std::size_t channel, std::size_t column) const {
-    const SilentHdf5 silent;
     try {
         std::vector<double> values;
         read_rows(file_->get(), dataset_name(channel), channels_[channel].shape, {column, 1},

@@ -30,26 +30,22 @@ Hdf5Handle text_type() {
     return type;
 }
 
-std::size_t count_of(const Shape& shape) {
-    std::size_t count = 1;
-    for (const hsize_t size : shape) {
-        count *= size;
-    }
-    return count;
+Hdf5Handle space_of(const Shape& shape, const std::string& name) {
+    return {H5Screate_simple(static_cast<int>(shape.size()), shape.data(), nullptr), H5Sclose,
+            name};
 }
 
-hid_t stored_type(ColumnKind kind) {
-    return kind == ColumnKind::numbers ? H5T_IEEE_F64LE : H5T_STD_I64LE;
+Hdf5Handle create_dataset(hid_t parent, const std::string& name, const Shape& shape, hid_t stored,
+                          const Hdf5Handle& properties) {
+    return {H5Dcreate2(parent, name.c_str(), stored, space_of(shape, name).get(), H5P_DEFAULT,
+                       properties.get(), H5P_DEFAULT),
+            H5Dclose, name};
 }
 
 void write_dataset(hid_t parent, const std::string& name, const Shape& shape, hid_t stored,
                    hid_t given, const void* values) {
     const Hdf5Handle properties = ordered_properties(H5P_DATASET_CREATE, name);
-    const Hdf5Handle space(H5Screate_simple(static_cast<int>(shape.size()), shape.data(), nullptr),
-                           H5Sclose, name);
-    const Hdf5Handle dataset(H5Dcreate2(parent, name.c_str(), stored, space.get(), H5P_DEFAULT,
-                                        properties.get(), H5P_DEFAULT),
-                             H5Dclose, name);
+    const Hdf5Handle dataset = create_dataset(parent, name, shape, stored, properties);
     check(H5Dwrite(dataset.get(), given, H5S_ALL, H5S_ALL, H5P_DEFAULT, values), name);
 }
 
@@ -61,26 +57,6 @@ void write_attribute(hid_t parent, const std::string& object, const std::string&
                           H5P_DEFAULT, H5P_DEFAULT),
         H5Aclose, name);
     check(H5Awrite(attribute.get(), given, value), name);
-}
-
-Hdf5Handle open_dataset(hid_t parent, const std::string& name) {
-    return {H5Dopen2(parent, name.c_str(), H5P_DEFAULT), H5Dclose, name};
-}
-
-Shape shape_of(const Hdf5Handle& dataset, const std::string& name, std::size_t most_values) {
-    const Hdf5Handle space(H5Dget_space(dataset.get()), H5Sclose, name);
-    const int rank = H5Sget_simple_extent_ndims(space.get());
-    check(rank, name);
-    Shape shape(static_cast<std::size_t>(rank));
-    check(H5Sget_simple_extent_dims(space.get(), shape.data(), nullptr), name);
-    std::size_t count = 1;
-    for (const hsize_t size : shape) {
-        if (size > most_values || count * size > most_values) {
-            throw Hdf5Error(name);
-        }
-        count *= size;
-    }
-    return shape;
 }
 
 Hdf5Handle open_scalar(hid_t parent, const std::string& object, const std::string& name,
@@ -108,9 +84,49 @@ std::string counted_name(Get get) {
     return name;
 }
 
+void end_printing() {
+    H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
+}
+
 }  // namespace
 
+Hdf5Handle open_file(const std::string& path, const std::string& attempted) {
+    end_printing();
+    return {H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), H5Fclose, attempted};
+}
+
+bool is_hdf5(const std::string& path) {
+    end_printing();
+    return H5Fis_hdf5(path.c_str()) > 0;
+}
+
+Hdf5Handle open_dataset(hid_t parent, const std::string& name) {
+    return {H5Dopen2(parent, name.c_str(), H5P_DEFAULT), H5Dclose, name};
+}
+
+Shape shape_of(const Hdf5Handle& dataset, const std::string& name, std::size_t most_values) {
+    const Hdf5Handle space(H5Dget_space(dataset.get()), H5Sclose, name);
+    const int rank = H5Sget_simple_extent_ndims(space.get());
+    check(rank, name);
+    Shape shape(static_cast<std::size_t>(rank));
+    check(H5Sget_simple_extent_dims(space.get(), shape.data(), nullptr), name);
+    count_of(shape, most_values, name);
+    return shape;
+}
+
+std::size_t count_of(const Shape& shape, std::size_t most_values, const std::string& name) {
+    std::size_t count = 1;
+    for (const hsize_t size : shape) {
+        if (size > most_values || count * size > most_values) {
+            throw Hdf5Error(name);
+        }
+        count *= size;
+    }
+    return count;
+}
+
 Hdf5Handle create_memory_file() {
+    end_printing();
     const Hdf5Handle creation = ordered_properties(H5P_FILE_CREATE, "file");
     const Hdf5Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose, "file");
     constexpr std::size_t increment = std::size_t{1} << 20;
@@ -120,6 +136,7 @@ Hdf5Handle create_memory_file() {
 }
 
 Hdf5Handle create_file(const std::string& path, hsize_t user_block) {
+    end_printing();
     const Hdf5Handle creation = ordered_properties(H5P_FILE_CREATE, "file");
     check(H5Pset_userblock(creation.get(), user_block), "file");
     return {H5Fcreate(path.c_str(), H5F_ACC_TRUNC, creation.get(), H5P_DEFAULT), H5Fclose, "file"};
@@ -130,11 +147,9 @@ std::uint64_t create_column(hid_t parent, const std::string& name, const Shape& 
     const Hdf5Handle properties = ordered_properties(H5P_DATASET_CREATE, name);
     check(H5Pset_alloc_time(properties.get(), H5D_ALLOC_TIME_EARLY), name);
     check(H5Pset_fill_time(properties.get(), H5D_FILL_TIME_NEVER), name);
-    const Hdf5Handle space(H5Screate_simple(static_cast<int>(shape.size()), shape.data(), nullptr),
-                           H5Sclose, name);
-    const Hdf5Handle dataset(H5Dcreate2(parent, name.c_str(), stored_type(kind), space.get(),
-                                        H5P_DEFAULT, properties.get(), H5P_DEFAULT),
-                             H5Dclose, name);
+    const Hdf5Handle dataset =
+        create_dataset(parent, name, shape,
+                       kind == ColumnKind::numbers ? H5T_IEEE_F64LE : H5T_STD_I64LE, properties);
     const haddr_t place = H5Dget_offset(dataset.get());
     if (place == HADDR_UNDEF && count_of(shape) > 0) {
         throw Hdf5Error(name);
@@ -227,11 +242,19 @@ std::vector<std::int64_t> read_integers(hid_t parent, const std::string& name,
     return values;
 }
 
-namespace {
+std::size_t row_count(hid_t parent, const std::string& name) {
+    const Hdf5Handle dataset = open_dataset(parent, name);
+    const Shape shape =
+        shape_of(dataset, name, static_cast<std::size_t>(std::numeric_limits<hssize_t>::max()));
+    if (shape.size() != 1) {
+        throw Hdf5Error(name);
+    }
+    return shape[0];
+}
 
 template <class Value>
-void read_rows_as(hid_t type, hid_t parent, const std::string& name, const Shape& shape,
-                  RowRange range, std::vector<Value>& values) {
+void read_rows(hid_t parent, const std::string& name, const Shape& shape, RowRange range,
+               std::vector<Value>& values) {
     const Hdf5Handle dataset = open_dataset(parent, name);
     if (shape_of(dataset, name, count_of(shape)) != shape) {
         throw Hdf5Error(name);
@@ -244,33 +267,15 @@ void read_rows_as(hid_t type, hid_t parent, const std::string& name, const Shape
     check(H5Sselect_hyperslab(space.get(), H5S_SELECT_SET, start.data(), nullptr, count.data(),
                               nullptr),
           name);
-    const Hdf5Handle memory(H5Screate_simple(static_cast<int>(count.size()), count.data(), nullptr),
-                            H5Sclose, name);
-    check(H5Dread(dataset.get(), type, memory.get(), space.get(), H5P_DEFAULT, values.data()),
-          name);
+    check(
+        H5Dread(dataset.get(), std::is_same_v<Value, double> ? H5T_NATIVE_DOUBLE : H5T_NATIVE_INT64,
+                space_of(count, name).get(), space.get(), H5P_DEFAULT, values.data()),
+        name);
 }
 
-}  // namespace
-
-std::size_t row_count(hid_t parent, const std::string& name) {
-    const Hdf5Handle dataset = open_dataset(parent, name);
-    const Shape shape =
-        shape_of(dataset, name, static_cast<std::size_t>(std::numeric_limits<hssize_t>::max()));
-    if (shape.size() != 1) {
-        throw Hdf5Error(name);
-    }
-    return shape[0];
-}
-
-void read_rows(hid_t parent, const std::string& name, const Shape& shape, RowRange range,
-               std::vector<double>& values) {
-    read_rows_as(H5T_NATIVE_DOUBLE, parent, name, shape, range, values);
-}
-
-void read_rows(hid_t parent, const std::string& name, const Shape& shape, RowRange range,
-               std::vector<std::int64_t>& values) {
-    read_rows_as(H5T_NATIVE_INT64, parent, name, shape, range, values);
-}
+template void read_rows(hid_t, const std::string&, const Shape&, RowRange, std::vector<double>&);
+template void read_rows(hid_t, const std::string&, const Shape&, RowRange,
+                        std::vector<std::int64_t>&);
 
 bool has_text(hid_t object, const std::string& name) {
     const Hdf5Handle attribute(H5Aopen(object, name.c_str(), H5P_DEFAULT), H5Aclose, name);

@@ -6,6 +6,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -59,26 +60,15 @@ inline void check(herr_t status, const std::string& attempted) {
     }
 }
 
-// Suppresses HDF5's error messages during its lifetime; return values still report errors.
-class SilentHdf5 {
-  public:
-    SilentHdf5() {
-        H5Eget_auto2(H5E_DEFAULT, &print_, &data_);
-        H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
-    }
-    SilentHdf5(const SilentHdf5&) = delete;
-    SilentHdf5& operator=(const SilentHdf5&) = delete;
-    ~SilentHdf5() { H5Eset_auto2(H5E_DEFAULT, print_, data_); }
-
-  private:
-    H5E_auto2_t print_ = nullptr;
-    void* data_ = nullptr;
-};
-
 // Groups, datasets and attributes of an HDF5 file, in the shapes that gearpod writes. Not
 // thread-safe, because HDF5 is not. All functions throw Hdf5Error.
 
 using Shape = std::vector<hsize_t>;
+
+// Open a file for reading, and tell whether it is HDF5. Like the functions that create files, they
+// end the printing of HDF5's error stacks for the process.
+Hdf5Handle open_file(const std::string& path, const std::string& attempted);
+bool is_hdf5(const std::string& path);
 
 // Creates a file in memory in which links and attributes keep their order. Equal contents give
 // equal bytes.
@@ -107,6 +97,14 @@ void write_text(hid_t parent, const std::string& object, const std::string& name
 void write_number(hid_t parent, const std::string& object, const std::string& name, double value);
 
 Hdf5Handle open_group(hid_t parent, const std::string& name);
+Hdf5Handle open_dataset(hid_t parent, const std::string& name);
+// Shape of a dataset. One with more than `most_values` values counts as damaged.
+Shape shape_of(const Hdf5Handle& dataset, const std::string& name,
+               std::size_t most_values = std::numeric_limits<std::size_t>::max());
+// Number of values of a shape; more than `most_values` count as damaged.
+std::size_t count_of(const Shape& shape,
+                     std::size_t most_values = std::numeric_limits<std::size_t>::max(),
+                     const std::string& name = "");
 // Names of the links in a group, or of the attributes of an object, in order of creation.
 std::vector<std::string> link_names(hid_t group);
 std::vector<std::string> attribute_names(hid_t object);
@@ -125,10 +123,9 @@ std::size_t row_count(hid_t parent, const std::string& name);
 struct RowRange {
     std::size_t first, count;
 };
+template <class Value>  // double or std::int64_t
 void read_rows(hid_t parent, const std::string& name, const Shape& shape, RowRange range,
-               std::vector<double>& values);
-void read_rows(hid_t parent, const std::string& name, const Shape& shape, RowRange range,
-               std::vector<std::int64_t>& values);
+               std::vector<Value>& values);
 // True for an attribute as write_text() writes it; other programs add attributes of other types.
 bool has_text(hid_t object, const std::string& name);
 std::string read_text(hid_t parent, const std::string& object, const std::string& name);

@@ -5,6 +5,7 @@
 
 #include <array>
 #include <cstdio>
+#include <filesystem>
 #include <memory>
 #include <stdexcept>
 
@@ -43,6 +44,10 @@ std::string sha256(std::string_view bytes) {
 }
 
 std::string file_sha256(const std::string& path) {
+    // Reading a pipe or a device might never end.
+    if (std::error_code error; !std::filesystem::is_regular_file(path, error)) {
+        return "";
+    }
     const std::unique_ptr<FILE, int (*)(FILE*)> file(std::fopen(path.c_str(), "rb"), std::fclose);
     if (!file) {
         return "";

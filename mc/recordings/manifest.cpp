@@ -34,6 +34,10 @@ class Reading {
                 name.is_absolute()
                     ? name.string()
                     : (std::filesystem::path(table_.path).parent_path() / name).string();
+            if (std::error_code error;
+                std::filesystem::is_other(std::filesystem::status(recording.file, error))) {
+                reject("file", "is not a regular file", "name a file that can be read to its end");
+            }
             read_known(recording);
             list_.recordings.push_back(std::move(recording));
         }

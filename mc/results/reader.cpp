@@ -260,7 +260,7 @@ void check_readable(const std::string& path, ChecksumState checksum, bool verifi
                                       "integrity hash)") +
                               kRepairHint);
     }
-    if (H5Fis_hdf5(path.c_str()) <= 0) {
+    if (!is_hdf5(path)) {
         refuse_file(path, "is not a results file (it is not HDF5); `run` writes one");
     }
 }
@@ -300,8 +300,7 @@ void check_format(const std::string& path, hid_t root) {
 
 Results read_open_file(const std::string& path, bool with_columns) {
     try {
-        const Hdf5Handle file(H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), H5Fclose,
-                              "opening the file");
+        const Hdf5Handle file = open_file(path, "opening the file");
         const Hdf5Handle root = open_group(file.get(), "/");
         check_format(path, root.get());
         return ResultsReader(root.get(), std::filesystem::file_size(path), with_columns).read();
@@ -311,7 +310,6 @@ Results read_open_file(const std::string& path, bool with_columns) {
 }
 
 Results read(const std::string& path, bool with_columns, bool verified = true) {
-    const SilentHdf5 silent;
     const ChecksumState checksum = check_file_checksum(path);
     check_readable(path, checksum, verified);
     if (checksum != ChecksumState::intact &&

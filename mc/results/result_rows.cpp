@@ -175,10 +175,6 @@ namespace {
 
 constexpr std::size_t kFileBlockRows = 4096;
 
-Hdf5Handle open_file(const std::string& path) {
-    return {H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), H5Fclose, "opening the file"};
-}
-
 [[noreturn]] void refuse(const std::string& path, const Hdf5Error& error) {
     throw std::runtime_error(path + ": is damaged or truncated (at \"" + error.what() + "\")");
 }
@@ -204,9 +200,8 @@ RowBlock read_block(hid_t root, const Results& frame, std::size_t rows, RowRange
 }  // namespace
 
 FileRows::FileRows(const std::string& path, const Results& frame) : path_(path), frame_(frame) {
-    const SilentHdf5 silent;
     try {
-        const Hdf5Handle file = open_file(path);
+        const Hdf5Handle file = open_file(path, "opening the file");
         rows_ = row_count(file.get(), "status");
     } catch (const Hdf5Error& error) {
         refuse(path, error);
@@ -214,9 +209,8 @@ FileRows::FileRows(const std::string& path, const Results& frame) : path_(path),
 }
 
 void FileRows::visit(const std::function<void(const RowBlock&)>& use) const {
-    const SilentHdf5 silent;
     try {
-        const Hdf5Handle file = open_file(path_);
+        const Hdf5Handle file = open_file(path_, "opening the file");
         for (std::size_t first = 0; first < rows_; first += kFileBlockRows) {
             use(read_block(file.get(), frame_, rows_,
                            {first, std::min(kFileBlockRows, rows_ - first)}));

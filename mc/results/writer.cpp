@@ -341,7 +341,6 @@ std::optional<std::size_t> Results::parameter_index(const std::string& name) con
 }
 
 void write_results(const std::string& path, const Results& frame, const RowSource& rows) {
-    const SilentHdf5 silent;
     PendingFile file(path);
     const RowShape shape = row_shape(frame);
     require_room(file, shape, rows.rows());

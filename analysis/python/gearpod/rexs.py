@@ -24,31 +24,32 @@ MOST_PROBLEMS, MOST_STAGES, MOST_PAIRS = 1000, 200, 200
 NEWEST_VERSION = 6  # of 1.x
 LAST_LINE = 65535  # libxml2 counts no further
 BLANKS = " \t\r\n"
-
-# Factors that convert to the first unit of a quantity. Blanks in units do not matter. "mum" is REXS's micrometre.
-UNITS = {
-    "number": {"none": 1.0, "": 1.0, "-": 1.0, "1": 1.0, "%": 0.01},
-    "length": {"mm": 1.0, "m": 1e3, "mum": 1e-3, "um": 1e-3, "\u00b5m": 1e-3, "\u03bcm": 1e-3, "cm": 10.0,
-               "dm": 100.0, "in": 25.4},
-    "angle": {"deg": 1.0, "\u00b0": 1.0, "rad": 180.0 / math.pi, "mrad": 0.18 / math.pi},
-    "modulus": {"N/mm^2": 1e6, "MPa": 1e6, "GPa": 1e9, "Pa": 1.0, "kPa": 1e3, "N/m^2": 1.0, "kN/mm^2": 1e9,
-                "N/mm\u00b2": 1e6, "N/m\u00b2": 1.0},
-    "stiffness": {"N/m": 1.0, "N/mm": 1e3, "N/mum": 1e6, "N/um": 1e6, "kN/mm": 1e6, "kN/m": 1e3, "MN/m": 1e6},
-    "speed": {"1/min": 1.0, "rpm": 1.0, "U/min": 1.0, "rev/min": 1.0, "min^-1": 1.0, "1/s": 60.0, "Hz": 60.0,
-              "rad/s": 30.0 / math.pi},
-    "torque": {"Nm": 1.0, "kNm": 1e3, "Nmm": 1e-3, "MNm": 1e6}}
 NUMBER = re.compile(r"[+-]?([0-9]+\.?[0-9]*|\.[0-9]+)([eE][+-]?[0-9]+)?")
-
-# Attributes that place a component in space or describe it to a user.
-POSITIONS = {"support_vector", "u_axis_vector", "v_axis_vector", "w_axis_vector", "reference_component_for_position",
-             "u_coordinate_on_shaft", "u_coordinate_on_shaft_inner_side", "u_coordinate_on_shaft_outer_side",
-             "rotating_angle_around_neg_u_axis", "name", "display_color"}
 
 # Versions of REXS differ in the spelling.
 SHIFTS = ("addendum_modification_coefficient", "profile_shift_coefficient")
 SHIFTS_MM = ("addendum_modification", "profile_shift")
 HELICES = ("helix_angle_reference_diameter", "helix_angle")
 DISTANCES = ("center_distance", "centre_distance")
+
+# Factors that convert the attributes to the first unit. Blanks in units do not matter. "mum" is REXS's micrometre.
+UNITS = {name: units for names, units in (
+    ((*SHIFTS, "number_of_teeth", "number_of_planets", "poisson_ratio"), {"none": 1.0, "": 1.0, "-": 1.0, "1": 1.0, "%": 0.01}),
+    ((*SHIFTS_MM, *DISTANCES, "normal_module", "face_width", "common_face_width", "tip_diameter"),
+     {"mm": 1.0, "m": 1e3, "mum": 1e-3, "um": 1e-3, "\u00b5m": 1e-3, "\u03bcm": 1e-3, "cm": 10.0, "dm": 100.0, "in": 25.4}),
+    ((*HELICES, "normal_pressure_angle", "rotating_angle_around_neg_u_axis"),
+     {"deg": 1.0, "\u00b0": 1.0, "rad": 180.0 / math.pi, "mrad": 0.18 / math.pi}),
+    (("elastic_modulus",), {"N/mm^2": 1e6, "MPa": 1e6, "GPa": 1e9, "Pa": 1.0, "kPa": 1e3, "N/m^2": 1.0, "kN/mm^2": 1e9,
+                            "N/mm\u00b2": 1e6, "N/m\u00b2": 1.0}),
+    (("radial_stiffness",), {"N/m": 1.0, "N/mm": 1e3, "N/mum": 1e6, "N/um": 1e6, "kN/mm": 1e6, "kN/m": 1e3, "MN/m": 1e6}),
+    (("rotational_speed",), {"1/min": 1.0, "rpm": 1.0, "U/min": 1.0, "rev/min": 1.0, "min^-1": 1.0, "1/s": 60.0, "Hz": 60.0,
+                             "rad/s": 30.0 / math.pi}),
+    (("torque_around_u_axis",), {"Nm": 1.0, "kNm": 1e3, "Nmm": 1e-3, "MNm": 1e6})) for name in names}
+
+# Attributes that place a component in space or describe it to a user.
+POSITIONS = {"support_vector", "u_axis_vector", "v_axis_vector", "w_axis_vector", "reference_component_for_position",
+             "u_coordinate_on_shaft", "u_coordinate_on_shaft_inner_side", "u_coordinate_on_shaft_outer_side",
+             "rotating_angle_around_neg_u_axis", "name", "display_color"}
 
 
 class Unusable(Exception):
@@ -57,13 +58,11 @@ class Unusable(Exception):
 
 class Attribute:
     def __init__(self, node):
-        self.id, self.unit, self.line = node.get("id", ""), node.get("unit", "").strip(BLANKS), line_of(node)
-        text, self.scalar, self.used = node.text, True, False
-        if arrays := children(node, "array"):  # its first value counts
-            text, self.scalar = next((c.text for c in children(arrays[0], "c")), ""), False
-        elif children(node, "matrix"):
-            text, self.scalar = "matrix", False
-        self.text = (text or "").strip(BLANKS)
+        self.id, self.unit, self.line, self.used = node.get("id", ""), node.get("unit", "").strip(BLANKS), line_of(node), False
+        arrays, matrices = children(node, "array"), children(node, "matrix")  # the first value of an array counts
+        self.scalar = not arrays and not matrices
+        self.text = (next((c.text for c in children(arrays[0], "c")), "") if arrays else "matrix" if matrices else node.text) or ""
+        self.text = self.text.strip(BLANKS)
 
     def ignored(self):
         """True if a study has to take nothing from it: used, a position, zero, false or empty."""
@@ -73,19 +72,16 @@ class Attribute:
 class Component:
     def __init__(self, node, model):
         self.id, self.type, self.name = (node.get(key, "") for key in ("id", "type", "name"))
-        self.label, self.line, self.considered = f"{self.type} {self.id}", line_of(node), False
-        self.attributes = {}
-        for child in children(node, "attribute"):
-            new = Attribute(child)
+        self.label, self.line, self.considered, self.attributes = f"{self.type} {self.id}", line_of(node), False, {}
+        for new in map(Attribute, children(node, "attribute")):
             old = self.attributes.setdefault(new.id, new)
             if (old.text, old.unit) != (new.text, new.unit):
-                model.problem(f"{self.label}: {new.id}", f"occurs twice, as {old.text} {old.unit} and as {new.text} "
-                              f"{new.unit}", "keep one of them", new.line)
+                model.problem(f"{self.label}: {new.id}", f"occurs twice, as {old.text} {old.unit} and as {new.text} {new.unit}",
+                              "keep one of them", new.line)
 
-    def find(self, name):
-        """Attribute of that name, or None. Empty attributes count as missing."""
-        attribute = self.attributes.get(name)
-        return attribute if attribute and attribute.text else None
+    def find(self, *names):
+        """Attribute with the first of these names that it has, or None. Empty attributes count as missing."""
+        return next((self.attributes[name] for name in names if name in self.attributes and self.attributes[name].text), None)
 
 
 def children(node, name):
@@ -106,19 +102,23 @@ def magnitude(value):
     return None if value is None else abs(value)
 
 
+def agree(a, b):
+    return abs(a - b) <= 1e-6 * max(1.0, abs(b))
+
+
 def content(path, refuse):
     """Bytes of a file. Opening a pipe without O_NONBLOCK would wait for a writer."""
     try:
-        file = os.open(path, os.O_RDONLY | os.O_CLOEXEC | os.O_NONBLOCK)
-        found = os.fstat(file)
-        if not stat.S_ISREG(found.st_mode):
-            refuse("is a folder" if stat.S_ISDIR(found.st_mode) else "is a device, a pipe or a socket",
-                   "name a REXS file (*.rexs)")
-        if found.st_size > LARGEST_FILE:
-            refuse(f"has {found.st_size >> 20} MB; models of gear units with up to {LARGEST_FILE >> 20} MB are read",
-                   "export the model without meshes and results")
-        with open(file, "rb") as opened:
+        with open(os.open(path, os.O_RDONLY | os.O_CLOEXEC | os.O_NONBLOCK), "rb", closefd=True) as opened:
+            found = os.fstat(opened.fileno())
+            if not stat.S_ISREG(found.st_mode):
+                refuse("is a device, a pipe or a socket", "name a REXS file (*.rexs)")
+            if found.st_size > LARGEST_FILE:
+                refuse(f"has {found.st_size >> 20} MB; models of gear units with up to {LARGEST_FILE >> 20} MB are read",
+                       "export the model without meshes and results")
             return opened.read(LARGEST_FILE)
+    except IsADirectoryError:
+        return refuse("is a folder", "name a REXS file (*.rexs)")
     except OSError as error:
         return refuse(f"cannot be read ({error.strerror})", "name an existing REXS file (*.rexs)")
 
@@ -127,21 +127,18 @@ def root_of(data, refuse):
     """Root element of a REXS file. Refuses other formats, document type declarations (they define entities), and
     texts that are too deep or too long."""
     from lxml import etree
-    start = data.lstrip(BLANKS.encode() + b"\xef\xbb\xbf")[:1]
-    if data.startswith(b"PK\x03\x04"):
-        refuse("is a ZIP archive (.rexsz); unpack it and name the .rexs file in it")
-    if data.startswith(b"\x1f\x8b"):
-        refuse("is compressed by gzip; unpack it")
-    if not start or start == b"{":
-        refuse("is JSON; export the model as XML (.rexs)" if start else "is empty")
+    start = data.lstrip(BLANKS.encode() + b"\xef\xbb\xbf")
+    for condition, what in ((data.startswith(b"PK\x03\x04"), "is a ZIP archive (.rexsz); unpack it and name the .rexs file in it"),
+                            (data.startswith(b"\x1f\x8b"), "is compressed by gzip; unpack it"), (not start, "is empty"),
+                            (start[:1] == b"{", "is JSON; export the model as XML (.rexs)")):
+        if condition:
+            refuse(what)
     if data.count(b"<") > MOST_TAGS:
-        refuse(f"has more than {MOST_TAGS} XML tags, too many for a gear unit",
-               "export the model without meshes and results")
+        refuse(f"has more than {MOST_TAGS} XML tags, too many for a gear unit", "export the model without meshes and results")
     depth, root = 0, None
     try:
         for event, node in etree.iterparse(io.BytesIO(data), ("start", "end"), no_network=True, load_dtd=False,
-                                           resolve_entities=False, huge_tree=False, remove_comments=True,
-                                           remove_pis=True):
+                                           resolve_entities=False, huge_tree=False, remove_comments=True, remove_pis=True):
             root = node if root is None else root
             depth += 1 if event == "start" else -1
             if depth == 1 and root.getroottree().docinfo.internalDTD is not None:
@@ -159,27 +156,23 @@ def root_of(data, refuse):
 
 
 class Model:
-    """Components with attributes, and relations between components, with the problems and notes that arise when they
-    are read."""
+    """Components with attributes, and relations between components, with the problems and notes that arise when they are read."""
 
     def __init__(self):
         self.problems, self.notices = [], []  # each as line, key, what is wrong, remedy
-        self.notes, self.lacking = [], []
-        self.components = {}
+        self.notes, self.lacking, self.components = [], [], {}
         # Relations, each as component ids by role: all by type, and by type and id.
         self.relations, self.index = collections.defaultdict(list), collections.defaultdict(list)
 
     def read(self, path):
         root = root_of(content(path, self.refuse), self.refuse)
         self.check_version(root.get("version", ""), line_of(root))
-        for node in (node for whole in children(root, "components")[:1] for node in children(whole, "component")):
-            new = Component(node, self)
+        for new in (Component(node, self) for whole in children(root, "components")[:1] for node in children(whole, "component")):
             if self.components.setdefault(new.id, new) is not new:
                 self.problem(new.label, "the id occurs twice", "give every component its own id", new.line)
         for node in (node for whole in children(root, "relations")[:1] for node in children(whole, "relation")):
             kind, relation = node.get("type", ""), {}
-            for ref in children(node, "ref"):
-                role, name = ref.get("role", ""), ref.get("id", "")
+            for role, name in ((ref.get("role", ""), ref.get("id", "")) for ref in children(node, "ref")):
                 relation.setdefault(role, name)
                 if name not in self.components:
                     self.problem(f"relation {kind}", f"component {name} ({role}) does not exist", "", line_of(node))
@@ -209,8 +202,7 @@ class Model:
         raise Unusable
 
     def reject(self, component, attribute, what, remedy=""):
-        found = component.find(attribute)
-        self.problem(f"{component.label}: {attribute}", what, remedy, found.line if found else component.line)
+        self.problem(f"{component.label}: {attribute}", what, remedy, (component.find(attribute) or component).line)
 
     def parts(self, relation, *roles):
         """Components with these roles in a relation; None for those that it lacks."""
@@ -226,25 +218,25 @@ class Model:
         """Shaft that carries a gear, load or other part, in a list; [] if there is none."""
         return [whole for whole in self.related("assembly", "part", part, "assembly") if whole.type == "shaft"][:1]
 
-    def number(self, component, names, quantity):
+    def number(self, component, *names):
         """Number of the first of these attributes that the component has, in the unit that the datasheet has; None
         if it has none. A value that is no finite number, or has another unit, is a problem."""
-        attribute = next(filter(None, map(component.find, names)), None)
+        attribute, units = component.find(*names), UNITS[names[0]]
         if attribute is None:
             return None
         attribute.used = True
         value = parsed(attribute.text) if attribute.scalar else None
-        factor = UNITS[quantity].get(re.sub("[ \t]", "", attribute.unit))
+        factor = units.get(re.sub("[ \t]", "", attribute.unit))
         if value is None:
             self.reject(component, attribute.id, f"must be a number, but is {attribute.text}" if attribute.scalar
                         else "must be one number, but is an array")
         if factor is None:
             self.reject(component, attribute.id, f"unit {attribute.unit} is not known" if attribute.unit
-                        else "states no unit", "the units known here are " + ", ".join(filter(None, UNITS[quantity])))
+                        else "states no unit", "the units known here are " + ", ".join(filter(None, units)))
         return None if value is None or factor is None else value * factor
 
     def count(self, component, name):
-        value = self.number(component, [name], "number")
+        value = self.number(component, name)
         if value is not None and (value != round(value) or abs(value) > 1e6):
             return self.reject(component, name, f"must be a whole number, but is {value:g}")
         return None if value is None else int(value)
@@ -252,21 +244,17 @@ class Model:
     def flag(self, component, name):
         """True for "true"; None if the attribute is missing. Of an array, for its first value."""
         attribute = component.find(name)
-        if attribute is None:
-            return None
-        attribute.used = True
-        return attribute.text in ("true", "1")
+        if attribute is not None:
+            attribute.used = True
+        return None if attribute is None else attribute.text in ("true", "1")
 
-    def common(self, components, names, quantity):
-        """Value that several components give, such as both flanks of a gear. Values that differ are a problem that
-        names both."""
-        stated = [(new, component) for component in components
-                  if (new := self.number(component, names, quantity)) is not None]
+    def common(self, components, *names):
+        """Value that several components give, such as both flanks of a gear. Values that differ are a problem that names both."""
+        stated = [(new, component) for component in components if (new := self.number(component, *names)) is not None]
         for new, component in stated:
             value, first = stated[0]
-            if abs(new - value) > 1e-6 * max(1.0, abs(value)):
-                self.reject(component, names[0], f"is {new:.9g}, but {first.label} has {value:.9g}",
-                            "a study has one value for both")
+            if not agree(new, value):
+                self.reject(component, names[0], f"is {new:.9g}, but {first.label} has {value:.9g}", "a study has one value for both")
         return stated[0][0] if stated else None
 
     def apply_load_case(self, name):
@@ -278,15 +266,13 @@ class Model:
             for loaded in components:
                 if loaded.id in self.components:
                     self.components[loaded.id].attributes |= loaded.attributes
-        if name and not chosen:
-            self.problem("--load-case", f"the model has no load case {name}",
-                         "it has " + ", ".join(ids) if ids else "it has none")
-        elif ids and not chosen:
-            self.problem("--load-case", f"the model has {len(ids)} load cases", "choose one: " + ", ".join(ids))
+        if not chosen and (name or ids):
+            what, remedy = (f"has no load case {name}", "it has " + (", ".join(ids) or "none")) if name else \
+                (f"has {len(ids)} load cases", "choose one: " + ", ".join(ids))
+            self.problem("--load-case", "the model " + what, remedy)
 
     def unused(self):
-        """Attributes of considered components that were not used, and components that were not considered, a line
-        for each type."""
+        """Attributes of considered components that were not used, and components that were not considered, a line for each type."""
         attributes, types = collections.defaultdict(dict), collections.Counter()
         for component in self.components.values():
             types[component.type] += not component.considered
@@ -308,8 +294,7 @@ class Stage:
     study can be written."""
 
     def __init__(self, component, kind="other", obstacle=""):
-        self.component, self.kind, self.obstacle, self.teeth = component, kind, obstacle, ""
-        self.first = self.second = None
+        self.component, self.kind, self.obstacle, self.teeth, self.first, self.second = component, kind, obstacle, "", None, None
         self.planets, self.first_pairs, self.second_pairs = [], [], []
 
     def description(self):
@@ -334,21 +319,19 @@ def teeth_text(model, gears):
 
 def planetary_stage(model, component, pairs):
     """Sorts the gear pairs of a planetary stage by mesh and finds sun, planets and ring."""
-    stage = Stage(component, "planetary")
-    if len(pairs) > MOST_PAIRS:
-        stage.obstacle = f"it has {len(pairs)} gear pairs"
+    stage, nameless = Stage(component, "planetary"), [pair for pair, *gears in pairs if None in gears]
+    if len(pairs) > MOST_PAIRS or nameless:
+        stage.obstacle = (f"it has {len(pairs)} gear pairs" if len(pairs) > MOST_PAIRS else
+                          nameless[0].label + " names no gear_1 or no gear_2")
         return stage
     suns, planets, rings, inner = {}, {}, {}, []  # dicts keep the order
-    for pair, gear_1, gear_2 in pairs:
-        if gear_1 is None or gear_2 is None:
-            stage.obstacle = pair.label + " names no gear_1 or no gear_2"
-            return stage
-        if "ring_gear" in (gear_1.type, gear_2.type):
-            ring, planet = (gear_1, gear_2) if gear_1.type == "ring_gear" else (gear_2, gear_1)
-            rings[ring] = planets[planet] = True
+    for pair, *gears in pairs:
+        ring = next((gear for gear in gears if gear.type == "ring_gear"), None)
+        if ring:
+            rings[ring] = planets[gears[gears[0] is ring]] = True
             stage.second_pairs.append(pair)
         else:
-            inner.append((pair, gear_1, gear_2))
+            inner.append((pair, *gears))
     stage.first_pairs = [pair for pair, _, _ in inner]
     for pair, gear_1, gear_2 in inner:
         if (gear_1 in planets) == (gear_2 in planets):
@@ -370,23 +353,18 @@ def planetary_stage(model, component, pairs):
     return stage
 
 
-def cylindrical_stage(model, component, gear_1, gear_2):
-    stage = Stage(component, "cylindrical")
-    stage.first, stage.second, stage.first_pairs = gear_1, gear_2, [component]
-    if gear_1 is None or gear_2 is None:
-        stage.obstacle = "it names no gear_1 or no gear_2"
-        return stage
-    stage.teeth = teeth_text(model, [gear_1, gear_2])
-    if "ring_gear" in (gear_1.type, gear_2.type):
-        stage.obstacle = "internal gears on fixed shafts are not simulated"
+def cylindrical_stage(model, component, *gears):
+    stage = Stage(component, "cylindrical", "it names no gear_1 or no gear_2" if None in gears else "")
+    (stage.first, stage.second), stage.first_pairs = gears, [component]
+    if not stage.obstacle:
+        stage.teeth = teeth_text(model, gears)
+        stage.obstacle = "internal gears on fixed shafts are not simulated" if "ring_gear" in [g.type for g in gears] else ""
     return stage
 
 
 def stages_of(model):
     """All stages, those within a planetary stage excepted."""
-    pairs = {}
-    for stage, *gears in (model.parts(relation, "stage", "gear_1", "gear_2") for relation in model.relations["stage"]):
-        pairs[stage] = (stage, *gears)
+    pairs = {pair[0]: pair for pair in (model.parts(relation, "stage", "gear_1", "gear_2") for relation in model.relations["stage"])}
     planetary, within = collections.defaultdict(list), set()
     for whole, part in (model.parts(relation, "assembly", "part") for relation in model.relations["assembly"]):
         if whole and part and whole.type == "planetary_stage" and part in pairs and part not in within:
@@ -407,15 +385,13 @@ def chosen_stage(model, stages, name):
     if len(stages) > MOST_STAGES:
         model.refuse(f"has {len(stages)} gear stages", f"models of up to {MOST_STAGES} are read")
     found = [stage for stage in stages if (stage.component.id == name if name else not stage.obstacle)]
-    listed = "; ".join(stage.description() for stage in stages)
     if len(found) == 1 and not found[0].obstacle:
         return found[0]
-    if len(found) > 1:
-        model.problem("--stage", f"the model has {len(stages)} stages", "choose one: " + listed)
-    else:
-        model.problem("--stage", f"stage {name} is not possible: {found[0].obstacle}" if found
-                      else f"there is no stage {name}" if name else "no stage of the model can be simulated",
-                      "the model has " + listed)
+    several = len(found) > 1
+    what = (f"the model has {len(stages)} stages" if several else f"stage {name} is not possible: {found[0].obstacle}" if found
+            else f"there is no stage {name}" if name else "no stage of the model can be simulated")
+    model.problem("--stage", what, ("choose one: " if several else "the model has ") +
+                  "; ".join(stage.description() for stage in stages))
     raise Unusable
 
 
@@ -432,26 +408,22 @@ class Gear:
                    if material.type == "material"]
         for part in parts + made_of:
             part.considered = True
-        teeth = model.common(gears, ["number_of_teeth"], "number")
+        teeth = model.common(gears, "number_of_teeth")
         for gear in gears:
             model.count(gear, "number_of_teeth")
         self.teeth = int(min(abs(teeth or 0.0), 10001))
-        self.module = model.common(gears, ["normal_module"], "length")
-        for name, value in (("number_of_teeth", teeth), ("normal_module", self.module)):
-            if value is None and self.component.find(name) is None:
+        self.module = model.common(gears, "normal_module")
+        for name in ("number_of_teeth", "normal_module"):
+            if self.component.find(name) is None and not any(gear.find(name) for gear in gears):
                 model.reject(self.component, name, "is missing")
-        self.pressure_angle = model.common(parts, ["normal_pressure_angle"], "angle")
-        self.helix = magnitude(model.common(gears, HELICES, "angle"))
-        self.shift = self.profile_shift(model, parts)
-        self.face_width = model.common(gears, ["face_width"], "length")
-        self.tip = magnitude(model.common(parts, ["tip_diameter"], "length"))
-        self.young_modulus = model.common(made_of, ["elastic_modulus"], "modulus")
-        self.poisson_ratio = model.common(made_of, ["poisson_ratio"], "number")
+        self.pressure_angle = model.common(parts, "normal_pressure_angle")
+        self.helix, self.shift = magnitude(model.common(gears, *HELICES)), self.profile_shift(model, parts)
+        self.face_width, self.tip = model.common(gears, "face_width"), magnitude(model.common(parts, "tip_diameter"))
+        self.young_modulus, self.poisson_ratio = model.common(made_of, "elastic_modulus"), model.common(made_of, "poisson_ratio")
 
     def profile_shift(self, model, parts):
         """Coefficient, from the coefficient or the shift in mm."""
-        coefficient = model.common(parts, SHIFTS, "number")
-        shift_mm = model.common(parts, SHIFTS_MM, "length")
+        coefficient, shift_mm = model.common(parts, *SHIFTS), model.common(parts, *SHIFTS_MM)
         if shift_mm is None or not self.module:
             return coefficient
         from_mm = shift_mm / self.module
@@ -463,13 +435,12 @@ class Gear:
 
 def shared(model, gears, name, attribute):
     """Value of a property that all gears of a stage should share. A gear that differs is a problem."""
-    stated = [gear for gear in gears if getattr(gear, name) is not None]
-    for gear in stated:
-        value, first = getattr(gear, name), getattr(stated[0], name)
-        if abs(value - first) > 1e-6 * max(1.0, value):
-            model.reject(gear.component, attribute, f"is {value:.9g}, but that of {stated[0].component.label} is "
-                         f"{first:.9g}; meshing gears have the same")
-    return getattr(stated[0], name) if stated else None
+    stated = [(getattr(gear, name), gear.component) for gear in gears if getattr(gear, name) is not None]
+    for value, component in stated:
+        first, other = stated[0]
+        if not agree(first, value):
+            model.reject(component, attribute, f"is {value:.9g}, but that of {other.label} is {first:.9g}; meshing gears have the same")
+    return stated[0][0] if stated else None
 
 
 def harmonic_mean(model, gears, name, title):
@@ -485,9 +456,8 @@ def harmonic_mean(model, gears, name, title):
 
 def common_width(model, pairs, gears):
     stated = [gear for gear in gears if gear.face_width is not None]
-    different, width = {gear.face_width for gear in stated}, model.common(pairs, ["common_face_width"], "length")
-    if width is None and different:
-        width = min(different)
+    different, width = {gear.face_width for gear in stated}, model.common(pairs, "common_face_width")
+    width = min(different, default=None) if width is None else width
     if different - {width}:
         listed = ", ".join(f"{gear.face_width:g} mm of {gear.component.label}" for gear in stated)
         model.notes.append(f"face widths {listed}; a study has one, the common {width:g} mm")
@@ -514,8 +484,7 @@ def check_centre_distance(model, pair, teeth, gear_1, gear_2):
     normal = 20.0 if teeth["pressure_angle_deg"] is None else teeth["pressure_angle_deg"]
     angle = math.atan(math.tan(math.radians(normal)) / math.cos(helix))
     shift = (gear_1.shift + gear_2.shift) * math.cos(helix)
-    working = angle if shift == 0.0 else inverse_involute(
-        math.tan(angle) - angle + 2.0 * math.tan(angle) * shift / number)
+    working = angle if shift == 0.0 else inverse_involute(math.tan(angle) - angle + 2.0 * math.tan(angle) * shift / number)
     fits = 0.5 * abs(number) * module / math.cos(helix) * math.cos(angle) / math.cos(working)
     # Backlash in modules: larger distances open external meshes and close internal ones. Shifts are rounded to two
     # decimals; no allowance of tooth thickness is 0.1.
@@ -525,42 +494,37 @@ def check_centre_distance(model, pair, teeth, gear_1, gear_2):
                            f"{gap * module:.3g} mm at {distance:.6g} mm")
     elif not -0.01 <= gap <= 0.1:
         model.reject(pair, DISTANCES[0], f"is {distance:.6g} mm, but {gear_1.teeth} and {gear_2.teeth} teeth with "
-                     f"shifts of {gear_1.shift:g} and {gear_2.shift:g} fit at {fits:.6g} mm",
-                     "correct the distance, the teeth or the shifts (a positive shift makes teeth thicker, also those "
-                     "of a ring: ISO 21771)")
+                     f"shifts of {gear_1.shift:g} and {gear_2.shift:g} fit at {fits:.6g} mm", "correct the distance, the teeth "
+                     "or the shifts (a positive shift makes teeth thicker, also those of a ring: ISO 21771)")
 
 
 def teeth_of(model, stage, gears, options):
     """Values that all gears of a stage share. Options replace the model's."""
     pairs = stage.first_pairs + stage.second_pairs
-    for pair in pairs:
-        pair.considered = True
-        for data in model.related("stage_gear_data", "stage", pair, "stage_gear_data"):
-            data.considered = True
-            model.flag(data, "is_driving_gear")
-    stage.component.considered = True
+    gear_data = [data for pair in pairs for data in model.related("stage_gear_data", "stage", pair, "stage_gear_data")]
+    for part in [stage.component] + pairs + gear_data:
+        part.considered = True
+    for data in gear_data:
+        model.flag(data, "is_driving_gear")
     teeth = {"module_mm": shared(model, gears, "module", "normal_module") or 0.0,
              "pressure_angle_deg": shared(model, gears, "pressure_angle", "normal_pressure_angle"),
              "helix_deg": shared(model, gears, "helix", HELICES[0]),
-             "centre_distance_mm": magnitude(model.common(pairs, DISTANCES, "length"))}
-    meshes = [(stage.first_pairs[0], *gears[:2]), *((pair, *gears[1:]) for pair in stage.second_pairs[:1])]
-    for mesh in meshes:
-        check_centre_distance(model, mesh[0], teeth, *mesh[1:])
+             "centre_distance_mm": magnitude(model.common(pairs, *DISTANCES))}
+    for pair, meshing in ((stage.first_pairs[0], gears[:2]), *((pair, gears[1:]) for pair in stage.second_pairs[:1])):
+        check_centre_distance(model, pair, teeth, *meshing)
     width = teeth["face_width_mm"] = common_width(model, pairs, gears)
     teeth["young_modulus_Pa"] = harmonic_mean(model, gears, "young_modulus", "Young's modulus, Pa")
     teeth["poisson_ratio"] = harmonic_mean(model, gears, "poisson_ratio", "Poisson's ratio")
     if stage.kind == "cylindrical":
-        first, second = (model.number(gear, HELICES, "angle") or 0.0 for gear in (stage.first, stage.second))
+        first, second = (model.number(gear, *HELICES) or 0.0 for gear in (stage.first, stage.second))
         if first * second > 0.0:
             model.reject(stage.second, HELICES[0], f"{second:g} and {first:g} deg of {stage.first.label} have the same "
                          "sign; external gears on parallel shafts have opposite hands")
     teeth |= {name: options[name] for name in ("face_width_mm", "addendum", "quality") if name in options}
-    for name, title in (("pressure_angle_deg", "normal pressure angle (20 deg)"), ("helix_deg", "helix angle (0 deg)"),
-                        ("face_width_mm", "face width"), ("centre_distance_mm", "centre distance"),
-                        ("young_modulus_Pa", "Young's modulus"), ("poisson_ratio", "Poisson's ratio"),
-                        ("quality", "tooth quality")):
-        if teeth.get(name) is None:
-            model.lacking.append(title)
+    model.lacking += [title for name, title in (
+        ("pressure_angle_deg", "normal pressure angle (20 deg)"), ("helix_deg", "helix angle (0 deg)"),
+        ("face_width_mm", "face width"), ("centre_distance_mm", "centre distance"), ("young_modulus_Pa", "Young's modulus"),
+        ("poisson_ratio", "Poisson's ratio"), ("quality", "tooth quality")) if teeth.get(name) is None]
     if "face_width_mm" in options and width is not None:
         model.notes.append(f"an option replaces the model's face width of {width:g} mm")
     return teeth
@@ -570,17 +534,15 @@ def bearings(model, shafts, member, notes):
     """Radial stiffness of all bearings between these shafts and other parts. None without bearings, or if any of them
     is rigid or has none; a note names these."""
     total, unusable, ids = 0.0, [], {shaft.id for shaft in shafts}
-    for relation in model.relations["side"] if ids else []:
+    for relation in model.relations["side"]:
         bearing, = model.parts(relation, "assembly")
-        if not bearing or "bearing" not in bearing.type or \
-                not ids & {relation.get("inner_part"), relation.get("outer_part")}:
-            continue
-        bearing.considered = True
-        stiffness = model.number(bearing, ["radial_stiffness"], "stiffness")
-        if stiffness is not None and 0.0 < stiffness < 1e13:
-            total += stiffness
-        else:
-            unusable.append(bearing.label + ("" if stiffness is None else f" ({stiffness:g} N/m)"))
+        if bearing and "bearing" in bearing.type and ids & {relation.get("inner_part"), relation.get("outer_part")}:
+            bearing.considered = True
+            stiffness = model.number(bearing, "radial_stiffness")
+            if stiffness is not None and 0.0 < stiffness < 1e13:
+                total += stiffness
+            else:
+                unusable.append(bearing.label + ("" if stiffness is None else f" ({stiffness:g} N/m)"))
     if unusable:
         notes.append(f"bearings of the {member} that are rigid or state no radial stiffness, replaced by the rule: " +
                      ", ".join(unusable))
@@ -639,12 +601,12 @@ class Load:
         for part in model.components.values():
             if part.type == "shaft":
                 model.flag(part, "defines_speed")
-                if speed := model.number(part, ["rotational_speed"], "speed"):
+                if speed := model.number(part, "rotational_speed"):
                     speeds[part] = speed
             elif part.type == "external_load":
                 part.considered = True
                 defines, _ = model.flag(part, "defines_torque"), model.flag(part, "transmits_torque")
-                torque = model.number(part, ["torque_around_u_axis"], "torque")
+                torque = model.number(part, "torque_around_u_axis")
                 torques += [(not defines, shaft, part, torque) for shaft in model.shaft_of(part) if torque]
         if torques:
             self.follow_torque(speeds, sorted(torques, key=lambda torque: torque[0]), ends)
@@ -669,16 +631,15 @@ class Load:
                                   f"{expected:.6g} N m follow from {by.label}")
 
     def follow_speed(self, model, speeds, driver):
-        reached, source = reached_from(self.links, driver), None
-        for shaft, speed in speeds.items():
-            here = abs(speed) / reached[shaft][0] if shaft in reached else None
-            if here is not None and source is None:
-                self.speed, source = here, shaft
+        reached = reached_from(self.links, driver)
+        followed = [(abs(speed) / reached[shaft][0], shaft, speed) for shaft, speed in speeds.items() if shaft in reached]
+        for here, shaft, speed in followed:
+            self.speed, source, first = followed[0]
+            if shaft is source:
                 self.notes.append(f"speed from {shaft.label} ({speed:.6g} rpm)")
-            elif here is not None and abs(here - self.speed) > 0.01 * here:
-                model.reject(shaft, "rotational_speed", f"{speed:.6g} rpm contradict {speeds[source]:.6g} rpm of "
-                             f"{source.label}: the stage's driving shaft would turn at {here:.6g} and at "
-                             f"{self.speed:.6g} rpm", "correct one of them")
+            elif abs(here - self.speed) > 0.01 * here:
+                model.reject(shaft, "rotational_speed", f"{speed:.6g} rpm contradict {first:.6g} rpm of {source.label}: the "
+                             f"stage's driving shaft would turn at {here:.6g} and at {self.speed:.6g} rpm", "correct one of them")
 
     def drive_other(self, model, sun, ring, options):
         """Driving member of a planetary stage: the model's, or with the balancing load that of an option."""
@@ -715,16 +676,13 @@ class Load:
 
 def check_ring(model, stage):
     """Rejects a planetary stage whose ring turns."""
-    why = ""
-    for shaft in model.shaft_of(stage.second):
-        if speed := model.number(shaft, ["rotational_speed"], "speed"):
-            why = f"its {shaft.label} turns at {speed:.6g} rpm"
-        for held in carriers(model, stage) + model.shaft_of(stage.first):
-            if not why and model.number(held, ["rotational_speed"], "speed") == 0.0 and \
-                    model.flag(held, "defines_speed"):
-                why = f"{held.label} stands still instead (rotational_speed 0)"
-    if why:
-        model.problem(stage.component.label, f"the ring is not the fixed member: {why}",
+    turning = [f"its {shaft.label} turns at {speed:.6g} rpm" for shaft in model.shaft_of(stage.second)
+               if (speed := model.number(shaft, "rotational_speed"))]
+    turning += [f"{held.label} stands still instead (rotational_speed 0)" for _ in model.shaft_of(stage.second)
+                for held in carriers(model, stage) + model.shaft_of(stage.first)
+                if model.number(held, "rotational_speed") == 0.0 and model.flag(held, "defines_speed")]
+    if turning:
+        model.problem(stage.component.label, f"the ring is not the fixed member: {turning[0]}",
                       "new writes studies with a fixed ring; edit operation.fixed in one")
 
 
@@ -740,7 +698,7 @@ def planets_of(model, stage, options):
     here = stated if stated is not None else 3 if modelled == 1 else modelled
     if given not in (None, here) and modelled > 1:
         model.notes.append(f"an option replaces the model's number of planets, {here}")
-    angles = [model.number(pair, ["rotating_angle_around_neg_u_axis"], "angle") for pair in stage.first_pairs]
+    angles = [model.number(pair, "rotating_angle_around_neg_u_axis") for pair in stage.first_pairs]
     angles = sorted(angle % 360.0 for angle in angles if angle is not None)
     if any(abs(angle - angles[0] - 360.0 * i / len(angles)) > 0.5 for i, angle in enumerate(angles)):
         listed = ", ".join(f"{angle - angles[0]:.4g}" for angle in angles)
@@ -751,24 +709,20 @@ def planets_of(model, stage, options):
 
 def names_of(stage, members):
     """Names of values for messages, by study key: attributes of the model, else options."""
-    names = {f"gearbox.{key}": f"{stage.component.label}: {attribute}" for key, attribute in (
-        ("normal_module_mm", "normal_module"), ("module_mm", "normal_module"), ("helix_angle_deg", HELICES[0]),
-        ("pressure_angle_deg", "normal_pressure_angle"), ("face_width_mm", "face_width"),
-        ("young_modulus_Pa", "elastic_modulus"), ("poisson_ratio", "poisson_ratio"),
-        ("centre_distance_mm", DISTANCES[0]))}
-    return names | {f"gearbox.{member}.{key}": f"{gear.component.label}: {attribute}"
-                    for member, gear in members.items()
-                    for key, attribute in (("teeth", "number_of_teeth"), ("shift", SHIFTS[0]),
-                                           ("tip_mm", "tip_diameter"))} | {"operation.pinion_speed_rpm": "--speed"}
+    of_stage = {"normal_module_mm": "normal_module", "module_mm": "normal_module", "helix_angle_deg": HELICES[0],
+                "pressure_angle_deg": "normal_pressure_angle", "face_width_mm": "face_width", "young_modulus_Pa": "elastic_modulus",
+                "poisson_ratio": "poisson_ratio", "centre_distance_mm": DISTANCES[0]}
+    of_gear = {"teeth": "number_of_teeth", "shift": SHIFTS[0], "tip_mm": "tip_diameter"}
+    return {f"gearbox.{key}": f"{stage.component.label}: {attribute}" for key, attribute in of_stage.items()} | \
+        {f"gearbox.{member}.{key}": f"{gear.component.label}: {attribute}" for member, gear in members.items()
+         for key, attribute in of_gear.items()} | {"operation.pinion_speed_rpm": "--speed"}
 
 
 def stage_values(model, stages, stage, options):
     """Values of the datasheet, and the gears by the names that they have in a study."""
     load = Load(model, stages, stage)
-    first, second = (stage.second, stage.first) if load.second_drives and not stage.planets else \
-        (stage.first, stage.second)
-    gears = {"sun": [first], "planet": stage.planets, "ring": [second]} if stage.planets else \
-        {"pinion": [first], "gear": [second]}
+    first, second = (stage.second, stage.first) if load.second_drives and not stage.planets else (stage.first, stage.second)
+    gears = {"sun": [first], "planet": stage.planets, "ring": [second]} if stage.planets else {"pinion": [first], "gear": [second]}
     owners = {"sun": "sun's", "planet": "planets'", "ring": "ring's", "carrier": "carrier's",
               "pinion": "driving gear's", "gear": "driven gear's"}
     members = {member: Gear(model, parts) for member, parts in gears.items()}
@@ -785,14 +739,12 @@ def stage_values(model, stages, stage, options):
     shafts = {member: model.shaft_of(parts[0]) for member, parts in gears.items()}
     shafts |= {"carrier": carriers(model, stage)} if stage.planets else {}
     for key, title, numbers in (
-            ("{}_shift", "shift", {member: gear.shift for member, gear in members.items()}),
-            ("{}_tip_mm", "tip circle", {member: gear.tip for member, gear in members.items()}),
-            ("{}_bearing_N_m", "bearing stiffness",
-             {member: bearings(model, held, re.sub("'s?$", "", owners[member]), model.notes)
-              for member, held in shafts.items()})):
-        values |= {key.format(member): value for member, value in numbers.items()}
-        model.lacking += [f"{owners[member]} {title}" for member, value in numbers.items()
-                          if value is None]
+            ("shift", "shift", {member: gear.shift for member, gear in members.items()}),
+            ("tip_mm", "tip circle", {member: gear.tip for member, gear in members.items()}),
+            ("bearing_N_m", "bearing stiffness", {member: bearings(model, held, re.sub("'s?$", "", owners[member]), model.notes)
+                                                  for member, held in shafts.items()})):
+        values |= {f"{member}_{key}": value for member, value in numbers.items()}
+        model.lacking += [f"{owners[member]} {title}" for member, value in numbers.items() if value is None]
     if stage.planets:
         values["input"] = load.drive_other(model, members["sun"], members["ring"], options)
     else:
@@ -810,15 +762,14 @@ def datasheet(model, options):
     values, members = stage_values(model, stages, stage, options)
     if model.problems:
         raise Unusable
-    model.lacking += ["gear bodies, masses and inertias", "damping", "sensor and noise"]
-    lacks = "ot in the model, by rule or chosen: " + ", ".join(model.lacking)
-    unused = ["ot taken from the model: " + line for line in model.unused()]
+    lacking = model.lacking + ["gear bodies, masses and inertias", "damping", "sensor and noise"]
+    rest = ["ot in the model, by rule or chosen: " + ", ".join(lacking)] + \
+        ["ot taken from the model: " + line for line in model.unused()]
     head = f"Stage {stage.description()} of {options['name']} (REXS {model.version})."
     return {"kind": stage.kind, "names": names_of(stage, members),
             "values": {name: value for name, value in values.items() if value is not None},
-            "notes": [head] + model.notes + ["N" + line for line in [lacks] + unused],
-            "notices": model.notices + [(0, "", line, "") for line in
-                                        model.notes + ["n" + line for line in [lacks] + unused]]}
+            "notes": [head] + model.notes + ["N" + line for line in rest],
+            "notices": model.notices + [(0, "", line, "") for line in model.notes + ["n" + line for line in rest]]}
 
 
 def main():
@@ -835,8 +786,7 @@ def main():
         model.problem("", f"cannot be read: {sys.executable}: {error}",
                       "install python3-lxml, or name a Python 3 with lxml in GEARPOD_PYTHON")
     except MemoryError:
-        model.problem("", "needs more memory than reading a model may use",
-                      "export the model without meshes and results")
+        model.problem("", "needs more memory than reading a model may use", "export the model without meshes and results")
     except (ArithmeticError, ValueError):
         model.problem("", "has values that no gear unit can have")
     json.dump({**(reply if not model.problems else {}), "problems": model.problems}, sys.stdout)

@@ -17,6 +17,7 @@ import os
 import random
 import signal
 import socket
+import stat
 import struct
 import sys
 import sysconfig
@@ -200,6 +201,8 @@ class Records:
 
 def content(path):
     try:
+        if not stat.S_ISREG(os.stat(path).st_mode) and not os.path.isdir(path):
+            raise Refused(f"{path}: is not a regular file")  # reading it might never end
         with open(path, "rb") as stream:
             return stream.read()
     except OSError as error:

@@ -40,8 +40,7 @@ bool is_recordings(const std::string& path) {
 }
 
 bool has_simulated_signals(const std::string& path) {
-    const SilentHdf5 silent;
-    const Hdf5Handle file(H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), H5Fclose, path);
+    const Hdf5Handle file = open_file(path, path);
     const auto attributes = attribute_names(file.get());
     const auto links = link_names(file.get());
     return std::ranges::count(attributes, "code_version") == 1 &&
