@@ -38,20 +38,16 @@ const std::vector<Case> kTrainEffects{
     {"none", {}},
     {"inertial-terms", {"effects.inertial_terms=true"}},
     {"transmission-error", {"gearbox.sun_planet.error_um=[1]"}},
-    {"mesh-error", {"gearbox.mesh.error_um=[1]"}},
     {"separation", {"effects.separation=one-sided"}},
-    {"torque-sine", {"operation.torque_fluctuation=0.1", "operation.torque_fluctuation_Hz=3"}},
     {"torque-noise", {"operation.torque_noise=0.1", "operation.torque_noise_band_Hz=3"}},
     {"gravity", {"effects.gravity=true"}},
-    {"torque-sine+gravity",
-     {"operation.torque_fluctuation=0.1", "operation.torque_fluctuation_Hz=3",
-      "effects.gravity=true"}},
+    {"torque-noise+gravity",
+     {"operation.torque_noise=0.1", "operation.torque_noise_band_Hz=3", "effects.gravity=true"}},
     {"speed-sine", {"operation.speed_fluctuation=0.01", "operation.speed_fluctuation_order=1"}},
     {"speed-noise", {"operation.speed_noise=0.01", "operation.speed_noise_band_Hz=3"}},
     {"all",
      {"effects.inertial_terms=true", "effects.separation=one-sided",
-      "gearbox.sun_planet.error_um=[1]", "operation.torque_fluctuation=0.1",
-      "operation.torque_fluctuation_Hz=3", "operation.torque_noise=0.1",
+      "gearbox.sun_planet.error_um=[1]", "operation.torque_noise=0.1",
       "operation.torque_noise_band_Hz=3", "effects.gravity=true",
       "operation.speed_fluctuation=0.01", "operation.speed_fluctuation_order=1"}}};
 
@@ -71,9 +67,9 @@ class Tile {
         for (const mc::Realization& gearbox : gearboxes) {
             inputs_.push_back(scene_->inputs(gearbox.inputs));
         }
-        excitation_ =
-            mc::draw_excitation(scene_->gearbox(), scene_->draw().seed,
-                                {scene_->solve().longest_run_in(), scene_->record().signal_meshes}, gearboxes);
+        excitation_ = mc::draw_excitation(
+            scene_->gearbox(), scene_->draw().seed,
+            {scene_->solve().longest_run_in(), scene_->record().signal_meshes}, gearboxes);
         if (excitation_) {
             mesh_integrator_ =
                 lockstep::make_excited_integrator<kLanes>(scene_->plan(), *excitation_, inputs_);
