@@ -78,7 +78,7 @@ def key_schema(key):
 
 
 def insert(properties, name, schema):
-    """Puts a dotted name, such as until.size, into nested tables."""
+    """Puts a dotted name, such as sun.mass_kg, into nested tables."""
     first, _, rest = name.partition(".")
     if not rest:
         properties[first] = schema

@@ -124,8 +124,7 @@ PointState point_state(const RunOptions& run, bool lives) {
         }
         const BatchPlan plan =
             lives ? lives_plan(made.scene->life().campaign) : plan_of(run, made.scene->ensemble());
-        const bool enough = FileRows(path, old).rows() >= plan.rows() ||
-                            old.provenance_value("state") == "ended by ensemble.until";
+        const bool enough = FileRows(path, old).rows() >= plan.rows();
         return enough ? PointState::all : PointState::some;
     } catch (const std::exception&) {
         return PointState::nothing;  // not a results file, or damaged

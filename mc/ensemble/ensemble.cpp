@@ -77,8 +77,7 @@ class Leader {
         close();
         outcome_.teams[0].output = outcome_.output_s;
         outcome_.wall_s = seconds_since(start);
-        outcome_.batches =
-            run_.watch != nullptr && run_.watch->done() ? run_.watch->batches() : first_missing();
+        outcome_.batches = first_missing();
         return std::move(outcome_);
     }
 
@@ -194,10 +193,7 @@ class Leader {
             return;
         }
         store([&] { run_.watch->advance(run_.store); });
-        run_.progress.watch(run_.watch->text(), run_.watch->rows_left());
-        if (run_.watch->done()) {
-            stop();
-        }
+        run_.progress.watch(run_.watch->text());
     }
 
     void checkpoint() {

@@ -22,8 +22,8 @@ struct EnsembleRun {
     RowStore& store;  // rank 0 only; batches in it are not computed again
     Progress& progress;
     const Interruption* interruption = nullptr;
-    RunningPd* watch = nullptr;  // ends the run at the required accuracy; shown as progress
-    double checkpoint_s = 30.0;  // interval between two syncs of the store
+    RunningPd* watch = nullptr;                  // shown as progress
+    double checkpoint_s = 30.0;                  // interval between two syncs of the store
     std::function<void()> checkpointed = [] {};  // called after each sync
 };
 

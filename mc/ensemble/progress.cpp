@@ -44,25 +44,22 @@ void Progress::advance(long count) {
     }
 }
 
-void Progress::watch(std::string rate, std::optional<std::size_t> left) {
+void Progress::watch(std::string rate) {
     rate_ = std::move(rate);
-    rows_left_ = left;
 }
 
 void Progress::show(std::chrono::steady_clock::time_point now) {
     const double elapsed = std::chrono::duration<double>(now - start_).count();
     const double rate = static_cast<double>(done_ - before_) / elapsed;
-    // Rows that the requested interval still needs, if that is less.
-    const long missing = total_ - done_;
-    const long left = rows_left_ ? std::min(missing, static_cast<long>(*rows_left_)) : missing;
+    const long left = total_ - done_;
     if (form_ == Form::json) {
         return show_json(elapsed, rate, left, false);
     }
     const double share = static_cast<double>(done_) / static_cast<double>(total_);
-    std::string numbers = fmt::format(
-        "{} of {}{} {}, {} per second, {} left", done_, left < missing ? "at most " : "", total_,
-        counted_, rate < 10.0 ? fmt::format("{:.2g}", rate) : fmt::format("{:.0f}", rate),
-        duration_text(static_cast<double>(left) / rate));
+    std::string numbers =
+        fmt::format("{} of {} {}, {} per second, {} left", done_, total_, counted_,
+                    rate < 10.0 ? fmt::format("{:.2g}", rate) : fmt::format("{:.0f}", rate),
+                    duration_text(static_cast<double>(left) / rate));
     if (!rate_.empty()) {
         numbers += ", " + rate_;
     }

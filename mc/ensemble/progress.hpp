@@ -7,7 +7,6 @@
 
 #include <chrono>
 #include <cstddef>
-#include <optional>
 #include <string>
 
 namespace gearpod::mc {
@@ -24,8 +23,8 @@ class Progress {
 
     // Reports that `count` more items are done.
     void advance(long count);
-    // Sets the detection rate to show, and the number of further rows until it is accurate enough.
-    void watch(std::string rate, std::optional<std::size_t> left);
+    // Sets the detection rate to show.
+    void watch(std::string rate);
 
     // Ends the line of the progress bar.
     void finish();
@@ -44,7 +43,6 @@ class Progress {
     const long before_;
     long done_ = 0;
     std::string rate_;
-    std::optional<std::size_t> rows_left_;
 };
 
 }  // namespace gearpod::mc

@@ -30,12 +30,6 @@ RunningPd::RunningPd(const EnsemblePlan& plan, const BatchPlan& batches, const s
     }
     group_ = request_.groups.size() - 1;
     level_ = level_next_to(request_.noise_levels, 1.0);
-    if (plan.until) {
-        requested_half_width_ = plan.until->half_width;
-        index = plan.until->feature;
-        group_ = plan.until->group;
-        level_ = plan.until->level;
-    }
     feature_name_ = plan.features.at(index)->name;
     alarm_ = plan.features[index]->alarm;
     size_name_ = plan.group_names[group_];
@@ -43,7 +37,7 @@ RunningPd::RunningPd(const EnsemblePlan& plan, const BatchPlan& batches, const s
 }
 
 void RunningPd::advance(const RowStore& store) {
-    while (!stop_ && next_ < batches_.batches() && store.has(next_)) {
+    while (next_ < batches_.batches() && store.has(next_)) {
         if (next_ == batches_.threshold_batches()) {
             set_threshold(store);
         }
@@ -51,10 +45,6 @@ void RunningPd::advance(const RowStore& store) {
             count(store.read(next_));
         }
         ++next_;
-        if (requested_half_width_ && tested_ > 0 &&
-            half_width(static_cast<double>(tested_)) <= *requested_half_width_) {
-            stop_ = next_;
-        }
     }
 }
 
@@ -74,22 +64,12 @@ void RunningPd::count(const BatchRows& rows) {
     for (std::size_t row = 0; row < rows.count(); ++row) {
         const double* values = rows.values.data() + row * shape_.values();
         const double value = values[column_];
-        ++test_;
         if (std::isfinite(value) && !std::isnan(threshold_) &&
             analysis::group_of(values[shape_.fault_size()], request_.groups) == group_) {
             ++tested_;
             detected_ += analysis::is_alarm(value, threshold_, alarm_) ? 1 : 0;
         }
     }
-}
-
-// Half width of the Wilson interval at the current rate for a sample of `tested` gearboxes.
-double RunningPd::half_width(double tested) const {
-    const long n = std::lround(tested);
-    const long detected =
-        std::lround(static_cast<double>(detected_) * tested / static_cast<double>(tested_));
-    const auto interval = analysis::wilson_interval(detected, n, request_.confidence);
-    return 0.5 * (interval.upper - interval.lower);
 }
 
 std::string RunningPd::text() const {
@@ -101,24 +81,6 @@ std::string RunningPd::text() const {
                        size_name_, request_.noise_levels[level_],
                        static_cast<double>(detected_) / static_cast<double>(tested_),
                        interval.lower, interval.upper);
-}
-
-std::optional<std::size_t> RunningPd::rows_left() const {
-    if (!requested_half_width_ || tested_ == 0 || stop_) {
-        return std::nullopt;
-    }
-    double few = static_cast<double>(tested_), many = few;
-    constexpr double kMost = 1e12;
-    while (many < kMost && half_width(many) > *requested_half_width_) {
-        many *= 2.0;
-    }
-    while (many - few > 1.0) {
-        const double middle = std::floor(0.5 * (few + many));
-        (half_width(middle) > *requested_half_width_ ? few : many) = middle;
-    }
-    const double per_tested = static_cast<double>(test_) / static_cast<double>(tested_);
-    const auto all = static_cast<std::size_t>(per_tested * many);
-    return all - std::min(test_, all);
 }
 
 }  // namespace gearpod::mc

@@ -73,11 +73,6 @@ double CrackLife::force_N(const InstanceInputs& inputs, const LifeRecord& record
     return plan_.drivetrain->mesh_force_N(loaded);
 }
 
-bool CrackLife::breaks(const InstanceInputs& inputs, const LifeRecord& record) const {
-    const auto& toughness = plan_.fracture_toughness_Pa_m05;
-    return toughness && force_N(inputs, record) * range_per_force(record.depth_m) >= *toughness;
-}
-
 void CrackLife::grow(const ParisStart& paris, const InstanceInputs& inputs,
                      LifeHistory& history) const {
     const double interval_h = plan_.campaign.interval_h, last_m = plan_.campaign.last_m;
@@ -90,11 +85,6 @@ void CrackLife::grow(const ParisStart& paris, const InstanceInputs& inputs,
     for (std::size_t i = history.first_cracked; i < history.records.size(); ++i) {
         LifeRecord& record = history.records[i];
         record.depth_m = growth.depth_after(damage);
-        if (breaks(inputs, record)) {
-            history.end_hours = record.hours;
-            history.records.resize(i);
-            return;
-        }
         const double more = growth.damage_of(force_N(inputs, record), cycles * record.speed);
         if (damage + more >= whole) {
             history.end_hours = record.hours + interval_h * (whole - damage) / more;
@@ -124,11 +114,6 @@ void CrackLife::grow(const DepthCurve& curve, const InstanceInputs& inputs,
         record.depth_m = std::min(
             last_m,
             interpolated(curve.hours, curve.depth_m, (record.hours - begin_h) * inputs.curve_pace));
-        if (breaks(inputs, record)) {
-            history.end_hours = record.hours;
-            history.records.resize(i);
-            return;
-        }
     }
     if (history.records.back().hours + plan_.campaign.interval_h >= end_h) {
         history.end_hours = end_h;

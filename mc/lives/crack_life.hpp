@@ -45,7 +45,6 @@ class CrackLife {
     // Both end the history when the tooth fails.
     void grow(const ParisStart& growth, const InstanceInputs& inputs, LifeHistory& history) const;
     void grow(const DepthCurve& curve, const InstanceInputs& inputs, LifeHistory& history) const;
-    bool breaks(const InstanceInputs& inputs, const LifeRecord& record) const;
     double force_N(const InstanceInputs& inputs, const LifeRecord& record) const;
 
     const LifePlan& plan_;

@@ -63,8 +63,8 @@ LoadAxis::LoadAxis(const RecordDistribution& distribution, const LoadNumber& num
     const double low = distribution.factor(-kPolynomialReach),
                  high = distribution.factor(kPolynomialReach);
     if (!number.nodes || !(low < high)) {
-        factors_ = distribution.integrated_factors(number.evenly_spaced);
-        checks_ = between_ = distribution.factors_between(number.evenly_spaced);
+        factors_ = distribution.integrated_factors();
+        checks_ = between_ = {distribution.factor(0.0)};
         checks_.insert(checks_.end(),
                        {distribution.factor(-kExtrapolated), distribution.factor(kExtrapolated)});
         return;

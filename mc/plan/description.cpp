@@ -467,12 +467,9 @@ class Describer {
     // True if the damping is 0 in every gearbox. Random values are never 0.
     bool none(const std::string& key, double nominal) { return nominal == 0.0 && !is_random(key); }
 
-    bool no_mesh_damping(const dynamics::DampingParameters& nominal) {
+    bool no_mesh_damping(double nominal) {
         return dynamics::with_mesh_damping(study_.effects.mesh_damping, [&](auto law) {
-            std::size_t next = 0;
-            return std::ranges::all_of(law.kParameters, [&](const dynamics::DampingParameter& one) {
-                return none("gearbox." + std::string(one.key), nominal[next++]);
-            });
+            return none("gearbox." + std::string(law.kParameter.key), nominal);
         });
     }
 
@@ -603,9 +600,8 @@ class Describer {
     std::string unequal_planets_text() {
         const PlanetDifferences& p = study_.planets;
         std::vector<std::string> parts;
-        for (const auto& [list, what] :
-             {std::pair{&p.pin_tangential_m, "tangential pin errors"},
-              std::pair{&p.pin_radial_m, "radial pin errors"}}) {
+        for (const auto& [list, what] : {std::pair{&p.pin_tangential_m, "tangential pin errors"},
+                                         std::pair{&p.pin_radial_m, "radial pin errors"}}) {
             if (!list->empty()) {
                 parts.push_back(fmt::format("{} given", what));
             }
@@ -652,13 +648,7 @@ class Describer {
     void add_excitation() {
         const FluctuationInstance f = gearbox_.nominal.fluctuations;
         if (torque_fluctuates(study_)) {
-            const std::string rate = !torque_has_sine(study_) ? ""
-                                     : f.torque_order > 0.0
-                                         ? fmt::format("{:g} per input revolution", f.torque_order)
-                                         : fmt::format("{:g} Hz", f.torque_Hz);
-            add("torque fluctuation", "{}",
-                sizes(f.torque, rate, f.torque_noise,
-                      torque_has_noise(study_) ? f.torque_noise_Hz : 0.0));
+            add("torque fluctuation", "{}", sizes(0.0, "", f.torque_noise, f.torque_noise_Hz));
         }
         if (speed_fluctuates(study_)) {
             const std::string rate = speed_has_sine(study_)
@@ -668,8 +658,7 @@ class Describer {
                 sizes(f.speed, rate, f.speed_noise,
                       speed_has_noise(study_) ? f.speed_noise_Hz : 0.0));
         }
-        add_if(study_.effects.gravity, "gravity", "{:g} deg from the x axis{}",
-               study_.effects.gravity_direction_rad * 180.0 / std::numbers::pi,
+        add_if(study_.effects.gravity, "gravity", "-90 deg from the x axis{}",
                gravity_turns(study_) ? ", rotating in the carrier frame" : "");
         if (const std::string why = reason_not_periodic(study_); !why.empty()) {
             add("solution", "{}",

@@ -64,13 +64,9 @@ void remove_relief(Study& s) {
 
 void remove_torque_fluctuation(Study& s) {
     Fluctuations& f = s.fluctuations;
-    f.torque.reset();
-    f.torque_order.reset();
-    f.torque_Hz.reset();
     f.torque_noise.reset();
     f.torque_noise_Hz.reset();
-    f.torque_phase_rad = 0.0;
-    give_up_random(s, {"operation.torque_fluctuation", "operation.torque_noise"});
+    give_up_random(s, {"operation.torque_noise"});
 }
 void remove_speed_fluctuation(Study& s) {
     Fluctuations& f = s.fluctuations;

@@ -142,27 +142,6 @@ std::vector<VariantColumns> variants_of(const Study& study) {
     return variants;
 }
 
-// Empty if the study has no rule, or not its feature, level or size.
-std::optional<StoppingRule> stopping_rule(const Study& study,
-                                          const analysis::DetectionRequest& request) {
-    const Until& until = study.ensemble.until;
-    if (!until.half_width) {
-        return std::nullopt;
-    }
-    const auto index_in = [](const auto& list, const auto& value) {
-        return static_cast<std::size_t>(std::ranges::find(list, value) - list.begin());
-    };
-    const std::size_t feature =
-        index_in(study.features.use,
-                 features::all_features()[static_cast<std::size_t>(*until.feature)].name);
-    const std::size_t level = index_in(request.noise_levels, until.noise_level);
-    const auto group = analysis::group_of(size_in_si(study, *until.size), request.groups);
-    if (feature == study.features.use.size() || level == request.noise_levels.size() || !group) {
-        return std::nullopt;
-    }
-    return StoppingRule{*until.half_width, feature, *group, level};
-}
-
 }  // namespace
 
 EnsemblePlan::EnsemblePlan() : EnsemblePlan(Study{}) {}
@@ -180,7 +159,6 @@ EnsemblePlan::EnsemblePlan(const Study& study_)
       meshes(separating_meshes(study_)),
       variants(variants_of(study_)),
       request(detection_request(study_)),
-      until(stopping_rule(study_, request)),
       checkpoint_s(study_.ensemble.checkpoint_s),
       threads(study_.numerics.threads),
       lanes(study_.numerics.lanes) {

@@ -136,12 +136,6 @@ struct VariantColumns {
     std::optional<std::size_t> sensor;  // additional sensor; empty for kOtherFault
 };
 
-// Ends a run when the confidence interval of one detection rate is narrow enough.
-struct StoppingRule {
-    double half_width;
-    std::size_t feature, group, level;  // in EnsemblePlan::features and in the request
-};
-
 struct EnsemblePlan {
     // The plan of an empty study.
     EnsemblePlan();
@@ -173,7 +167,6 @@ struct EnsemblePlan {
     RowShape shape;
     analysis::DetectionRequest request;
     std::vector<std::string> group_names;  // sizes of the request's groups, "3 mm"
-    std::optional<StoppingRule> until;
     double checkpoint_s;
     int threads;  // 0: all
     int lanes;

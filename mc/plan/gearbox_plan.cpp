@@ -186,15 +186,11 @@ std::optional<ExcitationModel> excitation_model(const Study& study) {
         return std::nullopt;
     }
     ExcitationModel model;
-    if (torque_fluctuates(study)) {
-        model.torque = {torque_has_sine(study), torque_has_noise(study)};
-    }
+    model.torque_noise = torque_fluctuates(study);
     if (speed_fluctuates(study)) {
         model.speed = {speed_has_sine(study), speed_has_noise(study)};
     }
-    if (study.effects.gravity) {
-        model.gravity_direction_rad = study.effects.gravity_direction_rad;
-    }
+    model.gravity = study.effects.gravity;
     return model;
 }
 

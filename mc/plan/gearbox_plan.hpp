@@ -61,16 +61,17 @@ struct ToothErrorModel {
     std::vector<ToothedBody> bodies;  // in the order of lockstep::ToothErrors::gears
 };
 
-// Components of a fluctuation that any gearbox has.
-struct FluctuationModel {
+// Components of the speed's fluctuation that any gearbox has.
+struct SpeedFluctuation {
     bool sine = false, noise = false;
 };
 // Variable excitation; at least one part is there.
 struct ExcitationModel {
-    std::optional<FluctuationModel> torque, speed;
-    std::optional<double> gravity_direction_rad;  // in the frame of the housing
+    bool torque_noise = false;
+    std::optional<SpeedFluctuation> speed;
+    bool gravity = false;
 
-    bool random() const { return (torque && torque->noise) || (speed && speed->noise); }
+    bool random() const { return torque_noise || (speed && speed->noise); }
 };
 
 // Elastic shaft that couples a neighbouring stage with a gearbox. [0] is its end at that gearbox,

@@ -120,9 +120,7 @@ class Computation {
         inputs.planets = recipe_.planets;
         inputs.support_stiffness_N_m = values_.or_0<"gearbox.support_stiffness_N_m">();
         inputs.support_damping_N_s_m = values_.or_0<"gearbox.support_damping_N_s_m">();
-        for (std::size_t p = 0; p < recipe_.mesh_damping.size(); ++p) {
-            inputs.mesh_damping[p] = values_[recipe_.mesh_damping[p]].value_or(0.0);
-        }
+        inputs.mesh_damping = values_[*recipe_.mesh_damping].value_or(0.0);
         inputs.torque_N_m = values_.or_0<"operation.torque_N_m">();
         inputs.speed_rad_s = speed_rad_s();
         inputs.fluctuations = fluctuations();
@@ -194,11 +192,7 @@ class Computation {
     }
 
     FluctuationInstance fluctuations() const {
-        return {values_.or_0<"operation.torque_fluctuation">(),
-                values_.or_0<"operation.torque_fluctuation_order">(),
-                values_.or_0<"operation.torque_fluctuation_Hz">(),
-                values_.or_0<"operation.torque_fluctuation_phase_deg">(),
-                values_.or_0<"operation.torque_noise">(),
+        return {values_.or_0<"operation.torque_noise">(),
                 values_.or_0<"operation.torque_noise_band_Hz">(),
                 values_.or_0<"operation.speed_fluctuation">(),
                 values_.or_0<"operation.speed_fluctuation_order">(),
@@ -211,7 +205,6 @@ class Computation {
     double speed_rad_s() const {
         for (const std::optional<double> given :
              {values_.get<"operation.pinion_speed_rpm">(), values_.get<"operation.sun_speed_rpm">(),
-              values_.get<"operation.ring_speed_rpm">(),
               values_.get<"operation.carrier_speed_rpm">()}) {
             if (given) {
                 return *given;
@@ -236,9 +229,7 @@ InputsRecipe::InputsRecipe(const Study& study)
             static_cast<double>(*teeth_of(study, Member::gear)) / *teeth_of(study, Member::pinion);
     }
     dynamics::with_mesh_damping(study.effects.mesh_damping, [&](const auto& law) {
-        for (const dynamics::DampingParameter& parameter : law.kParameters) {
-            mesh_damping.push_back(input_id("gearbox." + std::string(parameter.key)));
-        }
+        mesh_damping = input_id("gearbox." + std::string(law.kParameter.key));
     });
     if (study.fault.kind != nullptr) {
         fault_size = input_id("fault." + std::string(study.fault.kind->size().name));
@@ -248,7 +239,6 @@ InputsRecipe::InputsRecipe(const Study& study)
 Member speed_member(const Study& study) {
     return study.operation.pinion_speed_rad_s ? Member::pinion
            : study.operation.sun_speed_rad_s  ? Member::sun
-           : study.operation.ring_speed_rad_s ? Member::ring
                                               : Member::carrier;
 }
 

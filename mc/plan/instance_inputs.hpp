@@ -71,10 +71,9 @@ struct FixedShaftInstance {
     double load_torque_N_m;  // given, or in balance with the motor's torque
 };
 
-// Fluctuation inputs of Fluctuations, with 0 for values that are not given. Orders are cycles per
-// turn of the input, frequencies cycles per second.
+// Fluctuation inputs of Fluctuations, with 0 for values that are not given. The order is cycles per
+// turn of the input, bands are cycles per second.
 struct FluctuationInstance {
-    double torque, torque_order, torque_Hz, torque_phase_rad;
     double torque_noise, torque_noise_Hz;
     double speed, speed_order, speed_phase_rad;
     double speed_noise, speed_noise_Hz;
@@ -84,7 +83,7 @@ struct FluctuationInstance {
 struct InstanceInputs {
     MemberArray<BodyInstance> bodies;
     double support_stiffness_N_m, support_damping_N_s_m;
-    dynamics::DampingParameters mesh_damping;  // of the law effects.mesh_damping
+    double mesh_damping;  // parameter of the law effects.mesh_damping
     FixedShaftInstance fixed_shaft;
     double backlash_m;  // 2b
     // Deviations, rms, in addition to those of a quality.
@@ -127,14 +126,14 @@ struct InputsRecipe {
 
     InputValues nominal;
     MemberArray<Body> bodies;
-    std::optional<double> gear_ratio;   // gear to pinion teeth of a fixed-shaft gearbox
-    std::vector<InputId> mesh_damping;  // parameters of the law effects.mesh_damping
-    std::optional<InputId> fault_size;  // empty without a fault
-    Planets planets;                    // given differences
+    std::optional<double> gear_ratio;     // gear to pinion teeth of a fixed-shaft gearbox
+    std::optional<InputId> mesh_damping;  // parameter of the law effects.mesh_damping
+    std::optional<InputId> fault_size;    // empty without a fault
+    Planets planets;                      // given differences
     NoiseModel noise;
 };
 
-// Member whose speed a study gives: sun, ring or carrier, or the pinion.
+// Member whose speed a study gives: sun or carrier, or the pinion.
 Member speed_member(const Study& study);
 
 // Inputs of one gearbox, including J / r^2 and the given differences between planets.

@@ -106,34 +106,19 @@ double RecordDistribution::rms() const {
     return std::sqrt(sum);
 }
 
-std::vector<double> RecordDistribution::integrated_factors(int count) const {
+std::vector<double> RecordDistribution::integrated_factors() const {
     if (!varies()) {
         return {1.0};
     }
-    std::vector<double> all;
-    for (int i = 0; i < count; ++i) {
-        const double next = factor(-kReach + 2.0 * kReach * i / (count - 1));
-        if (all.empty() || next > all.back()) {
-            all.push_back(next);
-        }
+    const double low = factor(-kReach), high = factor(kReach);
+    if (low < high) {
+        return {low, high};
     }
-    if (all.size() > 1) {
-        return all;
-    }
-    // The evenly spaced quantiles of a discrete distribution may coincide; then its limits are
-    // used.
+    // These quantiles of a discrete distribution may coincide; then its limits are used.
     const Support support = input_ ? input_->distribution.support() : Support{1.0, 1.0};
     return support.low < support.high
                ? std::vector<double>{support.low / nominal_, support.high / nominal_}
-               : all;
-}
-
-std::vector<double> RecordDistribution::factors_between(int count) const {
-    std::vector<double> all;
-    for (int i = 0; i + 1 < count; ++i) {
-        all.push_back(factor(-kReach + kReach * (2.0 * i + 1.0) / (count - 1)));
-    }
-    return all;
+               : std::vector<double>{low};
 }
 
 std::string RecordDistribution::text() const {
@@ -272,10 +257,8 @@ LifePlan make_life_plan(const Study& study, const GearboxPlan& gearbox) {
     }
     return {.campaign = make_campaign_plan(study),
             .distributions = RecordDistributions(study),
-            .torques = {life.given_torques.value_or(2), life.polynomial_torques,
-                        life.given_torques || life.polynomial_torques || life.distinct_torques},
-            .speeds = {life.given_speeds.value_or(2), life.polynomial_speeds,
-                       life.given_speeds || life.polynomial_speeds || life.distinct_speeds},
+            .torques = {life.polynomial_torques, life.polynomial_torques || life.distinct_torques},
+            .speeds = {life.polynomial_speeds, life.polynomial_speeds || life.distinct_speeds},
             .interpolation_tolerance = life.interpolation_tolerance,
             .noise_level = study.sensor.noise_levels.front(),
             .length = life_record_length(study),
@@ -287,8 +270,7 @@ LifePlan make_life_plan(const Study& study, const GearboxPlan& gearbox) {
             .gearbox_inputs = std::move(used),
             .ignored_inputs = std::move(ignored),
             .tooth = cracked_tooth(study, gearbox),
-            .growth = growth_of(life),
-            .fracture_toughness_Pa_m05 = life.fracture_toughness_Pa_m05};
+            .growth = growth_of(life)};
 }
 
 }  // namespace
@@ -392,9 +374,6 @@ std::vector<std::string> keys_without_effect_on_lives(const Study& study) {
     std::vector<std::string> keys;
     if (study.numerics.verify) {
         keys.emplace_back("numerics.verify");
-    }
-    if (study.ensemble.until.half_width) {
-        keys.emplace_back("ensemble.until");
     }
     if (!study.detection.uncertain_inputs.empty()) {
         keys.emplace_back("detection.uncertain_inputs");

@@ -40,13 +40,10 @@ class RecordDistribution {
     // factors).
     double rms() const;
     // Ascending factors at which a gearbox is integrated, between which records are interpolated.
-    // They belong to `count` (two or more) evenly spaced normal numbers from -1.5 to 1.5; {1} if
-    // the quantity is constant.
-    std::vector<double> integrated_factors(int count) const;
+    // They belong to the normal numbers -1.5 and 1.5; {1} if the quantity is constant.
+    std::vector<double> integrated_factors() const;
     // All factors that occur, ascending; empty if they are not limited to a number.
     std::vector<double> distinct_factors() const;
-    // Factors halfway (in the normal number) between neighbouring ones of these.
-    std::vector<double> factors_between(int count) const;
     // For example "scatters by 2 % (rms) about the gearbox's" or "lognormal, ...".
     std::string text() const;
 
@@ -69,8 +66,7 @@ struct RecordDistributions {
 // Number of torques or speeds at which a gearbox is integrated. Signals of other records are
 // interpolated between them.
 struct LoadNumber {
-    int evenly_spaced = 2;     // quantiles, with linear interpolation between them
-    std::optional<int> nodes;  // of one polynomial instead
+    std::optional<int> nodes;  // of one polynomial; empty: two quantiles, linear between them
     bool given = false;        // in the study; otherwise it is chosen (choose_interpolation)
 
     bool operator==(const LoadNumber&) const = default;
@@ -160,7 +156,6 @@ struct LifePlan {
     // Crack.
     CrackedTooth tooth;
     std::variant<ParisStart, DepthCurve> growth;
-    std::optional<double> fracture_toughness_Pa_m05;
 
     // Length of a record at this speed. Throws SceneError if recordings are too short.
     RecordSpan record_span(double speed_rad_s) const;

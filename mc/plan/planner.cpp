@@ -135,7 +135,6 @@ double Planner::fastest_mode_Hz(const Numerics& numerics) const {
 Planner Planner::with_gearboxes(long gearboxes) const {
     Study fewer = with_numerics(plans_->study, facts().numerics);
     Ensemble& e = fewer.ensemble;
-    e.until = {};
     const double share =
         static_cast<double>(gearboxes) / static_cast<double>(e.instances + e.threshold_instances);
     if (share < 1.0) {

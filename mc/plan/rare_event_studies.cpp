@@ -11,7 +11,6 @@ Study of_feature(const Study& study, const std::string& feature, double noise_le
     Study restricted = study;
     restricted.features.use = {feature};
     restricted.sensor.noise_levels = {noise_level};
-    restricted.ensemble.until = {};
     return restricted;
 }
 

@@ -166,7 +166,7 @@ RecordLength record_length(const Study& study) {
 }
 
 RecordLength life_record_length(const Study& study) {
-    const RecordLength of_life{"life", study.life.record_s, study.life.record_turns};
+    const RecordLength of_life{"life", study.life.record_s, {}};
     return of_life.given() ? of_life : record_length(study);
 }
 

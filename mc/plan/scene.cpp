@@ -75,8 +75,8 @@ Study stage_study(const Study& study, const NeighbourStage& stage, const Study& 
     const double factor =
         turns_Hz(other_end, *stage.shaft, stage) / turns_Hz(adapted, *stage.stage_shaft, stage);
     for (std::optional<double>* speed :
-         {&adapted.operation.sun_speed_rad_s, &adapted.operation.ring_speed_rad_s,
-          &adapted.operation.carrier_speed_rad_s, &adapted.operation.pinion_speed_rad_s}) {
+         {&adapted.operation.sun_speed_rad_s, &adapted.operation.carrier_speed_rad_s,
+          &adapted.operation.pinion_speed_rad_s}) {
         if (*speed) {
             **speed *= factor;
         }

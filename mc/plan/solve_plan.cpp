@@ -372,17 +372,14 @@ SceneGrid choose_grid(const Study& study, const Stepping& stepping, int samples,
 // Highest fluctuation frequency of a gearbox (sine or noise band), in cycles per mesh period.
 double highest_frequency(const GearboxPlan& gearbox, const InstanceInputs& in) {
     const FluctuationInstance& f = in.fluctuations;
-    const auto& [torque, speed, gravity] = *gearbox.excitation;
+    const auto& [torque_noise, speed, gravity] = *gearbox.excitation;
     const double period_s = dynamics::mesh_period_s(gearbox.inputs(in));
     const double turns = gearbox.drivetrain->input_turns_per_mesh();
     double result = 0.0;
-    if (torque && torque->sine) {
-        result = std::max(f.torque_order * turns, f.torque_Hz * period_s);
-    }
     if (speed && speed->sine) {
-        result = std::max(result, f.speed_order * turns);
+        result = f.speed_order * turns;
     }
-    if (torque && torque->noise) {
+    if (torque_noise) {
         result = std::max(result, f.torque_noise_Hz * period_s);
     }
     if (speed && speed->noise) {
@@ -410,9 +407,9 @@ void check_kernels(const ExcitationModel& model, const lockstep::IntegrationPlan
     if (lockstep::supports_excitation(plan, excitation)) {
         return;
     }
-    const std::string what = model.speed    ? "a fluctuating speed"
-                             : model.torque ? "a fluctuating torque"
-                                            : "gravity";
+    const std::string what = model.speed          ? "a fluctuating speed"
+                             : model.torque_noise ? "a fluctuating torque"
+                                                  : "gravity";
     if (plan.precision != lockstep::Precision::double_precision) {
         throw SceneError("numerics.precision", what + " needs double precision",
                          "use precision = \"double\"");

@@ -350,7 +350,11 @@ std::optional<MonitoringOverTime> monitoring_over_time(const Results& frame,
     monitoring.baseline_records = requested.baseline_records;
     monitoring.false_alarm_rate = frame.request.false_alarm_rate;
     monitoring.confidence = frame.request.confidence;
-    monitoring.sustained = {requested.sustained_records, requested.sustained_share};
+    // One bad recording is in as many averages as there are recordings in an average.
+    analysis::SustainedRule& sustained = monitoring.sustained;
+    while (sustained.needed() <= requested.average_records) {
+        ++sustained.records;
+    }
     monitoring.torque_regression = torque.has_value();
     monitoring.names = lines_of(frame.provenance_value("recordings"));
     const std::string& unit = frame.parameters[*time].unit;

@@ -20,14 +20,12 @@ std::string machines_text(int machines) {
 }  // namespace
 
 bool has_alarm_target(const Study& study) {
-    return study.detection.false_alarms_per_1000_h || study.detection.false_alarms_per_year;
+    return study.detection.false_alarms_per_1000_h.has_value();
 }
 
 double alarm_target_per_hour(const Study& study) {
     EXPECTS(has_alarm_target(study));
-    const Detection& d = study.detection;
-    return d.false_alarms_per_year ? *d.false_alarms_per_year / kYear_h
-                                   : *d.false_alarms_per_1000_h / 1000.0;
+    return *study.detection.false_alarms_per_1000_h / 1000.0;
 }
 
 std::optional<double> record_interval_h(const Study& study) {
@@ -49,16 +47,11 @@ std::string false_alarm_target_text(const Study& study) {
             "each feature.",
             *interval_h, d.false_alarm_rate, alarms_text(per_year));
     }
+    const std::string alarms = alarms_text(*d.false_alarms_per_1000_h);
     return fmt::format(
-        "{} in {} {}, with a record of each every {:g} h, {} a rate of {:.3g} in a "
-        "record for each feature{}.",
-        alarms_text(d.false_alarms_per_year ? *d.false_alarms_per_year
-                                            : *d.false_alarms_per_1000_h),
-        d.false_alarms_per_year ? "a year" : "1000 h", machines_text(d.machines), *interval_h,
-        alarms_text(d.false_alarms_per_year ? *d.false_alarms_per_year : *d.false_alarms_per_1000_h)
-                .ends_with('s')
-            ? "are"
-            : "is",
+        "{} in 1000 h {}, with a record of each every {:g} h, {} a rate of {:.3g} in a record for "
+        "each feature{}.",
+        alarms, machines_text(d.machines), *interval_h, alarms.ends_with('s') ? "are" : "is",
         d.false_alarm_rate,
         d.machines > 1 ? fmt::format(" ({} a year of one machine)", alarms_text(per_year)) : "");
 }

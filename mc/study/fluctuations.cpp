@@ -13,10 +13,7 @@ bool any(const Study& study, const std::optional<double>& value, const char* key
 
 }  // namespace
 
-bool torque_has_sine(const Study& study) {
-    return any(study, study.fluctuations.torque, "operation.torque_fluctuation");
-}
-bool torque_has_noise(const Study& study) {
+bool torque_fluctuates(const Study& study) {
     return any(study, study.fluctuations.torque_noise, "operation.torque_noise");
 }
 bool speed_has_sine(const Study& study) {

@@ -6,18 +6,14 @@
 namespace gearpod::mc {
 
 // True if any gearbox has this component. A component that is 0 in every gearbox counts as absent.
-bool torque_has_sine(const Study& study);
-bool torque_has_noise(const Study& study);
+bool torque_fluctuates(const Study& study);
 bool speed_has_sine(const Study& study);
 bool speed_has_noise(const Study& study);
-inline bool torque_fluctuates(const Study& study) {
-    return torque_has_sine(study) || torque_has_noise(study);
-}
 inline bool speed_fluctuates(const Study& study) {
     return speed_has_sine(study) || speed_has_noise(study);
 }
 inline bool has_random_fluctuations(const Study& study) {
-    return torque_has_noise(study) || speed_has_noise(study);
+    return torque_fluctuates(study) || speed_has_noise(study);
 }
 
 // True if the planets' weights balance each other about the carrier's axis, so that a purely

@@ -101,8 +101,6 @@ struct Life {
     std::optional<double> curve_pace;
     // Paris' law: C in mm a cycle at 1 MPa m^(1/2), and m.
     std::optional<double> paris_factor, paris_exponent;
-    // Stress intensity at which the remaining ligament breaks.
-    std::optional<double> fracture_toughness_Pa_m05;
     // Number of depth steps from 0 to the last depth. A gearbox is integrated at their ends;
     // signals in between are interpolated.
     int depth_steps = 8;
@@ -110,18 +108,17 @@ struct Life {
     // form of the record distributions of torque, speed, gain and noise in [random].
     double torque_scatter = 0.0, speed_scatter = 0.0, gain_scatter = 0.0, noise_scatter = 0.0;
     // Number of torques and speeds at which a gearbox is integrated if its records' values differ,
-    // by default as many as interpolation_tolerance needs. Signals between them are interpolated.
-    std::optional<int> given_torques, given_speeds;
-    // The same with nodes of one polynomial, which converges faster (superposition.hpp).
+    // by default as many as interpolation_tolerance needs. One polynomial through them gives the
+    // signals in between (superposition.hpp).
     std::optional<int> polynomial_torques, polynomial_speeds;
     // Instead of that: number of torques and speeds, equally frequent, that records have at all.
     std::optional<int> distinct_torques, distinct_speeds;
     // Largest error of signals between them, relative to the change made by a crack of
     // smallest_depth_m(). Numbers that are not given are raised until pilots keep it.
     double interpolation_tolerance = 0.1;
-    // Length of a recording, in seconds or in carrier turns; by default every tooth of a planet
-    // meets every tooth of the ring once. A record averages `recordings` recordings.
-    std::optional<double> record_s, record_turns;
+    // Length of a recording, by default that of [sensor]. A record averages `recordings`
+    // recordings.
+    std::optional<double> record_s;
     int recordings = 1;
 
     bool operator==(const Life&) const = default;
@@ -242,10 +239,8 @@ struct Gearbox {
     std::optional<double> ring_to_sun_phase;  // mesh periods; by default from the geometry
     double support_stiffness_N_m = 0.0;       // tangential, holds the fixed member
     double support_damping_N_s_m = 0.0;
-    // Parameters of each mesh-damping law.
-    EnumArray<MeshDamping, dynamics::kMeshDampings,
-              std::array<std::optional<double>, dynamics::kMostDampingParameters>>
-        mesh_damping;
+    // Parameter of each mesh-damping law.
+    EnumArray<MeshDamping, dynamics::kMeshDampings, std::optional<double>> mesh_damping;
     std::optional<double> backlash_m;  // 2b along the line of action
 
     // Module in the transverse plane.
@@ -296,7 +291,7 @@ struct Operation {
     Member input = Member::sun;      // in a file by default the ring if the sun is fixed
     Member torque_on = Member::sun;  // in a file by default the ring if the sun is fixed
     double torque_N_m = 0.0;         // >= 0; on torque_on, or the motor's
-    std::optional<double> sun_speed_rad_s, ring_speed_rad_s, carrier_speed_rad_s;  // exactly one
+    std::optional<double> sun_speed_rad_s, carrier_speed_rad_s;  // exactly one
     // Fixed-shaft.
     std::optional<double> load_torque_N_m;  // by default in balance with the motor's
     std::optional<double> pinion_speed_rad_s;
@@ -304,15 +299,12 @@ struct Operation {
     bool operator==(const Operation&) const = default;
 };
 
-// Relative fluctuation of torque and speed about their means: a sine, and noise with a spectrum
-// that has fallen to half at its band (lockstep/plan/excitation.hpp).
+// Relative fluctuation about the means: noise of torque and speed with a spectrum that has fallen
+// to half at its band (lockstep/plan/excitation.hpp), and a sine of the speed.
 struct Fluctuations {
-    std::optional<double> torque;                   // amplitude; all torques vary in proportion
-    std::optional<double> torque_order, torque_Hz;  // one of them: per input turn, or in time
-    double torque_phase_rad = 0.0;
-    std::optional<double> torque_noise, torque_noise_Hz;  // rms and band
+    std::optional<double> torque_noise, torque_noise_Hz;  // rms and band; of all torques
     std::optional<double> speed;                          // amplitude
-    std::optional<double> speed_order;
+    std::optional<double> speed_order;                    // per input turn
     double speed_phase_rad = 0.0;
     std::optional<double> speed_noise, speed_noise_Hz;
 
@@ -329,7 +321,6 @@ struct Effects {
     bool inertial_terms = true;
     MeshDamping mesh_damping = MeshDamping::ratio;
     bool gravity = false;
-    double gravity_direction_rad = -1.5707963267948966;  // in the frame of the housing; downwards
     // Null if no transmission path leads to a sensor; the reader's default for fixed-shaft and
     // quasi-static gearboxes.
     const signals::PathWindow* path = &signals::path_window("hamming");
@@ -373,9 +364,9 @@ struct Features {
 
 struct Detection {
     double false_alarm_rate = 0.05;  // of one record; resolved from the user's target, if given
-    // Target in the user's units, at most one; the number of machines that share it, and the time
-    // between two records of a machine.
-    std::optional<double> false_alarms_per_1000_h, false_alarms_per_year;
+    // Target in time; the number of machines that share it, and the time between two records of a
+    // machine.
+    std::optional<double> false_alarms_per_1000_h;
     int machines = 1;
     std::optional<double> record_interval_h;
     double confidence = 0.95;
@@ -397,22 +388,8 @@ struct Monitoring {
     std::vector<std::string> detectors;  // as in the file; by default the usual ones
     double false_alarms_per_1000_h = 5.0;  // allowed rate of false alarms in lives
     int average_records = 1;  // consecutive measured recordings that are averaged before features
-    // An alarm is sustained if at least this share of the next records alarms, too.
-    int sustained_records = 10;
-    double sustained_share = 0.8;
 
     bool operator==(const Monitoring&) const = default;
-};
-
-// Stopping rule: the run ends when a detection rate is known well enough. Absent without a
-// half_width.
-struct Until {
-    std::optional<double> half_width;  // of the interval of Pd
-    std::optional<int> feature;        // index in features::all_features()
-    std::optional<double> size;        // fault size in the unit of its key
-    double noise_level = 1.0;
-
-    bool operator==(const Until&) const = default;
 };
 
 // Sampling of the gearboxes' random inputs: independent, or as points of a scrambled Sobol sequence
@@ -427,7 +404,6 @@ struct Ensemble {
     std::int64_t seed = 0;                    // 0..2^63-1
     SamplingKind sampling = SamplingKind::plain;
     double checkpoint_s = 30.0;  // interval of writing finished gearboxes to disk
-    Until until;
 
     bool uses_importance_sampling() const { return importance_sampling.value_or(false); }
     bool operator==(const Ensemble&) const = default;

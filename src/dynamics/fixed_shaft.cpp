@@ -33,9 +33,9 @@ std::vector<SpringDamper> spring_dampers(const FixedShaftLayout& layout,
                            inputs.coupling_damping_N_m_s_rad[g] / r2});
     }
     const double k = pair_stiffness_N_m[0];
-    springs.push_back(
-        {"the mesh", mesh_row(layout), k,
-         mesh_damping_N_s_m(layout.mesh_damping, mesh_damping(layout, inputs, PairId{0}), k)});
+    springs.push_back({"the mesh", mesh_row(layout), k,
+                       mesh_damping_N_s_m(layout.mesh_damping,
+                                          mesh_damping_factor(layout, inputs, PairId{0}), k)});
     return springs;
 }
 
@@ -58,9 +58,9 @@ GearboxMatrices assemble(const FixedShaftLayout& layout, const FixedShaftInputs&
     return m;
 }
 
-DampingTerms mesh_damping(const FixedShaftLayout& layout, const FixedShaftInputs& inputs, PairId) {
-    return mesh_damping_terms(layout.mesh_damping, inputs.mesh_damping, inputs.mass_kg[pinion],
-                              inputs.mass_kg[gear]);
+double mesh_damping_factor(const FixedShaftLayout& layout, const FixedShaftInputs& inputs, PairId) {
+    return mesh_damping_factor(layout.mesh_damping, inputs.mesh_damping, inputs.mass_kg[pinion],
+                               inputs.mass_kg[gear]);
 }
 
 Eigen::VectorXd rigid_rotation(const FixedShaftLayout&) {

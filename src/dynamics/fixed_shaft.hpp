@@ -49,7 +49,7 @@ struct FixedShaftInputs {
     double coupling_damping_N_m_s_rad[fixed_shaft_gear_count] = {};
     double motor_inertia_kg_m2 = 0.0, load_inertia_kg_m2 = 0.0;
     double motor_torque_N_m = 0.0, load_torque_N_m = 0.0;  // directions as in Eqs. 4.7-4.8
-    DampingParameters mesh_damping{};                      // of the layout's law
+    double mesh_damping = 0.0;                             // parameter of the layout's law
     double mesh_period_s = 0.0;
     double backlash_m = kNoBackContact;  // 2b along the line of action; for separating meshes
 };
@@ -68,8 +68,8 @@ std::vector<SpringDamper> spring_dampers(const FixedShaftLayout& layout,
 GearboxMatrices assemble(const FixedShaftLayout& layout, const FixedShaftInputs& inputs,
                          const std::vector<double>& pair_stiffness_N_m);
 
-DampingTerms mesh_damping(const FixedShaftLayout& layout, const FixedShaftInputs& inputs,
-                          PairId pair);
+double mesh_damping_factor(const FixedShaftLayout& layout, const FixedShaftInputs& inputs,
+                           PairId pair);
 
 // Equal rotation of all four bodies, which deflects no spring.
 Eigen::VectorXd rigid_rotation(const FixedShaftLayout& layout);

@@ -25,7 +25,7 @@ FixedShaftLanes<W, Real> make_lanes(const FixedShaftLayout& layout,
             lanes.coupling_stiffness[g][l] = Real(in.coupling_stiffness_N_m_rad[g] / r2);
             lanes.coupling_damping[g][l] = Real(in.coupling_damping_N_m_s_rad[g] / r2);
         }
-        lanes.mesh_damping.set(LaneId{l}, mesh_damping(layout, in, PairId{0}));
+        lanes.mesh_damping.factor[l] = Real(mesh_damping_factor(layout, in, PairId{0}));
         lanes.mesh_period[l] = Real(in.mesh_period_s);
         lanes.backlash[l] = Real(in.backlash_m);
     }

@@ -94,9 +94,9 @@ Eigen::VectorXd rigid_rotation(const GearboxLayout& layout) {
     return std::visit([](const auto& kind) { return rigid_rotation(kind); }, layout);
 }
 
-DampingTerms mesh_damping(const GearboxLayout& layout, const GearboxInputs& inputs, PairId pair) {
+double mesh_damping_factor(const GearboxLayout& layout, const GearboxInputs& inputs, PairId pair) {
     return with_inputs(layout, inputs, [&](const auto& kind, const auto& in) {
-        return mesh_damping(kind, in, pair);
+        return mesh_damping_factor(kind, in, pair);
     });
 }
 

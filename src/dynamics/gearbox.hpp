@@ -35,7 +35,7 @@ GearboxMatrices assemble(const GearboxLayout& layout, const GearboxInputs& input
 std::vector<SpringDamper> spring_dampers(const GearboxLayout& layout, const GearboxInputs& inputs,
                                          const std::vector<double>& pair_stiffness_N_m);
 Eigen::VectorXd rigid_rotation(const GearboxLayout& layout);
-DampingTerms mesh_damping(const GearboxLayout& layout, const GearboxInputs& inputs, PairId pair);
+double mesh_damping_factor(const GearboxLayout& layout, const GearboxInputs& inputs, PairId pair);
 std::vector<std::string> motion_names(const GearboxLayout& layout);
 
 // Row of a pair's deflection, and of a source's motion along x (axis 0) or y (1).

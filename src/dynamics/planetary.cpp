@@ -118,11 +118,11 @@ Eigen::MatrixXd motions_from_degrees(const PlanetaryLayout& layout) {
     return tie;
 }
 
-DampingTerms mesh_damping(const PlanetaryLayout& layout, const PlanetaryInputs& inputs,
-                          PairId pair) {
+double mesh_damping_factor(const PlanetaryLayout& layout, const PlanetaryInputs& inputs,
+                           PairId pair) {
     const int central = pair < layout.planets ? sun : ring;
-    return mesh_damping_terms(layout.mesh_damping, inputs.mesh_damping, inputs.mass_kg[central],
-                              inputs.mass_kg[planet]);
+    return mesh_damping_factor(layout.mesh_damping, inputs.mesh_damping, inputs.mass_kg[central],
+                               inputs.mass_kg[planet]);
 }
 
 std::vector<SpringDamper> spring_dampers(const PlanetaryLayout& layout,
@@ -143,17 +143,17 @@ std::vector<SpringDamper> spring_dampers(const PlanetaryLayout& layout,
                        inputs.support_damping_N_s_m});
     for (int n = 0; n < layout.planets; ++n) {
         for (int axis : {0, 1}) {
-            springs.push_back({fmt::format("planet {}'s bearing", n + 1),
-                               planet_bearing_row(layout, n, axis),
-                               inputs.bearing_stiffness_N_m[planet],
-                               inputs.bearing_damping_N_s_m[planet]});
+            springs.push_back(
+                {fmt::format("planet {}'s bearing", n + 1), planet_bearing_row(layout, n, axis),
+                 inputs.bearing_stiffness_N_m[planet], inputs.bearing_damping_N_s_m[planet]});
         }
         for (const PairId pair : {sun_pair(PlanetId{n}), ring_pair(PlanetId{n}, layout.planets)}) {
             const double k = pair_stiffness_N_m[pair];
             springs.push_back(
                 {fmt::format("planet {}'s mesh with the {}", n + 1, pair == n ? "sun" : "ring"),
                  pair_row(layout, pair), k,
-                 mesh_damping_N_s_m(layout.mesh_damping, mesh_damping(layout, inputs, pair), k)});
+                 mesh_damping_N_s_m(layout.mesh_damping, mesh_damping_factor(layout, inputs, pair),
+                                    k)});
         }
     }
     return springs;

@@ -92,7 +92,7 @@ struct PlanetaryInputs {
     double bearing_damping_N_s_m[body_count] = {};
     double support_stiffness_N_m = 0.0;  // of the fixed member's u
     double support_damping_N_s_m = 0.0;
-    DampingParameters mesh_damping{};  // of the layout's law
+    double mesh_damping = 0.0;  // parameter of the layout's law
     double carrier_speed_rad_s = 0.0;
     double mesh_period_s = 0.0;
     double backlash_m = kNoBackContact;  // 2b along the line of action; for separating meshes
@@ -126,8 +126,8 @@ std::vector<std::string> motion_names(const PlanetaryLayout& layout);
 int body_index(gears::Member member);
 
 // Mesh damping of a pair by the layout's law.
-DampingTerms mesh_damping(const PlanetaryLayout& layout, const PlanetaryInputs& inputs,
-                          PairId pair);
+double mesh_damping_factor(const PlanetaryLayout& layout, const PlanetaryInputs& inputs,
+                           PairId pair);
 
 // Motion without any deflection: free rotation of the train relative to its fixed member. It is
 // neutral in a real gearbox. In the linear model, the centrifugal term W^2 x lets it grow at a rate

@@ -58,7 +58,7 @@ void set_lane(PlanetaryLanes<W, Real>& lanes, int l, const PlanetaryLayout& layo
         lanes.force[body][l] = Real(in.force_N[body]);
     }
     for (PairId pair{0}; pair < layout.pairs(); ++pair) {
-        lanes.mesh_damping[pair].set(LaneId{l}, mesh_damping(layout, in, pair));
+        lanes.mesh_damping[pair].factor[l] = Real(mesh_damping_factor(layout, in, pair));
     }
     const double w = in.carrier_speed_rad_s;
     lanes.speed[l] = Real(w);

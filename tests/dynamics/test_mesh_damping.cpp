@@ -8,13 +8,13 @@ namespace gearpod::dynamics::test_mesh_damping {
 constexpr double kPinion_kg = 1.2, kGear_kg = 3.6, kEquivalent_kg = 0.9;
 constexpr double kStiffness_N_m = 4e8;
 
-double damping(MeshDamping law, const DampingParameters& parameters) {
-    return mesh_damping_N_s_m(law, mesh_damping_terms(law, parameters, kPinion_kg, kGear_kg),
+double damping(MeshDamping law, double parameter) {
+    return mesh_damping_N_s_m(law, mesh_damping_factor(law, parameter, kPinion_kg, kGear_kg),
                               kStiffness_N_m);
 }
 
 // Damping ratio of the only mode with stiffness of two free gears that do not turn.
-double modal_damping_ratio(MeshDamping law, const DampingParameters& parameters) {
+double modal_damping_ratio(MeshDamping law, double parameter) {
     FixedShaftLayout layout;
     layout.base_radius_m[pinion] = layout.base_radius_m[gear] = 0.05;
     layout.mesh_damping = law;
@@ -23,7 +23,7 @@ double modal_damping_ratio(MeshDamping law, const DampingParameters& parameters)
     in.mass_kg[gear] = kGear_kg;
     in.inertia_kg_m2[pinion] = in.inertia_kg_m2[gear] = 1e12;
     in.motor_inertia_kg_m2 = in.load_inertia_kg_m2 = 1e12;
-    in.mesh_damping = parameters;
+    in.mesh_damping = parameter;
     const GearboxMatrices m = assemble(layout, in, {kStiffness_N_m});
     const Eigen::Index n = m.mass.rows();
     Eigen::MatrixXd system = Eigen::MatrixXd::Zero(2 * n, 2 * n);
@@ -43,20 +43,15 @@ double modal_damping_ratio(MeshDamping law, const DampingParameters& parameters)
 }
 
 TEST_CASE("Every law of mesh damping has the value of its formula") {
-    CHECK(damping(MeshDamping::ratio, {0.05}) ==
+    CHECK(damping(MeshDamping::ratio, 0.05) ==
           Approx(2.0 * 0.05 * std::sqrt(kStiffness_N_m * kEquivalent_kg)));
-    CHECK(damping(MeshDamping::proportional, {4e-6}) == Approx(1600.0));
-    CHECK(damping(MeshDamping::constant, {77.0}) == 77.0);
-    CHECK(damping(MeshDamping::rayleigh, {900.0, 4e-6}) == Approx(810.0 + 1600.0));
+    CHECK(damping(MeshDamping::proportional, 4e-6) == Approx(1600.0));
 }
 
 TEST_CASE("The damping ratio of two gears that vibrate against one another is that of the law") {
-    CHECK(modal_damping_ratio(MeshDamping::ratio, {0.05}) == Approx(0.05));
+    CHECK(modal_damping_ratio(MeshDamping::ratio, 0.05) == Approx(0.05));
     const double w = std::sqrt(kStiffness_N_m / kEquivalent_kg);
-    CHECK(modal_damping_ratio(MeshDamping::proportional, {4e-6}) == Approx(4e-6 * w / 2.0));
-    CHECK(modal_damping_ratio(MeshDamping::rayleigh, {900.0, 0.0}) == Approx(900.0 / (2.0 * w)));
-    CHECK(modal_damping_ratio(MeshDamping::rayleigh, {900.0, 4e-6}) ==
-          Approx(900.0 / (2.0 * w) + 4e-6 * w / 2.0));
+    CHECK(modal_damping_ratio(MeshDamping::proportional, 4e-6) == Approx(4e-6 * w / 2.0));
 }
 
 }  // namespace gearpod::dynamics::test_mesh_damping

@@ -96,7 +96,7 @@ constexpr std::array kValues{
 
 constexpr std::array kKeys{"planets",       "sun_teeth",  "kind",          "member", "side",
                            "depth_mm",      "torque_N_m", "fixed",         "input",  "noise_levels",
-                           "seed",          "instances",  "low_pass_Hz",   "use",    "until",
+                           "seed",          "instances",  "low_pass_Hz",   "use",    "sun",
                            "size_edges_mm", "lanes",      "tooth_profile", "motion", "horizon"};
 
 class Mutator {

@@ -118,8 +118,8 @@ class LiangRotations {
             const double m1 = in_.mass_kg[ring ? dynamics::ring : dynamics::sun];
             const double m2 = in_.mass_kg[dynamics::planet];
             stiffness += k * row * row.transpose();
-            damping += 2.0 * in_.mesh_damping[0] * std::sqrt(k * m1 * m2 / (m1 + m2)) * row *
-                       row.transpose();
+            damping +=
+                2.0 * in_.mesh_damping * std::sqrt(k * m1 * m2 / (m1 + m2)) * row * row.transpose();
         }
         stiffness(1, 1) += in_.support_stiffness_N_m;
         damping(1, 1) += in_.support_damping_N_s_m;
@@ -190,7 +190,7 @@ TEST_CASE(
     int stable = 0, unstable = 0;
     for (const double speedup : {180.0, 200.0, 230.0, 240.0, 270.0, 320.0, 360.0, 400.0}) {
         auto in = train.inputs(speedup);
-        in.mesh_damping[0] = 0.002;
+        in.mesh_damping = 0.002;
         in.support_damping_N_s_m = 5e3;
         const double expected = LiangRotations(in).largest_multiplier(200);
         INFO("carrier at " << speedup * 8.87 << " rpm, multiplier " << expected);

@@ -98,7 +98,7 @@ struct LiangTrain {
         }
         in.support_stiffness_N_m = 1e8;
         in.support_damping_N_s_m = 1.5e3;
-        in.mesh_damping[0] = 0.07;
+        in.mesh_damping = 0.07;
         in.carrier_speed_rad_s = speedup * 8.87 * 2 * std::numbers::pi / 60;
         in.mesh_period_s = 60.0 / (81 * 8.87 * speedup);
         in.force_N[dynamics::sun] = 429.0 / sun.base_radius();

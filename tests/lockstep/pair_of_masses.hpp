@@ -25,7 +25,7 @@ struct PairOfMasses {
         layout.planets = 1;
         layout.pressure_angle_rad = 0.35;
         layout.motion = dynamics::Motion::torsional;
-        layout.mesh_damping = dynamics::MeshDamping::constant;
+        layout.mesh_damping = dynamics::MeshDamping::proportional;
         plan.layout = layout;
         plan.mesh_law = law;
         plan.integrator = integrator;
@@ -35,6 +35,7 @@ struct PairOfMasses {
         plan.nodes.pairs = 2;
         for (std::size_t i = 0; i < nodes; ++i) {
             plan.nodes.stiffness.insert(plan.nodes.stiffness.end(), {kStiffness, 0.0});
+            // Shape 1 makes the damping constant.
             plan.nodes.damping_shape.insert(plan.nodes.damping_shape.end(), {1.0, 0.0});
         }
         plan.low_pass_rad_s = 1000.0;
@@ -45,7 +46,7 @@ struct PairOfMasses {
         }
         in.inertia_over_r2_kg[dynamics::sun] = kSun;
         in.inertia_over_r2_kg[dynamics::planet] = kPlanet;
-        in.mesh_damping[0] = damping_N_s_m;
+        in.mesh_damping = damping_N_s_m;
         in.mesh_period_s = period_s;
         state.q.assign(4, 0.0);
         state.v.assign(4, 0.0);

@@ -67,7 +67,7 @@ struct TianGearbox {
         in.load_inertia_kg_m2 = 0.0105;
         in.motor_torque_N_m = 11.9;
         in.load_torque_N_m = 48.8;
-        in.mesh_damping[0] = 3.99e-6;
+        in.mesh_damping = 3.99e-6;
         in.mesh_period_s = 1.0 / kMeshFrequency_Hz;
         return in;
     }

@@ -136,8 +136,8 @@ support_stiffness_N_m = 1e10
 mesh_damping_ratio = 0.07
 backlash_mm = 0.1
 sun_planet.error_um = [10, 2]
-sun_planet.error_phase_deg = [0, 90]
-ring_planet.error_um = [10]
+ring_planet.error_um = [10, 1]
+ring_planet.error_phase_deg = [0, 90]
 pitch_error_um = 3
 [operation]
 torque_N_m = 100
@@ -159,8 +159,6 @@ growth_length_mm = [6, 12, 18, 18, 18]
 growth_height_mm = [0.5, 0.5, 0.5, 0.5, 0.5]
 growth_end_height_mm = [2, 2, 2, 2, 2]
 end_angle_deg = 90
-height_wave = 8
-height_waves = 6
 )" + kVibrationSections;
 
 }  // namespace gearpod::tests

@@ -87,8 +87,8 @@ records = 10
 healthy_lives = 2
 torque_scatter = 0.02
 speed_scatter = 0.02
-linear_torques = 2
-linear_speeds = 2
+distinct_torques = 2
+distinct_speeds = 2
 [monitoring]
 baseline_records = 3
 '''

@@ -39,8 +39,8 @@ record_length_and_interval() {
     has end 'There are 24 h between two records'
 }
 one_false_alarm_a_year() {
-    gearpod describe stage.toml --set detection.false_alarms_per_year=1 --set detection.record_interval_h=24 > out &&
-    has out 'is a rate of 0.00274 in a record for each feature' && has out 'Healthy records needed for a rate of 0.00274: 364'
+    gearpod describe stage.toml --set detection.false_alarms_per_1000_h=0.114 --set detection.record_interval_h=24 > out &&
+    has out 'are a rate of 0.00274 in a record for each feature' && has out 'Healthy records needed for a rate of 0.00274: 365'
 }
 own_csv_with_tachometer() {
     gearpod features tachometer.csv --study "$studies/planet-crack-ideal.toml" --sensor 'a (g)' --tachometer tacho > out &&

@@ -24,20 +24,10 @@ double knots_per_s(double half_power_Hz) {
 // is 151/315.
 const double kKnotDeviation = std::sqrt(315.0 / 151.0);
 
-// Parameters of a sinusoidal fluctuation; next, of a random one.
-struct SineInputs {
-    double amplitude, turns_per_mesh, turns_per_s, phase_rad;
-};
+// Parameters of a random fluctuation.
 struct NoiseInputs {
     double rms, band_Hz;
 };
-
-void add_sine(const SineInputs& in, lockstep::Fluctuation& f) {
-    f.amplitude.push_back(in.amplitude);
-    f.turns_per_mesh.push_back(in.turns_per_mesh);
-    f.turns_per_s.push_back(in.turns_per_s);
-    f.turns.push_back(in.phase_rad / (2.0 * std::numbers::pi));
-}
 
 // Generates independent normal knot values. Lanes with fewer knots are filled up with zeros.
 void draw_noise(std::vector<NoiseInputs> noise, std::span<const double> mesh_period_s,
@@ -74,15 +64,17 @@ std::optional<lockstep::Excitation> draw_excitation(const GearboxPlan& gearbox, 
     const Drivetrain& drivetrain = *gearbox.drivetrain;
     const double input_turns = drivetrain.input_turns_per_mesh();
     std::vector<double> mesh_period_s;
-    lockstep::Fluctuation torque, speed;
+    lockstep::Fluctuation speed;
     std::vector<NoiseInputs> torque_noise, speed_noise;
     std::vector<Philox> torque_engines, speed_engines;
     lockstep::Excitation excitation;
     for (const Realization& realization : realizations) {
         const FluctuationInstance& f = realization.inputs.fluctuations;
         mesh_period_s.push_back(dynamics::mesh_period_s(gearbox.inputs(realization.inputs)));
-        add_sine({f.torque, f.torque_order * input_turns, f.torque_Hz, f.torque_phase_rad}, torque);
-        add_sine({f.speed, f.speed_order * input_turns, 0.0, f.speed_phase_rad}, speed);
+        speed.amplitude.push_back(f.speed);
+        speed.turns_per_mesh.push_back(f.speed_order * input_turns);
+        speed.turns_per_s.push_back(0.0);
+        speed.turns.push_back(f.speed_phase_rad / (2.0 * std::numbers::pi));
         torque_noise.push_back({f.torque_noise, f.torque_noise_Hz});
         speed_noise.push_back({f.speed_noise, f.speed_noise_Hz});
         torque_engines.push_back(record_stream(seed, realization.id, StreamPurpose::torque_noise));
@@ -91,13 +83,10 @@ std::optional<lockstep::Excitation> draw_excitation(const GearboxPlan& gearbox, 
     }
     // When the speed drops, the sensor's time continues: the torque needs additional knots.
     const double first = -meshes.longest_run_in, last = meshes.signal;
-    if (model->torque) {
-        excitation.torque = model->torque->sine ? torque : lockstep::Fluctuation{};
-        if (model->torque->noise) {
-            const double additional = model->speed ? 0.5 * (last - first) : 0.0;
-            draw_noise(torque_noise, mesh_period_s, first, last + additional, torque_engines,
-                       *excitation.torque);
-        }
+    if (model->torque_noise) {
+        const double additional = model->speed ? 0.5 * (last - first) : 0.0;
+        draw_noise(torque_noise, mesh_period_s, first, last + additional, torque_engines,
+                   excitation.torque.emplace());
     }
     if (model->speed) {
         excitation.speed = model->speed->sine ? speed : lockstep::Fluctuation{};
@@ -106,9 +95,9 @@ std::optional<lockstep::Excitation> draw_excitation(const GearboxPlan& gearbox, 
             draw_noise(speed_noise, mesh_period_s, first, last, speed_engines, *excitation.speed);
         }
     }
-    if (model->gravity_direction_rad) {
+    if (model->gravity) {
         excitation.gravity.emplace();
-        excitation.gravity->direction_rad = *model->gravity_direction_rad;
+        excitation.gravity->direction_rad = -1.5707963267948966;  // downwards, away from the sensor
         excitation.gravity->carrier_turns_per_mesh = drivetrain.frame_turns_per_mesh();
     }
     return excitation;

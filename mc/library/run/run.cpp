@@ -202,7 +202,7 @@ class Run {
                 "set-up {:.2f} s, detection and results {:.2f} s{}\n", setup_s_,
                 seconds_since(start),
                 ranks_.machines() == 1 ? "" : fmt::format(" on {} machines", ranks_.machines()));
-            print_end(outcome, path);
+            print_end(path);
             fmt::print("{}", texts.headline);
         }
         return counts.failed() == 0 ? kDone : kSomeFailed;
@@ -210,19 +210,10 @@ class Run {
 
     std::string state_of(const EnsembleOutcome& outcome) const {
         return !outcome.interruption.empty() ? "interrupted by " + outcome.interruption
-               : watch_.done()               ? "ended by ensemble.until"
                                              : "complete";
     }
 
-    void print_end(const EnsembleOutcome& outcome, const std::string& path) const {
-        if (watch_.done()) {
-            fmt::print("ensemble.until is reached with {} of {} {}: {}\n",
-                       plan_.rows_before(outcome.batches), plan_.rows(), plan_.counted(),
-                       watch_.text());
-        } else if (ensemble_.until) {
-            fmt::print("ensemble.until is not reached: {}, about {} more gearboxes needed\n",
-                       watch_.text(), watch_.rows_left().value_or(0));
-        }
+    void print_end(const std::string& path) const {
         fmt::print("results: {}\n", path);
         if (part_.empty()) {
             const auto page = std::filesystem::path(path).replace_extension(".html").string();

@@ -61,13 +61,6 @@ bool check_part(const RunOptions& options, const EnsemblePlan& plan) {
     if (part->whole()) {
         return true;
     }
-    if (plan.until) {
-        fmt::print(stderr,
-                   "--part {}: ensemble.until needs the results of all gearboxes, which a part "
-                   "does not have; remove one of the two\n",
-                   options.part);
-        return false;
-    }
     if (plan_of(options, plan).batches() == 0) {
         fmt::print(stderr,
                    "--part {}: the study's gearboxes form {} batches of {}, of which this part has "

@@ -139,7 +139,6 @@ double least_memory_bytes(double motion_bytes, const RowShape& shape, const Batc
                           int threads);
 
 // Forecast of a run. `setup_s`: time for starting the program and setting up the scene. It is an
-// upper limit if ensemble.until may end the run earlier.
 RunForecast forecast_run(const RunCost& cost, const BatchPlan& plan, const AnalysisTrial& analysis,
                          double verification_s, double setup_s);
 

@@ -165,15 +165,13 @@ std::string leader_text(const RankForecast& forecast) {
                                          most));
 }
 
-void print_ranks(const EnsemblePlan& plan, const RankForecast& forecast, int threads, int ranks) {
+void print_ranks(const RankForecast& forecast, int threads, int ranks) {
     print_heading(fmt::format("forecast for {} MPI ranks", ranks));
     print_entry("threads", fmt::format("{} per rank, as here; {:.0f} have a batch of {} gearboxes "
                                        "to compute",
                                        threads, forecast.busy_threads, kBatchRows));
     print_entry("gearboxes", seconds_text(forecast.gearboxes_s));
-    print_entry("estimated time",
-                seconds_text(forecast.total_s) +
-                    (plan.until ? ", or less if ensemble.until stops the run" : ""));
+    print_entry("estimated time", seconds_text(forecast.total_s));
     print_entry("estimated memory",
                 fmt::format("{:.0f} MB per rank, {:.0f} MB for rank 0", forecast.rank_bytes / 1e6,
                             forecast.leader_bytes / 1e6));
@@ -267,13 +265,10 @@ void print_forecast(const Scene& scene, const Planner& planner, double setup_s, 
                                          shares_text(forecast.work,
                                                      forecast.gearboxes_s * calibration.threads)));
     print_entry("detection and results", seconds_text(forecast.detection_s));
-    print_entry("estimated time",
-                seconds_text(forecast.total_s()) +
-                    (ensemble.until ? ", or less if ensemble.until stops the run" : ""));
+    print_entry("estimated time", seconds_text(forecast.total_s()));
     print_entry("estimated memory", fmt::format("{:.0f} MB", forecast.memory_bytes / 1e6));
     if (ranks > 0) {
-        print_ranks(ensemble,
-                    forecast_ranks(calibration, plan, ensemble.shape, trial, forecast, ranks),
+        print_ranks(forecast_ranks(calibration, plan, ensemble.shape, trial, forecast, ranks),
                     calibration.threads, ranks);
     }
 }

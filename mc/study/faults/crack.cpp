@@ -148,9 +148,6 @@ struct Growth : FaultShape {
     std::optional<double> stage;  // 0: healthy; linear between entries
     std::vector<double> depth_m, end_depth_m, length_m, height_m, end_height_m;
     std::optional<double> end_angle_rad;  // by default the angle at the starting face
-    double height_wave = 0.0;
-    double height_waves = 0.0;
-    int slices = 16;
 
     bool operator==(const Growth&) const = default;
 };
@@ -166,9 +163,6 @@ constexpr FaultKey kSpatialCrackOthers[] = {
     {"growth_height_mm", numbers<&Growth::height_m>, kMm, kNotNegative, Need::required, kFaultShape, "heights l1 above the section at which cracks start, at the face where the crack starts"},
     {"growth_end_height_mm", numbers<&Growth::end_height_m>, kMm, kNotNegative, Need::required, kFaultShape, "heights l2 at the other end face"},
     {"end_angle_deg", number<&Growth::end_angle_rad>, kDeg, Range{0.0, 90.0, true, false}, Need::optional, kFaultShape, "angle at the other end face; angle_deg by default"},
-    {"height_wave", number<&Growth::height_wave>, kNone, kNotNegative, Need::optional, kFaultShape, "amplitude of the waves of the height, a in Yang (2022), Eq. 65; 0 for none"},
-    {"height_waves", number<&Growth::height_waves>, kNone, kNotNegative, Need::optional, kFaultShape, "number of half waves along the face width, b in Yang (2022), Eq. 65"},
-    {"slices", integer<&Growth::slices>, kNone, closed_range(1, 10000), Need::optional, kFaultShape, "number of slices along the face width"},
 };
 // clang-format on
 
@@ -286,9 +280,6 @@ class SpatialCrackKind final : public FaultKind {
         growth.end_height_m = g.end_height_m;
         growth.angle_rad = angle_rad;
         growth.end_angle_rad = g.end_angle_rad.value_or(angle_rad);
-        growth.height_wave = g.height_wave;
-        growth.height_waves = g.height_waves;
-        growth.slices = g.slices;
         return std::make_unique<const stiffness::SpatialCrack>(
             tooth.geometry.value(), material_of(study, tooth.mesh), profile_of(study), tooth.gear,
             growth, tooth.foundation, crack_law(study));

@@ -65,7 +65,7 @@ template <class AnyStudy>
 auto parts(AnyStudy& s) {
     return std::tie(s.gearbox, s.fixed_shaft, s.errors, s.planets, s.operation, s.fluctuations,
                     s.effects, s.fault, s.sensor, s.features, s.detection, s.monitoring, s.life,
-                    s.numerics, s.ensemble, s.ensemble.until);
+                    s.numerics, s.ensemble);
 }
 template <class Part>
 Part& part_of(Study& s) {
@@ -91,8 +91,9 @@ template <auto Member>
 using PartOf = decltype(part_type(Member));
 
 // Reference to the value that a schema line names: a member of a part, or of the values of one body
-// or mesh, or a parameter of a mesh-damping law.
+// or mesh, or the parameter of a mesh-damping law.
 template <auto Member, class AnyStudy>
+    requires std::is_member_object_pointer_v<decltype(Member)>
 auto& stored(AnyStudy& s) {
     return part_of<PartOf<Member>>(s).*Member;
 }
@@ -105,9 +106,9 @@ auto& stored(AnyStudy& s) {
     return s.gearbox.meshes[kMesh].*Value;
 }
 
-template <MeshDamping kLaw, std::size_t kParameter, class AnyStudy>
+template <MeshDamping kLaw, class AnyStudy>
 auto& stored(AnyStudy& s) {
-    return s.gearbox.mesh_damping[kLaw][kParameter];
+    return s.gearbox.mesh_damping[kLaw];
 }
 
 template <class Type>

@@ -158,20 +158,6 @@ void check_detectors(StudyDraft& draft) {
     }
 }
 
-// One bad recording is in as many averages as there are recordings in an average.
-void check_sustained(StudyDraft& draft) {
-    const Monitoring& watch = draft.study.monitoring;
-    const double needed = watch.sustained_share * watch.sustained_records;
-    if (!(needed > watch.average_records)) {
-        draft.reject("monitoring.sustained_records",
-                     fmt::format("{:g} of the {} next recordings sustain an alarm, but one bad "
-                                 "recording is in the averages of {} (average_records)",
-                                 needed, watch.sustained_records, watch.average_records),
-                     fmt::format("give at least {:.0f}",
-                                 std::floor(watch.average_records / watch.sustained_share) + 1));
-    }
-}
-
 void check_uncertain_inputs(StudyDraft& draft) {
     const std::vector<std::string> named = draft.study.detection.uncertain_inputs;
     for (auto key = named.begin(); key != named.end(); ++key) {
@@ -243,29 +229,12 @@ void check_consistency(StudyDraft& draft) {
     check_sampling(draft);
     check_features(draft);
     check_detectors(draft);
-    check_sustained(draft);
     check_uncertain_inputs(draft);
     check_record_keys(draft);
     check_baseline_redraws(draft);
 }
 
 namespace {
-
-void check_torque_sine(StudyDraft& draft) {
-    const std::string key = "operation.torque_fluctuation";
-    const std::string order = key + "_order", frequency = key + "_Hz";
-    if (!draft.is_given(key) || !draft.all_usable({key, order, frequency})) {
-        return;
-    }
-    if (draft.is_given(order) && draft.is_given(frequency)) {
-        draft.reject(frequency,
-                     fmt::format("conflicts with {} (both give how fast it varies)", order),
-                     "remove one of them");
-    } else if (!draft.is_given(order) && !draft.is_given(frequency)) {
-        draft.reject(key, "needs a frequency",
-                     "add torque_fluctuation_order or torque_fluctuation_Hz");
-    }
-}
 
 void check_gravity(StudyDraft& draft) {
     const Study& s = draft.study;
@@ -283,7 +252,6 @@ void check_gravity(StudyDraft& draft) {
 }  // namespace
 
 void check_fluctuations(StudyDraft& draft) {
-    check_torque_sine(draft);
     check_gravity(draft);
 }
 

@@ -10,6 +10,7 @@
 #include "mc/study/faults/limits.hpp"
 #include "mc/study/gears.hpp"
 #include "mc/study/reading/parts.hpp"
+#include "mc/study/schema/schema.hpp"
 
 namespace gearpod::mc {
 
@@ -376,11 +377,12 @@ void check_mesh_values(StudyDraft& draft, MeshKind mesh) {
 
 void check_given_stiffness(StudyDraft& draft) {
     const Gearbox& g = draft.study.gearbox;
-    if (g.kind == GearboxKind::fixed_shaft && g.tooth_profile == StiffnessSource::square_wave &&
+    if (g.kind == GearboxKind::fixed_shaft && stiffness_given(draft.study) &&
         draft.all_usable({"gearbox.kind", "gearbox.tooth_profile"})) {
         draft.reject("gearbox.tooth_profile",
-                     "\"square-wave\" is only for gearbox.kind = \"planetary\"",
-                     "use \"constant\", or a profile from which the stiffness is computed");
+                     fmt::format("\"{}\" is only for gearbox.kind = \"planetary\"",
+                                 choice_text(draft.study, "gearbox", "tooth_profile")),
+                     "use a profile from which the stiffness is computed");
     }
 }
 

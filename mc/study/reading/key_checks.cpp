@@ -86,7 +86,7 @@ void reject_unknown_key(StudyDraft& draft, const std::string& prefix, const std:
 
 namespace {
 
-constexpr const char* kSpeedKeys = "one of sun_speed_rpm, ring_speed_rpm, carrier_speed_rpm";
+constexpr const char* kSpeedKeys = "sun_speed_rpm or carrier_speed_rpm";
 
 std::vector<std::string> given_of(const StudyDraft& draft, const std::vector<std::string>& paths) {
     std::vector<std::string> given;
@@ -113,15 +113,10 @@ void check_exclusive_keys(StudyDraft& draft) {
                                        member_key(member, "inertia_over_r2_kg")}),
                       "both give the moment of inertia");
     }
-    reject_second(
-        draft,
-        given_of(draft, {"detection.false_alarms_per_1000_h", "detection.false_alarms_per_year"}),
-        "both give the target of false alarms");
     if (draft.study.gearbox.kind != GearboxKind::planetary || !draft.usable("gearbox.kind")) {
         return;
     }
-    const auto speeds = given_of(draft, {"operation.sun_speed_rpm", "operation.ring_speed_rpm",
-                                         "operation.carrier_speed_rpm"});
+    const auto speeds = given_of(draft, {"operation.sun_speed_rpm", "operation.carrier_speed_rpm"});
     reject_second(draft, speeds, "one speed determines all others");
     if (speeds.empty() && draft.usable("operation")) {
         draft.reject(draft.position("operation"), "operation", "no speed is given",

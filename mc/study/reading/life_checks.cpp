@@ -36,41 +36,31 @@ void check_curve(StudyDraft& draft) {
 }
 
 void check_loads(StudyDraft& draft) {
-    using namespace std::string_literals;
     const Study& study = draft.study;
     const Life& life = study.life;
-    const auto check = [&](const char* key, const std::optional<int>& given_count,
+    const auto check = [&](const char* key, const std::optional<int>& nodes,
                            const std::optional<int>& distinct, RecordQuantity quantity,
                            double scatter) {
         const bool by_law = std::ranges::any_of(study.random, [&](const RandomInput& input) {
             return input.distribution.per_record() && input.quantity == quantity;
         });
-        const std::optional<int>& nodes =
-            quantity == RecordQuantity::torque ? life.polynomial_torques : life.polynomial_speeds;
-        const std::string name = (distinct ? "life.distinct_"
-                                  : nodes  ? "life.integrated_"
-                                           : "life.linear_") +
-                                 (key + "s"s);
-        if (distinct && (given_count || nodes)) {
-            draft.reject(name,
-                         fmt::format("conflicts with life.{}_{}s: nothing is interpolated between "
-                                     "distinct values",
-                                     nodes ? "integrated" : "linear", key),
+        if (distinct && nodes) {
+            draft.reject(fmt::format("life.distinct_{}s", key),
+                         fmt::format("conflicts with life.integrated_{}s: nothing is interpolated "
+                                     "between distinct values",
+                                     key),
                          "remove one of them");
         }
-        if (given_count && nodes) {
-            draft.reject(name, fmt::format("conflicts with life.linear_{}s", key),
-                         "remove one of them");
-        }
-        if ((given_count || nodes) && scatter == 0.0 && !by_law) {
+        if (nodes && scatter == 0.0 && !by_law) {
             draft.reject(
-                name, fmt::format("all records have the same {}, so nothing is interpolated", key),
+                fmt::format("life.integrated_{}s", key),
+                fmt::format("all records have the same {}, so nothing is interpolated", key),
                 fmt::format("remove it, or let the records' {0} vary (life.{0}_scatter)", key));
         }
     };
-    check("torque", life.given_torques, life.distinct_torques, RecordQuantity::torque,
+    check("torque", life.polynomial_torques, life.distinct_torques, RecordQuantity::torque,
           life.torque_scatter);
-    check("speed", life.given_speeds, life.distinct_speeds, RecordQuantity::speed,
+    check("speed", life.polynomial_speeds, life.distinct_speeds, RecordQuantity::speed,
           life.speed_scatter);
 }
 
@@ -112,11 +102,6 @@ void check_records_of_lives(StudyDraft& draft) {
     check_loads(draft);
     if (draft.all_usable({"monitoring.baseline_records", "monitoring.false_alarms_per_1000_h"})) {
         check_watch(draft);
-    }
-    if (life.record_s && life.record_turns) {
-        draft.reject("life.record_turns",
-                     "conflicts with record_s (both give the length of a recording)",
-                     "remove one of them");
     }
     if (study.ensemble.threshold_records > 1) {
         draft.reject("ensemble.threshold_records", "is not allowed with life.interval_h",

@@ -58,7 +58,4 @@ void check_life(StudyDraft& draft);
 // random_inputs.cpp: checks the distributions of values that vary from record to record.
 void check_records(StudyDraft& draft);
 
-// fault_checks.cpp: checks that the study has the detection rate that ensemble.until names.
-void check_until(StudyDraft& draft);
-
 }  // namespace gearpod::mc

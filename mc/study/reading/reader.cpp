@@ -175,8 +175,7 @@ void fill_lanes(StudyDraft& draft) {
 // Converts the target of false alarms into the rate of one record.
 void fill_false_alarm_rate(StudyDraft& draft) {
     Detection& d = draft.study.detection;
-    const char* key = d.false_alarms_per_year ? "detection.false_alarms_per_year"
-                                              : "detection.false_alarms_per_1000_h";
+    const char* key = "detection.false_alarms_per_1000_h";
     const std::optional<double> interval_h = record_interval_h(draft.study);
     if (!has_alarm_target(draft.study) || !interval_h ||
         !draft.all_usable({key, "detection.machines", "detection.record_interval_h",
@@ -242,7 +241,6 @@ StudyReading read_document(const Value& document, bool runs_python, Problems pro
     check_fluctuations(draft);
     check_numerics(draft);
     check_fault(draft);
-    check_until(draft);
     check_records(draft);
     check_life(draft);
     sort_problems(draft.problems);

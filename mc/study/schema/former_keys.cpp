@@ -12,12 +12,9 @@
 namespace gearpod::mc {
 namespace {
 
-// Keys with another name now, in addition to the keys of members and meshes.
-constexpr std::pair<std::string_view, std::string_view> kRenamed[] = {
-    {"life.marched_torques", "life.linear_torques"}, {"life.marched_speeds", "life.linear_speeds"}};
-
 // Removed keys, as they were spelled without tables: everything that begins with `front` and ends
-// with `back`. Studies that are stored in results state the value without effect.
+// with `back` ("*": with anything; "": `front` itself). Studies that are stored in results state
+// the value without effect.
 struct RemovedKey {
     std::string_view front, back;
     std::string_view without_effect;  // value that is ignored; * for all, "" for none
@@ -35,12 +32,18 @@ constexpr RemovedKey kRemoved[] = {
     {"gearbox.profile_slope_um", "", "0", "give tooth_quality, whose grade contains profile slopes"},
     {"gearbox.sun_rim_mm", "", "", "remove it: the sun is solid; give rim_mm and web_mm in [gearbox.planet]"},
     {"gearbox.sun_web_mm", "", "", "remove it: the sun is solid; give rim_mm and web_mm in [gearbox.planet]"},
-    {"gearbox.pinion_rim_mm", "", "", "remove it: the pinion is solid; give rim_mm and web_mm in [gearbox.gear]"},
-    {"gearbox.pinion_web_mm", "", "", "remove it: the pinion is solid; give rim_mm and web_mm in [gearbox.gear]"},
-    {"gearbox.mesh_low_stiffness_N_m", "", "", "give tooth_profile = \"fillet\", or a constant stiffness_N_m in [gearbox.mesh]"},
-    {"gearbox.mesh_high_stiffness_N_m", "", "", "give tooth_profile = \"fillet\", or a constant stiffness_N_m in [gearbox.mesh]"},
-    {"gearbox.mesh_contact_ratio", "", "", "give tooth_profile = \"fillet\", or a constant stiffness_N_m in [gearbox.mesh]"},
-    {"gearbox.mesh_error_phase_deg", "", "", "remove it: the harmonics of error_um in [gearbox.mesh] are in phase"},
+    {"gearbox.pinion_rim_mm", "", "", "remove it, and multiply young_modulus_Pa by the gear blank factor of ISO 6336-1"},
+    {"gearbox.pinion_web_mm", "", "", "remove it, and multiply young_modulus_Pa by the gear blank factor of ISO 6336-1"},
+    {"gearbox.gear_rim_mm", "", "", "remove it, and multiply young_modulus_Pa by the gear blank factor of ISO 6336-1"},
+    {"gearbox.gear_web_mm", "", "", "remove it, and multiply young_modulus_Pa by the gear blank factor of ISO 6336-1"},
+    {"gearbox.mesh", "", "", "give tooth_profile = \"fillet\", from which the stiffness is computed, and tooth_quality for errors of the teeth"},
+    {"gearbox.mesh_", "stiffness_N_m", "", "give tooth_profile = \"fillet\", from which the stiffness is computed"},
+    {"gearbox.mesh_contact_ratio", "", "", "give tooth_profile = \"fillet\", from which the stiffness is computed"},
+    {"gearbox.mesh_error_", "*", "", "give tooth_quality or pitch_error_um: errors of the teeth"},
+    {"gearbox.sun_planet_error_phase_deg", "", "", "give error_phase_deg in [gearbox.ring_planet], relative to the sun meshes"},
+    {"gearbox.mesh_damping_N_s_m", "", "", "give mesh_damping_ratio or mesh_damping_time_s"},
+    {"gearbox.mesh_damping_alpha_1_s", "", "", "give mesh_damping_ratio: that of the most important natural frequency"},
+    {"gearbox.mesh_damping_beta_s", "", "", "give it as mesh_damping_time_s, with effects.mesh_damping = \"proportional\""},
     {"gearbox.planet_crowning_um", "", "0", "add it to crowning_um in [gearbox.sun] and [gearbox.ring]: crowning of mating flanks adds"},
     {"gearbox.pinion_crowning_um", "", "0", "add it to crowning_um in [gearbox.gear]: crowning of mating flanks adds"},
     {"gearbox.sun_quality", "", "", "give this grade as tooth_quality, and those of the other gears as quality in their tables"},
@@ -48,6 +51,20 @@ constexpr RemovedKey kRemoved[] = {
     {"fault.chip_end", "", "first", "remove it: the end that engages first is damaged; the other one has the same loss, later by the overlap"},
     {"fault.break_end", "", "first", "remove it: the end that engages first is damaged; the other one has the same loss, later by the overlap"},
     {"fault.pit_face_position_mm", "", "", "remove it: pits lie in the middle of the face width"},
+    {"fault.height_wave", "", "0", "remove it: the height of the crack varies from growth_height_mm to growth_end_height_mm without waves"},
+    {"fault.height_waves", "", "0", "remove it: the height of the crack varies from growth_height_mm to growth_end_height_mm without waves"},
+    {"fault.slices", "", "16", "remove it: a spatial crack has 16 slices, whose error is 2e-5 of the stiffness"},
+    {"operation.ring_speed_rpm", "", "", "give sun_speed_rpm or carrier_speed_rpm, each of which determines the speed of the ring"},
+    {"operation.torque_fluctuation", "*", "0", "give torque_noise and torque_noise_band_Hz, or speed_fluctuation"},
+    {"effects.gravity_direction_deg", "", "-90", "remove it: gravity acts along -y, away from the sensor"},
+    {"detection.false_alarms_per_year", "", "", "give false_alarms_per_1000_h, which is 0.114 for one in a year"},
+    {"monitoring.sustained_records", "", "10", "remove it: eight of the next ten recordings sustain an alarm"},
+    {"monitoring.sustained_share", "", "0.8", "remove it: eight of the next ten recordings sustain an alarm"},
+    {"life.marched_", "s", "", "give life.integrated_torques and life.integrated_speeds, or leave the choice to interpolation_tolerance"},
+    {"life.linear_", "s", "", "give life.integrated_torques and life.integrated_speeds, or leave the choice to interpolation_tolerance"},
+    {"life.record_turns", "", "", "give record_s: a turn of the carrier takes 60 s over its speed in rpm"},
+    {"life.fracture_toughness_MPa_m05", "", "", "give the depth at which the tooth breaks as last_depth_mm"},
+    {"ensemble.until", "", "", "remove it; run --resume with more --instances adds gearboxes until an interval is narrow enough"},
     {"life.smallest_depth_mm", "", "", "remove it: interpolation_tolerance is relative to a crack of half of last_depth_mm"},
     {"numerics.face_slices", "", "0", "remove it: crowned spur teeth have 8 slices, helical ones 4"},
 };
@@ -56,6 +73,8 @@ constexpr FormerValue kFormerValues[] = {
     {"numerics.horizon", "reuse", "periodic", false},
     {"numerics.horizon", "superpose", "superposed", false},
     {"numerics.horizon", "march", "full", false},
+    {"effects.mesh_damping", "constant", "ratio", true},
+    {"effects.mesh_damping", "rayleigh", "ratio", true},
     {"numerics.integrator", "bs3", "rk4", true},
     {"numerics.integrator", "bathe", "sdirk3", true},
     {"numerics.integrator", "generalized-alpha", "sdirk3", true},
@@ -65,8 +84,7 @@ constexpr FormerValue kFormerValues[] = {
 // Present paths by former ones.
 const std::map<std::string, std::string, std::less<>>& renamed_keys() {
     static const auto keys = [] {
-        std::map<std::string, std::string, std::less<>> all(std::begin(kRenamed),
-                                                            std::end(kRenamed));
+        std::map<std::string, std::string, std::less<>> all;
         for (const Key& key : schema()) {
             if (key.section == "gearbox" && key.name.find('.') != std::string::npos) {
                 all.emplace(flat_path(key.path()), key.path());
@@ -81,7 +99,7 @@ const std::map<std::string, std::string, std::less<>>& renamed_keys() {
 const RemovedKey* removed_key(std::string_view path) {
     const auto found = std::ranges::find_if(kRemoved, [&](const RemovedKey& key) {
         return path.size() >= key.front.size() + key.back.size() && path.starts_with(key.front) &&
-               (key.back.empty() ? path == key.front : path.ends_with(key.back));
+               (key.back.empty() ? path == key.front : key.back == "*" || path.ends_with(key.back));
     });
     return found == std::end(kRemoved) ? nullptr : found;
 }

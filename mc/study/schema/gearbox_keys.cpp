@@ -52,12 +52,10 @@ constexpr Member kRing[] = {Member::ring};
 constexpr Member kCrowned[] = {Member::sun, Member::ring, Member::gear};
 // Gears that may have another grade than tooth_quality.
 constexpr Member kGraded[] = {Member::planet, Member::ring, Member::gear};
-// Wheels that a web may carry; sun and pinion are solid.
-constexpr Member kWebbed[] = {Member::planet, Member::gear};
+// A web may carry planets; all other gears are solid.
 constexpr Member kPlanet[] = {Member::planet};
-constexpr MeshKind kAllMeshes[] = {MeshKind::sun_planet, MeshKind::ring_planet,
-                                   MeshKind::pinion_gear};
 constexpr MeshKind kPlanetMeshes[] = {MeshKind::sun_planet, MeshKind::ring_planet};
+constexpr MeshKind kRingMesh[] = {MeshKind::ring_planet};
 
 // Rule that is the same for all owners of a key.
 template <class Which, Presence (*Rule)(const Study&)>
@@ -117,7 +115,7 @@ const Key kGeneralKeys[] = {
     {"gearbox", "poisson_ratio", number<&G::poisson_ratio>, kNone, Range{0.0, 0.5, false, true}, tooth_body, kGeometry, "Poisson's ratio"},
     {"gearbox", "addendum_coefficient", number<&G::addendum_coefficient>, kNone, kPositive, may, kGeometry, "addendum divided by the module"},
     {"gearbox", "dedendum_coefficient", number<&G::dedendum_coefficient>, kNone, kPositive, may, kGeometry, "dedendum divided by the module"},
-    {"gearbox", "tooth_profile", choice<&G::tooth_profile>(kProfiles), kNone, kAny, may, kShared, "where the beam model of a tooth starts; \"constant\" and \"square-wave\": the mesh stiffness is given instead"},
+    {"gearbox", "tooth_profile", choice<&G::tooth_profile>(kProfiles), kNone, kAny, may, kShared, "where the beam model of a tooth starts; \"constant\" and \"square-wave\": the mesh stiffness of a planetary gearbox is given instead"},
     {"gearbox", "ring_to_sun_phase", number<&G::ring_to_sun_phase>, kNone, inside(-1, 1), planetary<may>, kShared, "mesh periods by which a planet's ring mesh lags its sun mesh; by default from the geometry"},
 };
 const MemberKey kBodyKeys[] = {
@@ -129,8 +127,8 @@ const MemberKey kBodyKeys[] = {
     {"crowning_um", kCrowned, of_members<&B::crowning_m>(), kUm, kNotNegative, each<tooth_model>, kGeometry, "crowning of the flanks of the {}: depth removed at both ends of the face, by a parabola along the face width"},
     {"bore_mm", kBored, of_members<&B::held_diameter_m>(), kMm, kPositive, each<foundation>, kGeometry, "diameter of the bore of the {}"},
     {"outer_mm", kRing, of_members<&B::held_diameter_m>(), kMm, kPositive, each<ring_foundation>, kGeometry, "outer diameter of the {}"},
-    {"rim_mm", kWebbed, of_members<&B::rim_m>(), kMm, kPositive, rim, kGeometry, "thickness of the rim of the {} below the tooth roots, if a thinner web carries it"},
-    {"web_mm", kWebbed, of_members<&B::web_m>(), kMm, kPositive, web, kGeometry, "thickness of the web of the {} under the rim, in the middle of the face width; rim and web reduce the stiffness of the meshes by the gear blank factor of ISO 6336-1"},
+    {"rim_mm", kPlanet, of_members<&B::rim_m>(), kMm, kPositive, rim, kGeometry, "thickness of the rim of the {} below the tooth roots, if a thinner web carries it"},
+    {"web_mm", kPlanet, of_members<&B::web_m>(), kMm, kPositive, web, kGeometry, "thickness of the web of the {} under the rim, in the middle of the face width; rim and web reduce the stiffness of the meshes by the gear blank factor of ISO 6336-1"},
     {"mass_kg", kAllMembers, of_members<&B::mass_kg>(), kKg, kPositive, each<mass>, kRandom, "mass of the {}"},
     {"inertia_kg_m2", kAllMembers, of_members<&B::inertia_kg_m2>(), kKgM2, kPositive, each<inertia>, kRandom, "moment of inertia J of the {}; that of a solid disc by default"},
     {"inertia_over_r2_kg", kPlanetary, of_members<&B::inertia_over_r2_kg>(), kKg, kPositive, each<inertia_over_r2>, kRandom, "moment of inertia J of the {} divided by the square of the base radius, or for the carrier of the centre distance"},
@@ -154,12 +152,12 @@ const Key kSupportKeys[] = {
 };
 // Keys that follow those of mesh damping.
 const MeshKey kMeshKeys[] = {
-    {"stiffness_N_m", kAllMeshes, of_meshes<&M::stiffness_N_m>(), kNPerM, kPositive, mesh<constant_stiffness>, kShared, "constant stiffness of these meshes"},
+    {"stiffness_N_m", kPlanetMeshes, of_meshes<&M::stiffness_N_m>(), kNPerM, kPositive, mesh<constant_stiffness>, kShared, "constant stiffness of these meshes"},
     {"low_stiffness_N_m", kPlanetMeshes, of_meshes<&M::low_stiffness_N_m>(), kNPerM, kPositive, mesh<square_wave>, kShared, "stiffness of these meshes with the smaller number of tooth pairs in contact"},
     {"high_stiffness_N_m", kPlanetMeshes, of_meshes<&M::high_stiffness_N_m>(), kNPerM, kPositive, mesh<square_wave>, kShared, "stiffness of these meshes with the larger number of tooth pairs in contact"},
     {"contact_ratio", kPlanetMeshes, of_meshes<&M::contact_ratio>(), kNone, closed_range(1, 2), mesh<square_wave>, kShared, "contact ratio of these meshes: mesh periods for which a tooth pair is in contact"},
-    {"error_um", kAllMeshes, of_meshes<&M::error_m>(), kUm, kNotNegative, mesh<may>, kShared, "static transmission error of these meshes: amplitudes of mesh harmonics 1, 2, ..."},
-    {"error_phase_deg", kPlanetMeshes, of_meshes<&M::error_phase_rad>(), kDeg, kAny, mesh<may>, kShared, "phases of error_um; 0 by default"},
+    {"error_um", kPlanetMeshes, of_meshes<&M::error_m>(), kUm, kNotNegative, mesh<may>, kShared, "static transmission error of these meshes: amplitudes of mesh harmonics 1, 2, ..."},
+    {"error_phase_deg", kRingMesh, of_meshes<&M::error_phase_rad>(), kDeg, kAny, mesh<may>, kShared, "phases of error_um, those of the sun meshes being 0; 0 by default"},
 };
 const Key kQualityKeys[] = {
     {"gearbox", "backlash_mm", number<&G::backlash_m>, kMm, kPositive, backlash, kRandom, "backlash 2b along the line of action"},
@@ -180,9 +178,7 @@ const Key kErrorKeys[] = {
 };
 // clang-format on
 
-// Keys of the mesh-damping laws, from their own parameters.
-
-template <MeshDamping kLaw, std::size_t kParameter>
+template <MeshDamping kLaw>
 Key damping_key(const dynamics::DampingParameter& parameter, std::string_view law) {
     const auto presence = [why = "belongs to effects.mesh_damping = \"" + std::string(law) +
                                  "\""](const Study& s) -> Presence {
@@ -193,24 +189,10 @@ Key damping_key(const dynamics::DampingParameter& parameter, std::string_view la
                 why,
                 {"effects.mesh_damping", "effects.motion"}};
     };
-    return {"gearbox",
-            std::string(parameter.key),
-            number<kLaw, kParameter>,
-            {parameter.suffix, parameter.unit, parameter.suffix, parameter.unit, 1.0},
-            kNotNegative,
-            presence,
-            kRandom,
-            std::string(parameter.doc)};
-}
-
-template <class Law, MeshDamping kLaw>
-void add_keys(std::string_view law, std::vector<Key>& keys) {
-    constexpr std::size_t kParameters = std::size(Law::kParameters);
-    static_assert(kParameters <= dynamics::kMostDampingParameters);
-    [&]<std::size_t... kAll>(std::index_sequence<kAll...>) {
-        (keys.push_back(damping_key<kLaw, kAll>(Law::kParameters[kAll], law)), ...);
-    }
-    (std::make_index_sequence<kParameters>());
+    return {"gearbox",    std::string(parameter.key),
+            number<kLaw>, {parameter.suffix, parameter.unit, parameter.suffix, parameter.unit, 1.0},
+            kNotNegative, presence,
+            kRandom,      std::string(parameter.doc)};
 }
 
 }  // namespace
@@ -226,7 +208,8 @@ std::span<const Key> gearbox_keys() {
         add(kMachineKeys);
         add_shared(kBearingKeys, all);
         add(kSupportKeys);
-#define GEARPOD_MESH_DAMPING(NAME, LAW) add_keys<dynamics::LAW, MeshDamping::NAME>(#NAME, all);
+#define GEARPOD_MESH_DAMPING(NAME, LAW) \
+    all.push_back(damping_key<MeshDamping::NAME>(dynamics::LAW::kParameter, #NAME));
 #include "dynamics/effects/mesh_dampings.def"
 #undef GEARPOD_MESH_DAMPING
         add_shared(kMeshKeys, all);

@@ -53,15 +53,10 @@ const Key kOperationKeys[] = {
     {"operation", "torque_on", choice<&Operation::torque_on>(kCentral), kNone, kAny, planetary<may>, kShared, "member whose torque is given; by default the sun, or the ring if the sun is fixed"},
     {"operation", "torque_N_m", number<&Operation::torque_N_m>, kNm, kNotNegative, always, kRandom, "torque on the member torque_on, or of the motor of a fixed-shaft gearbox"},
     {"operation", "sun_speed_rpm", number<&Operation::sun_speed_rad_s>, kRpm, kPositive, planetary<may>, kRandom, "speed of the sun"},
-    {"operation", "ring_speed_rpm", number<&Operation::ring_speed_rad_s>, kRpm, kPositive, planetary<may>, kRandom, "speed of the ring"},
     {"operation", "carrier_speed_rpm", number<&Operation::carrier_speed_rad_s>, kRpm, kPositive, planetary<may>, kRandom, "speed of the carrier"},
     {"operation", "load_torque_N_m", number<&Operation::load_torque_N_m>, kNm, kNotNegative, fixed_shaft<may>, kRandom, "torque of the load; by default in balance with the motor's"},
     {"operation", "pinion_speed_rpm", number<&Operation::pinion_speed_rad_s>, kRpm, kPositive, fixed_shaft<always>, kRandom, "speed of the pinion"},
 
-    {"operation", "torque_fluctuation", number<&U::torque>, kNone, closed_range(0, 10), may, kRandom, "relative amplitude of a sinusoidal fluctuation of all torques; contacts and static equilibrium are those of the mean torque"},
-    {"operation", "torque_fluctuation_order", number<&U::torque_order>, kNone, kPositive, only_with<"operation.torque_fluctuation">, kRandom, "periods of the torque fluctuation in a turn of the input member (the pinion); alternative to torque_fluctuation_Hz"},
-    {"operation", "torque_fluctuation_Hz", number<&U::torque_Hz>, kHz, kFrequency, only_with<"operation.torque_fluctuation">, kRandom, "frequency of the torque fluctuation; alternative to torque_fluctuation_order"},
-    {"operation", "torque_fluctuation_phase_deg", number<&U::torque_phase_rad>, kDeg, closed_range(-360, 360), only_with<"operation.torque_fluctuation">, kRandom, "phase of the torque fluctuation at the first recorded mesh period"},
     {"operation", "torque_noise", number<&U::torque_noise>, kNone, closed_range(0, 10), may, kRandom, "relative rms of a random fluctuation of all torques: Gaussian, different in every gearbox"},
     {"operation", "torque_noise_band_Hz", number<&U::torque_noise_Hz>, kHz, kFrequency, needed_with<"operation.torque_noise">, kRandom, "frequency at which the spectrum of torque_noise has fallen to half (to a twentieth at twice this frequency): white noise shaped by cubic B-splines"},
     {"operation", "speed_fluctuation", number<&U::speed>, kNone, kSpeedAmplitude, integration, kRandom, "relative amplitude of a sinusoidal fluctuation of the speed; the input torque accelerates all masses"},
@@ -78,8 +73,7 @@ const Key kOperationKeys[] = {
     {"effects", "separation", choice<&Effects::separation>(kSeparations), kNone, kAny, may, kShared, "loss of contact of the teeth: none, one-sided, or two-sided with contact of the back flanks"},
     {"effects", "inertial_terms", boolean<&Effects::inertial_terms>, kNone, kAny, planetary<may>, kShared, "Coriolis and centrifugal terms of the turning carrier"},
     {"effects", "mesh_damping", choice<&Effects::mesh_damping>(kDampings), kNone, kAny, may, kShared, "law of mesh damping"},
-    {"effects", "gravity", boolean<&Effects::gravity>, kNone, kAny, may, kShared, "weight of all bodies; it turns in the frame of a turning carrier"},
-    {"effects", "gravity_direction_deg", number<&Effects::gravity_direction_rad>, kDeg, closed_range(-360, 360), gravity, kShared, "direction of gravity, from the x axis: -90 along -y, away from the sensor of a planetary gearbox; y is the line of action of a fixed-shaft one"},
+    {"effects", "gravity", boolean<&Effects::gravity>, kNone, kAny, may, kShared, "weight of all bodies, along -y: away from the sensor of a planetary gearbox, whose frame it turns in if the carrier turns; y is the line of action of a fixed-shaft one"},
     {"effects", "path", listed<&Effects::path, signals::path_windows>(path_names()), kNone, kAny, may, kShared, "window function of the transmission path"},
 };
 // clang-format on

@@ -61,9 +61,8 @@ Presence with_baseline(const Study& s) {
                    {"features.use"});
 }
 Presence with_alarm_target(const Study& s) {
-    return only_if(has_alarm_target(s),
-                   "only with false_alarms_per_1000_h or false_alarms_per_year",
-                   {"detection.false_alarms_per_1000_h", "detection.false_alarms_per_year"});
+    return only_if(has_alarm_target(s), "only with false_alarms_per_1000_h",
+                   {"detection.false_alarms_per_1000_h"});
 }
 Presence alarm_target_needs(const Study& s) {
     return required_if(has_alarm_target(s) && !s.life.interval_h,
@@ -191,10 +190,6 @@ Presence tooth_quality(const Study& s) {
 Presence bearings_move(const Study& s) {
     return only_if(!s.effects.torsional(), "the bearings of this model are rigid: effects.motion",
                    {kMotion});
-}
-
-Presence gravity(const Study& s) {
-    return only_if(s.effects.gravity, "only with effects.gravity = true", {"effects.gravity"});
 }
 
 Presence mass(const Study& s) {

@@ -58,7 +58,6 @@ Presence tooth_quality(const Study&);  // only if the gears are known
 Presence bearings_move(const Study&);  // only where planets move on their bearings
 
 Presence without_response(const Study&);  // not with a measured response
-Presence gravity(const Study&);           // only with effects.gravity
 
 Presence mass(const Study&);             // unless the motion is quasi-static
 Presence inertia(const Study&);          // J needs the radii

@@ -1,5 +1,4 @@
 // Keys of [sensor], [features], [detection], [monitoring], [life], [numerics] and [ensemble].
-#include "features/feature.hpp"
 #include "lockstep/integrators/facts.hpp"
 #include "mc/study/elements/other_sources.hpp"
 #include "mc/study/elements/sensors.hpp"
@@ -38,17 +37,6 @@ const std::vector<ChoiceName> kInstructionSets = names_or_auto<machine::Instruct
 // Closer to 0 or 1, intervals cannot be computed.
 constexpr Range kShare = closed_range(1e-9, 1 - 1e-9);
 constexpr Range kTolerance = {0.0, 1.0, false, true};
-
-std::span<const ChoiceName> feature_names() {
-    static const std::vector<ChoiceName> names = [] {
-        std::vector<ChoiceName> all;
-        for (const features::Feature& feature : features::all_features()) {
-            all.push_back({feature.name, static_cast<int>(all.size())});
-        }
-        return all;
-    }();
-    return names;
-}
 
 // clang-format off
 const Key kRunKeys[] = {
@@ -96,7 +84,6 @@ const Key kRunKeys[] = {
 
     {"detection", "false_alarm_rate", number<&Detection::false_alarm_rate>, kNone, kShare, may, kShared, "fraction of healthy records that may alarm, for each feature"},
     {"detection", "false_alarms_per_1000_h", number<&Detection::false_alarms_per_1000_h>, kNone, kPositive, may, kShared, "instead of false_alarm_rate: false alarms of a feature in 1000 hours of healthy machines, all machines together"},
-    {"detection", "false_alarms_per_year", number<&Detection::false_alarms_per_year>, kNone, kPositive, may, kShared, "the same in a year (8760 hours)"},
     {"detection", "machines", integer<&Detection::machines>, kNone, closed_range(1, 1e6), with_alarm_target, kShared, "number of machines in the fleet that the target is for"},
     {"detection", "record_interval_h", number<&Detection::record_interval_h>, kHours, kPositive, alarm_target_needs, kShared, "hours between two records of a machine; by default life.interval_h"},
     {"detection", "confidence", number<&Detection::confidence>, kNone, kShare, may, kShared, "confidence level of the intervals"},
@@ -108,8 +95,6 @@ const Key kRunKeys[] = {
     {"monitoring", "torque_regression", boolean<&Monitoring::torque_regression>, kNone, kAny, may, kShared, "the normal state of a gearbox depends linearly on the torque of its records"},
     {"monitoring", "detectors", list<&Monitoring::detectors>, kNone, kAny, may, kShared, "detectors that monitor a gearbox's records: single, 2 of 3, ewma 0.1 (weight of the latest record), cusum 0.5 (reference value), trend 100 (number of records); append two-sided to detect changes in both directions"},
     {"monitoring", "average_records", integer<&Monitoring::average_records>, kNone, closed_range(1, 1000), may, kShared, "number of consecutive measured recordings of a gearbox, aligned with its baseline, that features averages before it computes features"},
-    {"monitoring", "sustained_records", integer<&Monitoring::sustained_records>, kNone, closed_range(1, 1000), may, kShared, "number of next recordings that decide whether an alarm of measured recordings is sustained"},
-    {"monitoring", "sustained_share", number<&Monitoring::sustained_share>, kNone, kShare, may, kShared, "least fraction of these recordings that must alarm, too"},
 
     {"monitoring", "false_alarms_per_1000_h", number<&Monitoring::false_alarms_per_1000_h>, kNone, kPositive, only_with<"life.interval_h">, kShared, "false alarms in 1000 operating hours of healthy gearboxes for which the thresholds of lives are set"},
 
@@ -123,7 +108,6 @@ const Key kRunKeys[] = {
     {"life", "curve_h", ascending<&Life::curve_h>, kHours, kNotNegative, only_with<"life.interval_h">, kShared, "instead of Paris' law: hours since the crack started, from 0, at which its depth is given"},
     {"life", "curve_depth_mm", ascending<&Life::curve_depth_m>, kMm, kPositive, needed_with<"life.curve_h">, kShared, "depths of the crack at the hours of curve_h; linear in between"},
     {"life", "curve_pace", number<&Life::curve_pace>, kNone, kPositive, only_with<"life.curve_h">, kRandom, "rate at which a gearbox's crack grows relative to that curve; 1 by default"},
-    {"life", "fracture_toughness_MPa_m05", number<&Life::fracture_toughness_Pa_m05>, kMPaRootM, kPositive, only_with<"life.interval_h">, kShared, "stress intensity at which the remaining section of the tooth breaks; without it a life ends at the last depth"},
     {"life", "depth_steps", integer<&Life::depth_steps>, kNone, closed_range(1, 100), only_with<"life.interval_h">, kShared, "number of depth steps from 0 to the last depth at which a gearbox is simulated; signals in between are interpolated"},
     {"life", "torque_scatter", number<&Life::torque_scatter>, kNone, closed_range(0, 1), only_with<"life.interval_h">, kShared, "rms relative difference of a record's torque from its gearbox's (standard deviation of the logarithm)"},
     {"life", "speed_scatter", number<&Life::speed_scatter>, kNone, closed_range(0, 0.3), only_with<"life.interval_h">, kShared, "the same as torque_scatter for the speed"},
@@ -134,10 +118,7 @@ const Key kRunKeys[] = {
     {"life", "integrated_speeds", integer<&Life::polynomial_speeds>, kNone, closed_range(3, 17), only_with<"life.interval_h">, kShared, "the same as integrated_torques for the speed"},
     {"life", "distinct_torques", integer<&Life::distinct_torques>, kNone, closed_range(2, 33), only_with<"life.interval_h">, kShared, "instead of integrated_torques: number of torques, equally frequent and with the stated scatter, that records have; each is simulated, and nothing is interpolated between them. Without scatter there is one"},
     {"life", "distinct_speeds", integer<&Life::distinct_speeds>, kNone, closed_range(2, 33), only_with<"life.interval_h">, kShared, "the same as distinct_torques for the speed"},
-    {"life", "linear_torques", integer<&Life::given_torques>, kNone, closed_range(2, 16), only_with<"life.interval_h">, kShared, "earlier alternative to integrated_torques: number of evenly spaced torques, with linear interpolation in between"},
-    {"life", "linear_speeds", integer<&Life::given_speeds>, kNone, closed_range(2, 16), only_with<"life.interval_h">, kShared, "earlier alternative to integrated_speeds: number of evenly spaced speeds, with linear interpolation in between"},
-    {"life", "record_s", number<&Life::record_s>, kS, kPositive, only_with<"life.interval_h">, kShared, "length of a recording, by default that of [sensor]; without both, a recording has as many planet turns as the ring has teeth, in which every tooth of a planet meets every ring tooth that it can meet"},
-    {"life", "record_turns", number<&Life::record_turns>, kNone, kPositive, planetary<only_with<"life.interval_h">>, kShared, "length of a recording in turns of the carrier relative to the fixed ring or sun; alternative to record_s"},
+    {"life", "record_s", number<&Life::record_s>, kS, kPositive, only_with<"life.interval_h">, kShared, "length of a recording, by default that of [sensor]; without one, a recording has as many planet turns as the ring has teeth, in which every tooth of a planet meets every ring tooth that it can meet"},
     {"life", "recordings", integer<&Life::recordings>, kNone, closed_range(1, 1000), only_with<"life.interval_h">, kShared, "number of recordings that a record averages; short ones each begin with other teeth in mesh"},
 
     {"numerics", "tolerance", number<&Numerics::tolerance>, kNone, kTolerance, integration, kShared, "relative error of the features for which integrator, steps and settle_tolerance are chosen on pilot gearboxes, unless they are given; 0: not chosen"},
@@ -165,10 +146,6 @@ const Key kRunKeys[] = {
     {"ensemble", "seed", integer<&Ensemble::seed>, kNone, kNotNegative, always, kShared, "seed of all random numbers"},
     {"ensemble", "sampling", choice<&Ensemble::sampling>(kSamplings), kNone, kAny, may, kShared, "sampling of the random inputs: plain (every gearbox independently) or sobol (a Sobol sequence that fills the inputs' ranges evenly, so that thresholds and rates scatter less where inputs rather than noise decide; best with a power of 2 of gearboxes for each fault size)"},
     {"ensemble", "checkpoint_s", number<&Ensemble::checkpoint_s>, kS, closed_range(0, 1e6), may, kShared, "seconds between two checkpoints"},
-    {"ensemble", "until.half_width", number<&Until::half_width>, kNone, inside(0, 0.5), may, kShared, "stop when the half width of the interval of a detection rate Pd is this small"},
-    {"ensemble", "until.feature", choice<&Until::feature>(feature_names()), kNone, kAny, needed_with<"ensemble.until.half_width">, kShared, "feature of this detection rate"},
-    {"ensemble", "until.size", number<&Until::size>, kNone, kNotNegative, needed_with<"ensemble.until.half_width">, kShared, "fault size of this detection rate, in the unit of the fault's size"},
-    {"ensemble", "until.noise_level", number<&Until::noise_level>, kNone, kNotNegative, only_with<"ensemble.until.half_width">, kShared, "noise level of this detection rate, one of sensor.noise_levels"},
 };
 // clang-format on
 

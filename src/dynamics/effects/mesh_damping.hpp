@@ -1,11 +1,10 @@
 // Laws of mesh damping. A law is a struct with
-// - kText, its name in descriptions, and kParameters, its parameters in study files;
+// - kText, its name in descriptions, and kParameter, its parameter in study files;
 // - shape(k), the part of the damping that depends on the mesh stiffness k, N/m;
-// - terms(p, m), how much of it a gearbox has: p are its parameters and m is the equivalent mass
+// - factor(p, m), by which a gearbox multiplies it: p is its parameter and m is the equivalent mass
 //   m1 m2 / (m1 + m2) of the two gears, kg.
 #pragma once
 
-#include <array>
 #include <cmath>
 #include <cstddef>
 #include <stdexcept>
@@ -15,25 +14,11 @@
 
 namespace gearpod::dynamics {
 
-// Damping of a mesh, N s/m: factor times the law's shape of its stiffness, plus constant. The shape
-// can thus be tabulated once over the mesh phase for all gearboxes.
-struct DampingTerms {
-    double factor = 0.0, constant = 0.0;
-};
-
-// Values of a law's parameters in SI units; the others are 0.
-inline constexpr int kMostDampingParameters = 2;
-using DampingParameters = std::array<double, kMostDampingParameters>;
-
-// The same of W gearboxes.
+// Damping of a mesh, N s/m: factor times the law's shape of its stiffness. The shape can thus be
+// tabulated once over the mesh phase for all gearboxes. Factors of W gearboxes:
 template <int W, class Real = double>
 struct DampingLanes {
-    Real factor[W], constant[W];
-
-    void set(LaneId lane, const DampingTerms& terms) {
-        factor[lane] = Real(terms.factor);
-        constant[lane] = Real(terms.constant);
-    }
+    Real factor[W];
 };
 
 struct DampingParameter {
@@ -43,55 +28,25 @@ struct DampingParameter {
     std::string_view doc;
 };
 
-// Constant damping at all mesh phases.
-struct ConstantDamping {
-    static constexpr std::string_view kText = "constant";
-    static constexpr DampingParameter kParameters[] = {
-        {"mesh_damping_N_s_m", "N_s_m", "N s/m", "constant mesh damping"}};
-
-    static double shape(double) { return 1.0; }
-    static DampingTerms terms(const DampingParameters& p, double) { return {p[0]}; }
-};
-
 // Damping proportional to stiffness: c = mu k, Tian (2004), Eq. 4.22.
 struct ProportionalDamping {
     static constexpr std::string_view kText = "proportional to stiffness";
-    static constexpr DampingParameter kParameters[] = {
-        {"mesh_damping_time_s", "s", "s", "mesh damping time mu in c = mu k"}};
+    static constexpr DampingParameter kParameter{"mesh_damping_time_s", "s", "s",
+                                                 "mesh damping time mu in c = mu k"};
 
     static double shape(double stiffness_N_m) { return stiffness_N_m; }
-    static DampingTerms terms(const DampingParameters& p, double) { return {p[0]}; }
+    static double factor(double time_s, double) { return time_s; }
 };
 
 // Ratio of critical damping: c = 2 zeta sqrt(k m), Liang (2016), Eq. 4.2.5.
 struct RatioDamping {
     static constexpr std::string_view kText = "ratio of critical damping";
-    static constexpr DampingParameter kParameters[] = {
-        {"mesh_damping_ratio", "", "1",
-         "mesh damping ratio zeta in c = 2 zeta sqrt(k m1 m2 / (m1 + m2))"}};
+    static constexpr DampingParameter kParameter{
+        "mesh_damping_ratio", "", "1",
+        "mesh damping ratio zeta in c = 2 zeta sqrt(k m1 m2 / (m1 + m2))"};
 
     static double shape(double stiffness_N_m) { return std::sqrt(stiffness_N_m); }
-    static DampingTerms terms(const DampingParameters& p, double mass_kg) {
-        return {2.0 * p[0] * std::sqrt(mass_kg)};
-    }
-};
-
-// Rayleigh damping of the two gears that vibrate against one another: c = alpha m + beta k with
-// their equivalent mass m. A mode in which the gears do not turn has the damping ratio
-// alpha / (2 w) + beta w / 2 at its natural frequency w, rad/s. Rayleigh, The Theory of
-// Sound, vol. 1 (1877).
-struct RayleighDamping {
-    static constexpr std::string_view kText = "Rayleigh: proportional to mass and stiffness";
-    static constexpr DampingParameter kParameters[] = {
-        {"mesh_damping_alpha_1_s", "1_s", "1/s",
-         "mesh damping alpha in c = alpha m1 m2 / (m1 + m2) + beta k"},
-        {"mesh_damping_beta_s", "s", "s",
-         "mesh damping beta in c = alpha m1 m2 / (m1 + m2) + beta k"}};
-
-    static double shape(double stiffness_N_m) { return stiffness_N_m; }
-    static DampingTerms terms(const DampingParameters& p, double mass_kg) {
-        return {p[1], p[0] * mass_kg};
-    }
+    static double factor(double ratio, double mass_kg) { return 2.0 * ratio * std::sqrt(mass_kg); }
 };
 
 // Laws of mesh damping: mesh_dampings.def lists them.
@@ -120,16 +75,13 @@ auto with_mesh_damping(MeshDamping kind, F&& f) {
     throw std::invalid_argument("unknown law of mesh damping");
 }
 
-// Damping of a mesh between gears of mass m1 and m2, N s/m.
-inline DampingTerms mesh_damping_terms(MeshDamping kind, const DampingParameters& parameters,
-                                       double m1_kg, double m2_kg) {
+// Factor of a mesh between gears of mass m1 and m2.
+inline double mesh_damping_factor(MeshDamping kind, double parameter, double m1_kg, double m2_kg) {
     return with_mesh_damping(
-        kind, [&](auto law) { return law.terms(parameters, m1_kg * m2_kg / (m1_kg + m2_kg)); });
+        kind, [&](auto law) { return law.factor(parameter, m1_kg * m2_kg / (m1_kg + m2_kg)); });
 }
-inline double mesh_damping_N_s_m(MeshDamping kind, const DampingTerms& terms,
-                                 double stiffness_N_m) {
-    return with_mesh_damping(
-        kind, [&](auto law) { return terms.factor * law.shape(stiffness_N_m) + terms.constant; });
+inline double mesh_damping_N_s_m(MeshDamping kind, double factor, double stiffness_N_m) {
+    return with_mesh_damping(kind, [&](auto law) { return factor * law.shape(stiffness_N_m); });
 }
 
 }  // namespace gearpod::dynamics

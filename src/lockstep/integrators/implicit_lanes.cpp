@@ -130,7 +130,7 @@ dynamics::GearboxMatrices without_meshes(const dynamics::GearboxLayout& layout,
     // A constant damping would remain for meshes without stiffness; the steps add mesh damping
     // themselves.
     dynamics::GearboxInputs bare = in;
-    std::visit([](auto& kind) { kind.mesh_damping = {}; }, bare);
+    std::visit([](auto& kind) { kind.mesh_damping = 0.0; }, bare);
     const std::vector<double> none(static_cast<std::size_t>(dynamics::pairs(layout)), 0.0);
     return dynamics::assemble(layout, bare, none);
 }
@@ -239,8 +239,8 @@ ImplicitLanes<W> make_implicit_lanes(const IntegrationPlan& plan, double diagona
         lanes.backlash[l] = dynamics::backlash_m(in);
         lanes.frame_speed[l] = dynamics::frame_speed_rad_s(in);
         for (int pair = 0; pair < lanes.pairs; ++pair) {
-            lanes.mesh_damping[pair].set(LaneId{l},
-                                         dynamics::mesh_damping(plan.layout, in, PairId{pair}));
+            lanes.mesh_damping[pair].factor[l] =
+                dynamics::mesh_damping_factor(plan.layout, in, PairId{pair});
         }
         const dynamics::GearboxMatrices m = without_meshes(plan.layout, in);
         set_constants(lanes, m, l);

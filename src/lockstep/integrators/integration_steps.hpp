@@ -290,7 +290,7 @@ GEARPOD_INLINE void load_pairs(const IntegrationPlan& plan, const typename Model
 #pragma omp simd
         for (int l = 0; l < W; ++l) {
             k[pair * W + l] = stiffness;
-            c[pair * W + l] = law.factor[l] * damping + law.constant[l];
+            c[pair * W + l] = law.factor[l] * damping;
         }
     }
     for (const PairOverride& o : overrides.faults) {
@@ -304,7 +304,7 @@ GEARPOD_INLINE void load_pairs(const IntegrationPlan& plan, const typename Model
 #pragma omp simd
         for (int l = 0; l < W; ++l) {
             k[o.pair * W + l] = static_cast<Real>(ko[l]);
-            c[o.pair * W + l] = law.factor[l] * static_cast<Real>(co[l]) + law.constant[l];
+            c[o.pair * W + l] = law.factor[l] * static_cast<Real>(co[l]);
         }
     }
     if constexpr (Model::Mesh::kHasTeeth) {

@@ -31,7 +31,8 @@ MeshForces<W>::MeshForces(const IntegrationPlan& plan,
     }
     for (PairId pair{0}; pair < plan.nodes.pairs; ++pair) {
         for (LaneId l{0}; l < W; ++l) {
-            lanes_.mesh_damping[pair].set(l, dynamics::mesh_damping(plan.layout, inputs[l], pair));
+            lanes_.mesh_damping[pair].factor[l] =
+                dynamics::mesh_damping_factor(plan.layout, inputs[l], pair);
         }
         const Eigen::VectorXd row = dynamics::mesh_row(plan.layout, pair);
         row_.emplace_back(row.begin(), row.end());

@@ -34,10 +34,7 @@ double CrackSurface::stretching(double t) const {
 
 double CrackSurface::height(double z) const {
     const double x = z / face_width_m, rise = end_height_m - height_m;
-    double l = height_m + rise * x * x;
-    if (height_wave != 0)
-        l += rise / height_wave * std::sin(height_waves * pi * x);
-    return std::max(0.0, l);
+    return std::max(0.0, height_m + rise * x * x);
 }
 
 Crack CrackSurface::crack(double t) const {
@@ -62,8 +59,6 @@ CrackSurface CrackGrowth::at(double stage, double face_width_m) const {
             between(end_height_m, false),
             angle_rad,
             end_angle_rad,
-            height_wave,
-            height_waves,
             face_width_m};
 }
 
@@ -97,8 +92,6 @@ std::vector<std::string> growth_problems(const CrackGrowth& growth, double face_
                 fmt::format("the crack's angle to the tooth's centre line is {:.4g} "
                             "degrees (must lie between 0 and 90)",
                             angle * 180 / pi));
-    if (!(growth.height_wave >= 0 && growth.height_waves >= 0))
-        problems.emplace_back("the wave of the crack's height is negative");
     if (growth.slices < 1)
         problems.emplace_back("the crack has no slice");
     return problems;
@@ -286,12 +279,12 @@ class SpatialCrackFault : public ToothFault {
         return std::abs(family_.profile_.section(u).axial - from);
     }
 
-    int samples() const { return 64 * (1 + static_cast<int>(surface_.height_waves)); }
+    static constexpr int kSamples = 64;
 
     void find_heights() {
         lowest_ = std::numeric_limits<double>::infinity();
-        for (int i = 0; i <= samples(); ++i) {
-            const double l = surface_.height(surface_.length_m * i / samples());
+        for (int i = 0; i <= kSamples; ++i) {
+            const double l = surface_.height(surface_.length_m * i / kSamples);
             lowest_ = std::min(lowest_, l);
             highest_ = std::max(highest_, l);
         }
@@ -427,7 +420,7 @@ class SpatialCrackFault : public ToothFault {
             rule_.whole(weights);
         else if (height > lowest_)
             rule_.where([&](double t) { return height - surface_.height(surface_.z_at(t)); },
-                        samples(), weights);
+                        kSamples, weights);
         return weights;
     }
 

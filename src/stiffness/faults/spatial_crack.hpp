@@ -24,24 +24,23 @@ namespace gearpod::stiffness {
 //
 //     depth    q(z) = q1 sqrt((L_c - z) / L_c)                 partial width: q1 at 0, 0 at L_c
 //              q(z) = sqrt((q2^2 - q1^2) z / L + q1^2)         full width: q1 at 0, q2 at L
-//     height   l(z) = (l2 - l1) (z / L)^2 + l1 [+ (l2 - l1) / a sin(b pi z / L)]
+//     height   l(z) = (l2 - l1) (z / L)^2 + l1
 //     angle    g(z) = (g2 - g1) z / L + g1
 //
 // In both depths z is quadratic in q: a parabola whose axis lies along the width. Without its root
 // the first would be a straight line, contrary to the text, and the q1^2 of the second would not be
-// a length. The square in the height is printed. The wave's (l2 - l1) is printed without the
-// brackets of the first term, as the numerator over a. One form covers both depths and the growth
-// from one to the other: a parabola from q1 at 0 to q2 at L_c, and no crack beyond.
+// a length. The square in the height is printed. Yang's height may also have waves, which are left
+// out. One form covers both depths and the growth from one to the other: a parabola from q1 at 0 to
+// q2 at L_c, and no crack beyond.
 
 // Shape of a crack along the face width. Lengths in metres. The reference section is the root
 // section, or by fracture mechanics the critical one.
 struct CrackSurface {
-    double depth_m = 0, end_depth_m = 0;       // q1, q2
-    double length_m = 0;                       // L_c, along the face width
-    double height_m = 0, end_height_m = 0;     // l1, l2, of the start above the reference section
-    double angle_rad = 0, end_angle_rad = 0;   // g1, g2
-    double height_wave = 0, height_waves = 0;  // a, b; a = 0: no wave
-    double face_width_m = 0;                   // L
+    double depth_m = 0, end_depth_m = 0;      // q1, q2
+    double length_m = 0;                      // L_c, along the face width
+    double height_m = 0, end_height_m = 0;    // l1, l2, of the start above the reference section
+    double angle_rad = 0, end_angle_rad = 0;  // g1, g2
+    double face_width_m = 0;                  // L
 
     bool cracked() const { return length_m > 0 && (depth_m > 0 || end_depth_m > 0); }
     // True if the crack is the same along its whole length.
@@ -60,7 +59,6 @@ struct CrackSurface {
 struct CrackGrowth {
     std::vector<double> depth_m, end_depth_m, length_m, height_m, end_height_m;
     double angle_rad = 0, end_angle_rad = 0;
-    double height_wave = 0, height_waves = 0;
     int slices = 16;  // number of slices of the tooth; rounded up to a multiple of eight
 
     int stages() const { return static_cast<int>(depth_m.size()); }

@@ -24,12 +24,12 @@ struct TwoShafts {
         dynamics::FixedShaftLayout layout;
         layout.base_radius_m[dynamics::pinion] = 0.03;
         layout.base_radius_m[dynamics::gear] = 0.06;
-        layout.mesh_damping = dynamics::MeshDamping::constant;
+        layout.mesh_damping = dynamics::MeshDamping::proportional;
         plan.layout = layout;
         plan.grid = make_phase_grid(steps, steps, {});
         plan.nodes.pairs = 1;
         plan.nodes.stiffness.assign(plan.grid.steps.size() * 3, 2e8);
-        plan.nodes.damping_shape.assign(plan.grid.steps.size() * 3, 1.0);
+        plan.nodes.damping_shape = plan.nodes.stiffness;
         plan.low_pass_rad_s = 2.0 * pi * 2500.0;
         plan.te_weight = {0, 0, 0, 0, 0, 1.0, -1.0, 0};  // u_1 - u_2
         in.mass_kg[dynamics::pinion] = 1.0;
@@ -44,7 +44,7 @@ struct TwoShafts {
         }
         in.motor_inertia_kg_m2 = 2e-3;
         in.load_inertia_kg_m2 = 1e-2;
-        in.mesh_damping[0] = 1e3;
+        in.mesh_damping = 1e3 / 2e8;
         in.mesh_period_s = kPeriod;
     }
 };

@@ -139,12 +139,12 @@ TEST_CASE("Newmark conserves the energy of an undamped, unloaded gearbox of cons
     dynamics::PlanetaryInputs train = LiangTrain::instance().inputs(20.0);
     std::fill(std::begin(train.bearing_damping_N_s_m), std::end(train.bearing_damping_N_s_m), 0.0);
     std::fill(std::begin(train.force_N), std::end(train.force_N), 0.0);
-    train.support_damping_N_s_m = train.mesh_damping[0] = 0.0;
+    train.support_damping_N_s_m = train.mesh_damping = 0.0;
     dynamics::FixedShaftInputs stage = TianGearbox::instance().inputs();
     for (const auto g : {dynamics::pinion, dynamics::gear}) {
         stage.bearing_damping_N_s_m[g] = stage.coupling_damping_N_m_s_rad[g] = 0.0;
     }
-    stage.mesh_damping[0] = stage.motor_torque_N_m = stage.load_torque_N_m = 0.0;
+    stage.mesh_damping = stage.motor_torque_N_m = stage.load_torque_N_m = 0.0;
 
     IntegrationPlan planetary =
         liang_plan(1200, dynamics::Motion::translational_torsional, Integrator::newmark);
@@ -176,7 +176,7 @@ TEST_CASE("Sdirk3 damps modes that its steps cannot resolve") {
         in.bearing_stiffness_N_m[g] *= 1e6;
         in.coupling_stiffness_N_m_rad[g] *= 1e6;
     }
-    in.mesh_damping[0] = in.motor_torque_N_m = in.load_torque_N_m = 0.0;
+    in.mesh_damping = in.motor_torque_N_m = in.load_torque_N_m = 0.0;
     for (const auto integrator : {Integrator::sdirk3, Integrator::newmark}) {
         IntegrationPlan plan = gearbox.plan(20, 60, integrator);
         plan.grid = make_phase_grid(20, 60, {});

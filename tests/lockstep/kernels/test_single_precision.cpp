@@ -133,7 +133,7 @@ TEST_CASE(
     dynamics::PlanetaryInputs in = train.inputs();
     std::fill(std::begin(in.bearing_damping_N_s_m), std::end(in.bearing_damping_N_s_m), 0.0);
     std::fill(std::begin(in.force_N), std::end(in.force_N), 0.0);
-    in.support_damping_N_s_m = in.mesh_damping[0] = 0.0;
+    in.support_damping_N_s_m = in.mesh_damping = 0.0;
     in.mesh_period_s = 2e-3;
     const auto integrator = GENERATE(Integrator::rk4, Integrator::central_difference);
     IntegrationPlan plan = single(by(integrator, train.plan(10, 40000, kFull, false)));

@@ -88,7 +88,7 @@ class ToothByTooth {
                  const ToothErrors& errors, std::size_t lane, double crack_m)
         : plan_(plan), in_(in), errors_(errors), lane_(lane) {
         auto bare = in;
-        bare.mesh_damping[0] = 0.0;
+        bare.mesh_damping = 0.0;
         matrices_ = dynamics::assemble(plan.layout, bare, std::vector<double>(8, 0.0));
         inverse_mass_ = dynamics::inverse(matrices_.mass);
         for (int pair = 0; pair < 8; ++pair) {
@@ -159,8 +159,8 @@ class ToothByTooth {
         lost += any_gap && pressed > 0.0 ? 1 : 0;
         open += pressed > 0.0 ? 0 : 1;
         const double c = dynamics::mesh_damping_N_s_m(
-            dynamics::MeshDamping::ratio, dynamics::mesh_damping(plan_.layout, in_, PairId{pair}),
-            total);
+            dynamics::MeshDamping::ratio,
+            dynamics::mesh_damping_factor(plan_.layout, in_, PairId{pair}), total);
         return pressed > 0.0 ? pressed + c * rate : 0.0;
     }
 

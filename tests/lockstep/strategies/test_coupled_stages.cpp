@@ -25,12 +25,12 @@ struct Stage {
 
     Stage(double period, double mean, double part)
         : period_s(period), mean_N_m(mean), variation(part) {
-        layout.mesh_damping = dynamics::MeshDamping::constant;
+        layout.mesh_damping = dynamics::MeshDamping::proportional;
         for (const auto gear : {dynamics::pinion, dynamics::gear}) {
             in.bearing_damping_N_s_m[gear] = 2e3;
             in.coupling_damping_N_m_s_rad[gear] = 1.0;
         }
-        in.mesh_damping[0] = 1e3;
+        in.mesh_damping = 1e3 / mean;
         in.mesh_period_s = period_s;
         lanes.emplace_back(in);
     }
@@ -48,7 +48,7 @@ struct Stage {
         for (const Step& step : p.grid.steps) {
             p.nodes.stiffness.push_back(stiffness(step.phase + 0.5 * step.length));
         }
-        p.nodes.damping_shape.assign(p.nodes.stiffness.size(), 1.0);
+        p.nodes.damping_shape = p.nodes.stiffness;
         return p;
     }
 };
@@ -166,7 +166,8 @@ class WholeTrain {
         Eigen::VectorXd f = force_ - damping_ * v - stiffness_ * q;
         for (std::size_t s = 0; s < mesh_.size(); ++s) {
             const Stage& stage = train_.stages[s];
-            f -= stage.stiffness(t / stage.period_s) * mesh_[s].dot(q) * mesh_[s];
+            f -= stage.stiffness(t / stage.period_s) * mesh_[s].dot(q + stage.in.mesh_damping * v) *
+                 mesh_[s];
         }
         return mass_.diagonal().cwiseInverse().asDiagonal() * f;
     }

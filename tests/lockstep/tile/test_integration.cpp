@@ -159,7 +159,7 @@ TEST_CASE("An undamped mode of a gearbox with constant stiffness follows its cos
     for (double& c : in.bearing_damping_N_s_m) {
         c = 0.0;
     }
-    in.support_damping_N_s_m = in.mesh_damping[0] = 0.0;
+    in.support_damping_N_s_m = in.mesh_damping = 0.0;
     std::fill(std::begin(in.force_N), std::end(in.force_N), 0.0);
     in.mesh_period_s = 1e-3;
 

@@ -150,7 +150,7 @@ DenseSolution trapezoidal_rule(const TianGearbox& gearbox, int meshes) {
     for (int i = 1; i <= meshes * kSteps; ++i) {
         const double k = k_at(i);
         const Matrix kk = stiffness + k * mesh * mesh.transpose();
-        const Matrix cc = damping + in.mesh_damping[0] * k * mesh * mesh.transpose();
+        const Matrix cc = damping + in.mesh_damping * k * mesh * mesh.transpose();
         const Vector v_half = v + 0.5 * h * a, q_half = q + h * v + 0.25 * h * h * a;
         Matrix left = 0.5 * h * cc + 0.25 * h * h * kk;
         left.diagonal() += mass;

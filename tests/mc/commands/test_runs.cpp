@@ -250,37 +250,6 @@ TEST_CASE("An extended threshold sample computes only new gearboxes, with or wit
     CHECK(folder.files() == 1);
 }
 
-TEST_CASE("ensemble.until stops at the same gearbox for any number of ranks") {
-    const Folder folder;
-    const std::string out = folder.file("r.h5");
-    const std::string until =
-        " --set 'ensemble.until={half_width=0.25, feature=\"window_ratio\", size=4.28}'";
-    std::vector<std::uint64_t> first;
-    for (const int ranks : {1, 2, 3}) {
-        const Outcome run = require_success(
-            shell(mpirun(ranks) + GEARPOD_PROGRAM + " " + run_of(out, 400) + until));
-        CHECK(run.mentions("ensemble.until is reached with "));
-        const mc::Results results = mc::read_results(out);
-        CHECK(results.status.size() < 200);
-        CHECK(results.provenance_value("state") == "ended by ensemble.until");
-        first = first.empty() ? bits(results) : first;
-        CHECK(bits(results) == first);
-        // The rate in the file is the requested one.
-        const auto& cell = results.detection[5].levels[2].cells.back();
-        CHECK(results.detection[5].feature == "window_ratio");
-        CHECK(cell.size.high == Approx(4.28e-3));
-        CHECK((cell.upper - cell.lower) / 2 <= 0.25);
-    }
-    for (const auto& [wrong, words] :
-         {std::pair{"size=4", "4 is not a fault size"},
-          std::pair{"noise_level=3", "3 is not among"}, std::pair{"feature=\"te_rsm\"", "te_rms"},
-          std::pair{"half_width=0.7", "< 0.5"}, std::pair{"width=0.7", "unknown key"}}) {
-        const std::string key = std::string(wrong).substr(0, std::string(wrong).find('='));
-        check_refused(run_of(folder.file("x.h5")) + until + " --set 'ensemble.until." + wrong + "'",
-                      {"ensemble.until." + key, words});
-    }
-}
-
 TEST_CASE("Ranks with another study, or without it, end the run with one line", "[mpi]") {
     const Folder folder;
     const std::string out = folder.file("r.h5"), other = folder.file("other.toml");

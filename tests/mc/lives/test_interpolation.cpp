@@ -82,10 +82,11 @@ TEST_CASE("Numbers of torques and speeds are raised until the tolerance is kept"
     CHECK(least.error <= choice.error);
     CHECK(least.loads >= choice.loads);
     // Numbers that are given stay.
-    const auto given = choice_of(varying({"life.linear_torques=2", "life.linear_speeds=3"}));
-    CHECK(given.plan.torques == mc::LoadNumber{2, std::nullopt, true});
-    CHECK(given.plan.speeds == mc::LoadNumber{3, std::nullopt, true});
-    CHECK(given.error > 0.1);
+    const auto given =
+        choice_of(varying({"life.integrated_torques=3", "life.integrated_speeds=5"}));
+    CHECK(given.plan.torques == mc::LoadNumber{3, true});
+    CHECK(given.plan.speeds == mc::LoadNumber{5, true});
+    CHECK(given.error > 0.0);
     CHECK(choice_of(life_study()).error == 0.0);
     // Without the key, a tenth of the crack's change is accepted.
     const auto by_default =
@@ -131,7 +132,7 @@ TEST_CASE(
                                             "life.speed_scatter=0.02", "life.distinct_speeds=3",
                                             "ensemble.instances=8"};
     const auto conflict = mc::read_study(study_path("planet-life.toml"),
-                                         {"life.distinct_torques=3", "life.linear_torques=3"});
+                                         {"life.distinct_torques=3", "life.integrated_torques=3"});
     REQUIRE(conflict.problems.size() == 1);
     CHECK(conflict.problems[0].key == "life.distinct_torques");
     const mc::Scene scene(life_study(distinct));
@@ -157,7 +158,7 @@ TEST_CASE("Records at random loads are off by no more than stated in 95 % of 200
     const mc::Scene scene(study);
     const auto choice = mc::choose_interpolation(scene.tile(), scene.life());
     const auto error_of = [](std::vector<std::string> keys) {
-        keys.insert(keys.end(), {"life.linear_torques=2", "life.linear_speeds=2"});
+        keys.insert(keys.end(), {"life.integrated_torques=3", "life.integrated_speeds=3"});
         return choice_of(varying(keys)).error;
     };
     CHECK(error_of({"numerics.lanes=1"}) == error_of({}));

@@ -27,7 +27,7 @@ TEST_CASE("A study nested too deeply is refused before a parser recurses into it
         "[[" + dotted + "]]\nx = 1\n",
         dotted + " = 1\n",
         quoted + " = 1\n",
-        "ensemble.until." + dotted + " = 1\n",
+        "gearbox.sun." + dotted + " = 1\n",
         "x = { " + dotted + " = 1 }\n",
         "x = " + repeated(kDeep, "[") + repeated(kDeep, "]") + "\n",
         "x = " + repeated(kDeep, "{ a = ") + "1" + repeated(kDeep, " }") + "\n",

@@ -77,7 +77,7 @@ json matrices(const lockstep::IntegrationPlan& plan, const dynamics::GearboxInpu
     for (int pair = 0; pair < pairs; ++pair) {
         all["mesh_rows"].push_back(list(dynamics::mesh_row(plan.layout, PairId{pair})));
         all["mesh_damping"].push_back(
-            dynamics::mesh_damping(plan.layout, inputs, PairId{pair}).factor);
+            dynamics::mesh_damping_factor(plan.layout, inputs, PairId{pair}));
     }
     for (int source = 0; source < dynamics::sources(plan.layout); ++source) {
         for (const int axis : {0, 1}) {

@@ -31,8 +31,8 @@ StiffnessTables::StiffnessTables(const mc::Scene& scene, const lockstep::Integra
     for (int l = 0; l < kGearboxes; ++l) {
         for (const int pair : {0, kPlanets}) {
             factor_[side(pair)][l] =
-                dynamics::mesh_damping(plan.layout, gearboxes.inputs[static_cast<std::size_t>(l)],
-                                       PairId{pair})
+                dynamics::mesh_damping_factor(
+                    plan.layout, gearboxes.inputs[static_cast<std::size_t>(l)], PairId{pair})
                     .factor;
         }
     }

@@ -221,7 +221,7 @@ TEST_CASE("All strategies and kinds of excitation carry the forces in bearings")
     for (const char* other :
          {"--set numerics.horizon=full",
           "--set numerics.integrator=newmark --set numerics.horizon=full",
-          "--set operation.torque_fluctuation=1e-9 --set operation.torque_fluctuation_Hz=5",
+          "--set operation.torque_noise=1e-9 --set operation.torque_noise_band_Hz=5",
           "--set operation.speed_fluctuation=1e-9 --set operation.speed_fluctuation_order=1"}) {
         INFO(other);
         const mc::Results results = run_small(folder, "other.h5", quiet + "--force " + other);

@@ -264,12 +264,6 @@ TEST_CASE("A study's description ends with a forecast and writes nothing") {
         }
     }
     CHECK(folder.empty());
-    const std::string sure = test::study("planet-crack-ideal.toml") +
-                             " --set operation.carrier_speed_rpm=60 --set sensor.sampling_Hz=20000"
-                             " --set sensor.encoder_sampling_Hz=20000"
-                             " --set 'ensemble.until={half_width=0.1,feature=\"te_fc\",size=3}'";
-    CHECK(test::program("describe " + sure + test::measuring_for(10))
-              .mentions("less if ensemble.until stops the run"));
     const std::string stiff =
         test::study("published/tian-fig-4-6.toml") + " --set numerics.integrator=rk4";
     const test::Outcome described = test::program("describe " + stiff);
