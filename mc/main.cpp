@@ -1,16 +1,25 @@
 #include <fmt/ranges.h>
+#include <sys/ioctl.h>
+#include <unistd.h>
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <csignal>
+#include <cstdio>
+#include <exception>
 #include <string>
+#include <string_view>
 #include <vector>
 
+#include "analysis/report/report.hpp"
+#include "lockstep/kernels/kernel_table.hpp"
 #include "mc/commands/commands.hpp"
 #include "mc/commands/help/reference.hpp"
 #include "mc/commands/options/options.hpp"
-#include "mc/commands/options/program.hpp"
 #include "mc/ensemble/ranks.hpp"
+#include "mc/files/input/problems.hpp"
 #include "mc/files/input/spelling.hpp"
+#include "mc/files/input/terminal_text.hpp"
 #include "mc/numerics/forecast/memory.hpp"
 #include "mc/results/provenance.hpp"
 
@@ -31,6 +40,32 @@ bool is_command(CLI::App& app, const std::string& name) {
     fmt::print(stderr, "{}: unknown command; {}the commands are {}\n", name,
                meant.starts_with("did you mean") ? meant + " " : "", fmt::join(names, ", "));
     return false;
+}
+
+// Sets the width of reports to the width of the terminal.
+void fit_terminal() {
+    winsize size{};
+    if (ioctl(STDOUT_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 0) {
+        gearpod::analysis::set_text_width(std::min<std::size_t>(size.ws_col, 160));
+    }
+}
+
+// Refuses arguments with control characters: messages show arguments, and a terminal would obey
+// escape sequences in them.
+bool check_arguments(int argc, char** argv) {
+    for (int i = 1; i < argc; ++i) {
+        const std::string_view argument = argv[i];
+        const std::string seen = printable(argument);
+        const auto is_blank = [](char c) { return c == '\n' || c == '\t' || c == '\r'; };
+        std::string without_blanks(argument);
+        std::erase_if(without_blanks, is_blank);
+        if (!is_printable(without_blanks)) {
+            fmt::print(stderr, "gearpod: argument {} ({}) has control characters; leave them out\n",
+                       i, seen);
+            return false;
+        }
+    }
+    return true;
 }
 
 // Adds the options that print the program's own description: man page, bash completion and JSON.
@@ -74,6 +109,30 @@ int run_program(int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
-    gearpod::mc::fix_memory_limits();
-    return run_safely(argc, argv, run_program);
+    fix_memory_limits();
+    if (!check_arguments(argc, argv)) {
+        return kBadInput;
+    }
+    try {
+        // A program that was built for another processor would end in an illegal instruction.
+        gearpod::lockstep::choose_instruction_set({});
+        // A limit on file sizes is an error of the write, as a full disk is, and no end by a
+        // signal.
+        std::signal(SIGXFSZ, SIG_IGN);
+        fit_terminal();
+        const int code = run_program(argc, argv);
+        if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0) {
+            fmt::print(stderr, "gearpod: standard output cannot be written\n");
+            return kBadInput;
+        }
+        return code;
+    } catch (const std::exception& error) {
+        // Name the command and its first argument, because the command did not handle the error.
+        std::string call = "gearpod";
+        for (int i = 1; i < std::min(argc, 3); ++i) {
+            call += std::string(" ") + argv[i];
+        }
+        fmt::print(stderr, "{}: {}\n", printable(call), exception_text(error));
+        return kBadInput;
+    }
 }

@@ -7,6 +7,7 @@
 #include <random>
 #include <span>
 #include <stdexcept>
+#include <utility>
 #include <vector>
 
 #include "analysis/detection/detection.hpp"
@@ -21,42 +22,6 @@
 #include "machine/team.hpp"
 
 namespace gearpod::analysis {
-
-// Number of times every gearbox of a sample is drawn. The same for the same seed and count on every
-// platform.
-std::vector<int> bootstrap_counts(std::size_t count, std::mt19937_64& engine);
-
-struct ResampledDetection {
-    std::vector<double> pd;  // by size group; NaN where none was drawn
-    double a90 = 0.0;        // infinite: not reached; NaN: no curve
-};
-
-// One feature at one noise level, sorted once for many resamples.
-class Resampling {
-  public:
-    Resampling(Alarm alarm, std::span<const double> healthy, std::span<const double> test_size,
-               std::span<const double> test, const std::vector<SizeGroup>& groups,
-               double false_alarm_rate);
-
-    // Detection of one resample, given the number of times each gearbox is drawn. Fits the
-    // POD curve `form`, or no curve if it is null.
-    ResampledDetection detect(const std::vector<int>& healthy, const std::vector<int>& test,
-                              const PodForm* form) const;
-
-  private:
-    struct TestValue {
-        double size, value;
-        std::size_t gearbox, group;
-    };
-    double threshold(const std::vector<int>& counts) const;
-    double beyond(const std::vector<int>& counts, long sample) const;
-
-    double sign_;  // factor that makes large values alarm
-    double false_alarm_rate_;
-    std::size_t groups_;
-    std::vector<std::pair<double, std::size_t>> healthy_;  // value and gearbox, ascending
-    std::vector<TestValue> test_;                          // ascending size
-};
 
 namespace {
 
@@ -81,8 +46,8 @@ double a90_of(const HitMissTable& table, const PodForm& form) {
                                               : std::numeric_limits<double>::infinity();
 }
 
-}  // namespace
-
+// Number of times every gearbox of a sample is drawn. The same for the same seed and count on every
+// platform.
 std::vector<int> bootstrap_counts(std::size_t count, std::mt19937_64& engine) {
     std::vector<int> counts(count, 0);
     for (std::size_t i = 0; i < count; ++i) {
@@ -92,26 +57,53 @@ std::vector<int> bootstrap_counts(std::size_t count, std::mt19937_64& engine) {
     return counts;
 }
 
-Resampling::Resampling(Alarm alarm, std::span<const double> healthy,
-                       std::span<const double> test_size, std::span<const double> test,
-                       const std::vector<SizeGroup>& groups, double false_alarm_rate)
-    : sign_(alarm_sign(alarm)), false_alarm_rate_(false_alarm_rate), groups_(groups.size()) {
-    for (std::size_t i = 0; i < healthy.size(); ++i) {
-        if (std::isfinite(healthy[i])) {
-            healthy_.emplace_back(sign_ * healthy[i], i);
+struct ResampledDetection {
+    std::vector<double> pd;  // by size group; NaN where none was drawn
+    double a90 = 0.0;        // infinite: not reached; NaN: no curve
+};
+
+// One feature at one noise level, sorted once for many resamples.
+class Resampling {
+  public:
+    Resampling(const ComparedSample& sample, const ComparisonRequest& request)
+        : false_alarm_rate_(request.false_alarm_rate), groups_(request.groups.size()) {
+        const double sign = alarm_sign(sample.alarm);
+        for (std::size_t i = 0; i < sample.healthy.size(); ++i) {
+            if (std::isfinite(sample.healthy[i])) {
+                healthy_.emplace_back(sign * sample.healthy[i], i);
+            }
         }
-    }
-    std::sort(healthy_.begin(), healthy_.end());
-    const std::vector<std::size_t> group = groups_of(test_size, groups);
-    for (std::size_t i = 0; i < test.size(); ++i) {
-        if (std::isfinite(test[i])) {
-            test_.push_back({test_size[i], sign_ * test[i], i, group[i]});
+        std::ranges::sort(healthy_);
+        const std::vector<std::size_t> group = groups_of(sample.test_size, request.groups);
+        for (std::size_t i = 0; i < sample.test.size(); ++i) {
+            if (std::isfinite(sample.test[i])) {
+                test_.push_back({sample.test_size[i], sign * sample.test[i], i, group[i]});
+            }
         }
+        std::ranges::sort(test_, [](const TestValue& a, const TestValue& b) {
+            return a.size != b.size ? a.size < b.size : a.gearbox < b.gearbox;
+        });
     }
-    std::sort(test_.begin(), test_.end(), [](const TestValue& a, const TestValue& b) {
-        return a.size != b.size ? a.size < b.size : a.gearbox < b.gearbox;
-    });
-}
+
+    // Detection of one resample, given the number of times each gearbox is drawn. Fits the
+    // POD curve `form`, or no curve if it is null.
+    ResampledDetection detect(const std::vector<int>& healthy, const std::vector<int>& test,
+                              const PodForm* form) const;
+
+  private:
+    struct TestValue {
+        double size, value;
+        std::size_t gearbox, group;
+    };
+    double threshold(const std::vector<int>& counts) const;
+    double beyond(const std::vector<int>& counts, long sample) const;
+
+    double false_alarm_rate_;
+    std::size_t groups_;
+    // Large values alarm.
+    std::vector<std::pair<double, std::size_t>> healthy_;  // value and gearbox, ascending
+    std::vector<TestValue> test_;                          // ascending size
+};
 
 double Resampling::threshold(const std::vector<int>& counts) const {
     long sample = 0, passed = 0;
@@ -170,8 +162,6 @@ ResampledDetection Resampling::detect(const std::vector<int>& healthy, const std
     return result;
 }
 
-namespace {
-
 // Detection of one sample with the methods of the report.
 struct Detected {
     LevelDetection level;
@@ -205,10 +195,7 @@ struct Resampled {
 
 Resampled resample(const ComparedSample& a, const ComparedSample& b, const Detected& of_a,
                    const Detected& of_b, const ComparisonRequest& request, int threads) {
-    const Resampling first(a.alarm, a.healthy, a.test_size, a.test, request.groups,
-                           request.false_alarm_rate);
-    const Resampling second(b.alarm, b.healthy, b.test_size, b.test, request.groups,
-                            request.false_alarm_rate);
+    const Resampling first(a, request), second(b, request);
     const bool curves = of_a.pod.refusal.empty() && of_b.pod.refusal.empty();
     const auto count = static_cast<std::size_t>(request.resamples);
     Resampled result;
@@ -249,9 +236,7 @@ PairedCounts paired_counts(const Detected& a, const Detected& b,
     PairedCounts counts;
     for (std::size_t i = 0; i < group.size(); ++i) {
         if (group[i] == g && a.hit[i] >= 0 && b.hit[i] >= 0) {
-            long PairedCounts::*const which[] = {&PairedCounts::neither, &PairedCounts::only_b,
-                                                 &PairedCounts::only_a, &PairedCounts::both};
-            ++(counts.*which[2 * a.hit[i] + b.hit[i]]);
+            counts.add(a.hit[i], b.hit[i]);
         }
     }
     return counts;
@@ -290,15 +275,12 @@ std::string a90_refusal(const HitMissPod& pod, const char* which) {
     if (!pod.refusal.empty()) {
         return name + ": " + pod.refusal;
     }
-    switch (pod.a90.estimate.where) {
-        case SizeEstimate::Where::reached:
-            return "";
-        case SizeEstimate::Where::below_tested:
-            return name + ": a90 is below the tested sizes";
-        case SizeEstimate::Where::not_reached:
-            break;
-    }
-    return name + ": a90 is not reached";
+    using Where = SizeEstimate::Where;
+    const Where where = pod.a90.estimate.where;
+    return where == Where::reached
+               ? ""
+               : name + (where == Where::below_tested ? ": a90 is below the tested sizes"
+                                                      : ": a90 is not reached");
 }
 
 NumberDifference a90_difference(const Detected& a, const Detected& b,
@@ -307,11 +289,10 @@ NumberDifference a90_difference(const Detected& a, const Detected& b,
     if (result.refusal.empty()) {
         result.a = a.pod.a90.estimate.size;
     }
-    const std::string second = a90_refusal(b.pod, "B");
-    if (second.empty()) {
+    if (std::string second = a90_refusal(b.pod, "B"); second.empty()) {
         result.b = b.pod.a90.estimate.size;
     } else if (result.refusal.empty()) {
-        result.refusal = second;
+        result.refusal = std::move(second);
     }
     if (result.refusal.empty()) {
         result.bounds = percentiles(resampled, confidence);

@@ -240,6 +240,23 @@ void add_details(Section& section, const ComparedResults& results, std::size_t f
     section.add(std::move(levels));
 }
 
+Json number_json(const NumberDifference& value) {
+    Json json = fields_json(value);
+    json["values"] = json_of(std::array{value.a, value.b});
+    json["difference"] = number(value.refusal.empty() ? value.difference() : kNan);
+    return json;
+}
+
+Json rate_json(const RateDifference& rate) {
+    Json json = fields_json(rate);
+    json["tested"] = {rate.tested_a, rate.tested_b};
+    json["pd"] = json_of(std::array{rate.a, rate.b});
+    json["difference"] = number(rate.b - rate.a);
+    json["only"] =
+        rate.pairs.pairs() > 0 ? Json({rate.pairs.only_a, rate.pairs.only_b}) : Json(nullptr);
+    return json;
+}
+
 }  // namespace
 
 Report comparison_report(const ComparedResults& results) {
@@ -269,27 +286,6 @@ Report comparison_report(const ComparedResults& results) {
     report.add(std::move(notes));
     return report;
 }
-
-namespace {
-
-Json number_json(const NumberDifference& value) {
-    Json json = fields_json(value);
-    json["values"] = json_of(std::array{value.a, value.b});
-    json["difference"] = number(value.refusal.empty() ? value.difference() : kNan);
-    return json;
-}
-
-Json rate_json(const RateDifference& rate) {
-    Json json = fields_json(rate);
-    json["tested"] = {rate.tested_a, rate.tested_b};
-    json["pd"] = json_of(std::array{rate.a, rate.b});
-    json["difference"] = number(rate.b - rate.a);
-    json["only"] =
-        rate.pairs.pairs() > 0 ? Json({rate.pairs.only_a, rate.pairs.only_b}) : Json(nullptr);
-    return json;
-}
-
-}  // namespace
 
 nlohmann::json comparison_json(const ComparedResults& results) {
     Json files = json_of(results.files);

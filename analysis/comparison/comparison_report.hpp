@@ -53,17 +53,7 @@ struct ComparedResults {
 // all files; for each file its differences from A. Keys end in the file's index from 0.
 Report comparison_report(const ComparedResults& results);
 
-// JSON form:
-// {"kind": "comparison", "size", "confidence", "noise_level", "first_records",
-//  "findings": findings_json() of the report,
-//  "files": [{"path", "title", "gearboxes", "smallest_faults": [{"noise_level", "fault": {...},
-//    "without_threshold"}],
-//    "shortage": result of sample_shortage() or null, "pairs", "unpaired", "differing_inputs",
-//    "left_out", "features": [{"name", "noise_level", "same",
-//      "sizes": [{"size_low", "size_high", "tested": [A, B], "pd": [A, B], "difference", "lower",
-//        "upper", "p_value", "only": [A, B] of pairs}],
-//      "a90", "auc": {"values": [A, B], "difference", "lower", "upper", "p_value", "refusal"}}]}]}
-// Differences are this file minus A; an open bound is null.
+// docs/reference/report-json.md lists the keys.
 nlohmann::json comparison_json(const ComparedResults& results);
 
 }  // namespace gearpod::analysis

@@ -1,27 +1,27 @@
-// Detection rates as JSON, for other programs. Missing rates, bounds and thresholds are null.
+// Detection rates, POD curves, rankings and the dependence of detection on inputs and noise as
+// JSON, for other programs; docs/reference/report-json.md lists the keys. Missing numbers are null.
+// Sizes are in the request's unit.
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>
 #include <span>
 
-#include "analysis/detection/detection.hpp"
+#include "analysis/reliability.hpp"
 #include "analysis/report/wording.hpp"
 
 namespace gearpod::analysis {
 
-// JSON form:
-// {"false_alarm_rate", "confidence", "size": {"name", "unit"},
-//   "shortage": result of sample_shortage() or null,
-//   "features": [{"name", "alarm", "warnings": [...], "levels": [{"noise_level", "threshold",
-//     "threshold_sample", "threshold_alarms", "threshold_rate": [lower, upper], "tail": null where
-//     the threshold is an order statistic, else {"extrapolation", "steady", "choices":
-//     [{"exceedances", "above", "shape", "scale", "threshold", "rate"}]}, "tilted": null
-//     unless it is from importance sampling, then {"gearboxes", "carrying", "extrapolation"},
-//     "healthy_rate", "healthy_rate_bounds", "expected_rate", "reliable_size": [low, high] or null,
-//     "sizes": [{"size_low", "size_high", "tested", "detected", "failed", "pd", "lower",
-//     "upper", "exact": [lower, upper]}]}]}]}. Sizes are in their unit.
 nlohmann::json detection_json(std::span<const FeatureDetection> features,
                               const DetectionRequest& request,
                               Subject subject = Subject::gearboxes);
+
+// POD curves, areas, ranking, misses, detection by condition, and its dependence on every random
+// input and on the noise.
+nlohmann::json reliability_json(const Reliability& reliability, const DetectionRequest& request);
+
+// Smallest fault found by noise level, each an object or null. Without `reliability` it is from the
+// tested rates alone.
+nlohmann::json smallest_faults_json(std::span<const FeatureDetection> detection,
+                                    const Reliability* reliability);
 
 }  // namespace gearpod::analysis

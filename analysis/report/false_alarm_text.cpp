@@ -173,6 +173,14 @@ std::string record_shortage(long gearboxes, long records, double false_alarm_rat
         records, gearboxes, found);
 }
 
+// For RatePoint and LeastCost: null for a threshold from an order statistic.
+template <class Rated>
+Json rated_json(const Rated& rated) {
+    Json json = fields_json(rated);
+    json["extrapolation"] = rated.extrapolation > 0.0 ? Json(rated.extrapolation) : nullptr;
+    return json;
+}
+
 }  // namespace
 
 std::string threshold_methods_text(double false_alarm_rate, double confidence) {
@@ -286,18 +294,6 @@ bool without_threshold(std::span<const FeatureDetection> features, std::size_t l
         return std::isnan(feature.levels[level].threshold);
     });
 }
-
-namespace {
-
-// For RatePoint and LeastCost: null for a threshold from an order statistic.
-template <class Rated>
-Json rated_json(const Rated& rated) {
-    Json json = fields_json(rated);
-    json["extrapolation"] = rated.extrapolation > 0.0 ? Json(rated.extrapolation) : nullptr;
-    return json;
-}
-
-}  // namespace
 
 Json to_json(const RatePoint& point) {
     return rated_json(point);

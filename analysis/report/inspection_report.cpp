@@ -370,37 +370,6 @@ std::string target_text(const InspectionRequest& request, const InspectionResult
         number_text(factor));
 }
 
-}  // namespace
-
-Report inspection_report(const InspectionRequest& request, const InspectionResult& result,
-                         const InspectionNames& names) {
-    Section method{"method", "", {}};
-    method.state("table",
-                 fmt::format("{}: {} over {}, {} specimens{}.", names.table, names.value,
-                             names.size.name, result.specimens,
-                             result.repeats > 0
-                                 ? fmt::format(" and {} repeated measurements", result.repeats)
-                                 : ""));
-    if (request.responses) {
-        add_line(method, request, result, names);
-    } else {
-        add_hits(method, result);
-    }
-    add_false_calls(method, request, result);
-    method.add(trade_off_table(request, result, names.size));
-    method.state("all_found",
-                 fmt::format("At a single size, {} specimens without a miss demonstrate a POD of "
-                             "90 % at {} confidence.",
-                             result.all_found, percent_text(request.confidence)));
-    method.state("target", target_text(request, result, names.size));
-    Report report;
-    report.add(inspection_headline(request, result, names.size));
-    report.add(std::move(method));
-    return report;
-}
-
-namespace {
-
 void add_curve(Json& json, double location, double scale, const Eigen::Matrix2d& covariance) {
     json["location"] = number(location);
     json["scale"] = number(scale);
@@ -471,6 +440,33 @@ Json noise_of(const InspectionRequest& request, const InspectionResult& result) 
 }
 
 }  // namespace
+
+Report inspection_report(const InspectionRequest& request, const InspectionResult& result,
+                         const InspectionNames& names) {
+    Section method{"method", "", {}};
+    method.state("table",
+                 fmt::format("{}: {} over {}, {} specimens{}.", names.table, names.value,
+                             names.size.name, result.specimens,
+                             result.repeats > 0
+                                 ? fmt::format(" and {} repeated measurements", result.repeats)
+                                 : ""));
+    if (request.responses) {
+        add_line(method, request, result, names);
+    } else {
+        add_hits(method, result);
+    }
+    add_false_calls(method, request, result);
+    method.add(trade_off_table(request, result, names.size));
+    method.state("all_found",
+                 fmt::format("At a single size, {} specimens without a miss demonstrate a POD of "
+                             "90 % at {} confidence.",
+                             result.all_found, percent_text(request.confidence)));
+    method.state("target", target_text(request, result, names.size));
+    Report report;
+    report.add(inspection_headline(request, result, names.size));
+    report.add(std::move(method));
+    return report;
+}
 
 nlohmann::json inspection_json(const Inspections& data, const InspectionRequest& request,
                                const InspectionResult& result, const InspectionNames& words) {

@@ -23,21 +23,7 @@ struct InspectionNames {
 Report inspection_report(const InspectionRequest& request, const InspectionResult& result,
                          const InspectionNames& names);
 
-// POD of a table of inspections as JSON.
-
-// JSON form:
-// {"kind": "inspection", "table", "size": {"name", "unit"}, "value": {"name", "unit"},
-//  "confidence", "convention", "specimens", "repeats", "refusal",
-//  "data": {"size", "value"},
-//  "hit_miss": as in detection_json.hpp, with "location", "scale", "covariance", "bound",
-//    "simulated_coverage", "clusters" and "design_effect", or null,
-//  "signal_response": the same without clusters, with "threshold", "censored" and
-//    "growing_scatter": {"answered", "coverage"}, or null,
-//  "false_calls": {"calls", "of", "lower", "upper", "laws": [{"law", "first", "second", "aic",
-//    "at_threshold"}]},
-//  "trade_off": [{"threshold", "false_calls", "a50", "a90"}],
-//  "more_specimens": {"target", "factor", "more", "all_found"},
-//  "findings": findings_json() of inspection_report()}
+// POD of a table of inspections; docs/reference/report-json.md lists the keys.
 nlohmann::json inspection_json(const Inspections& data, const InspectionRequest& request,
                                const InspectionResult& result, const InspectionNames& words);
 

@@ -49,7 +49,7 @@ inline Json to_json(const SizeEstimate& estimate) {
              estimate.where == SizeEstimate::Where::reached ? Json(estimate.size) : Json(nullptr)}};
 }
 
-// Structs whose JSON is more than their fields (detection_json.cpp, reliability_json.cpp).
+// Structs whose JSON is more than their fields (detection_json.cpp).
 struct HitMissFit;
 struct HitMissPod;
 struct SignalResponseFit;

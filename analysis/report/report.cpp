@@ -13,34 +13,6 @@ namespace {
 
 std::size_t columns_of_text = 80;
 
-}  // namespace
-
-std::size_t text_width() {
-    return columns_of_text;
-}
-
-void set_text_width(std::size_t columns) {
-    columns_of_text = std::max<std::size_t>(80, columns);
-}
-
-void add_wrapped(std::string& out, const std::string& text, std::size_t indent, std::size_t width) {
-    std::string line;
-    for (std::size_t begin = 0; begin < text.size();) {
-        const std::size_t end = std::min(text.find(' ', begin), text.size());
-        const std::string word = text.substr(begin, end - begin);
-        if (!line.empty() && line.size() + 1 + word.size() > width) {
-            out += line + '\n';
-            line = std::string(indent, ' ') + word;
-        } else {
-            line += (line.empty() || begin == 0 ? "" : " ") + word;
-        }
-        begin = end + 1;
-    }
-    out += line + '\n';
-}
-
-namespace {
-
 constexpr std::size_t kGap = 2;         // columns between cells
 constexpr std::size_t kWordyCell = 24;  // longer cells of a last column are wrapped
 constexpr std::size_t kLeastWords = 30;
@@ -123,22 +95,31 @@ class TableLines {
     bool wordy_ = false;
 };
 
-void add_block(std::string& out, const Statement& statement, bool& after_table, std::size_t width) {
-    out += after_table ? "\n" : "";
-    add_wrapped(out, statement.text, 2, width);
-    after_table = false;
-}
-
-void add_block(std::string& out, const Table& table, bool& after_table, std::size_t width) {
-    out += '\n';
-    if (!table.title.empty()) {
-        add_wrapped(out, table.title, 2, width);
-    }
-    TableLines(table, width).add_to(out);
-    after_table = true;
-}
-
 }  // namespace
+
+std::size_t text_width() {
+    return columns_of_text;
+}
+
+void set_text_width(std::size_t columns) {
+    columns_of_text = std::max<std::size_t>(80, columns);
+}
+
+void add_wrapped(std::string& out, const std::string& text, std::size_t indent, std::size_t width) {
+    std::string line;
+    for (std::size_t begin = 0; begin < text.size();) {
+        const std::size_t end = std::min(text.find(' ', begin), text.size());
+        const std::string word = text.substr(begin, end - begin);
+        if (!line.empty() && line.size() + 1 + word.size() > width) {
+            out += line + '\n';
+            line = std::string(indent, ' ') + word;
+        } else {
+            line += (line.empty() || begin == 0 ? "" : " ") + word;
+        }
+        begin = end + 1;
+    }
+    out += line + '\n';
+}
 
 void Section::state(const std::string& statement_key, const std::string& text, bool detail) {
     if (!text.empty()) {
@@ -176,13 +157,20 @@ std::string report_text(const Report& report, std::size_t width) {
         std::string body;
         bool after_table = false;
         for (const auto& block : section.blocks) {
-            std::visit(
-                [&](const auto& shown) {
-                    if (!shown.detail) {
-                        add_block(body, shown, after_table, width);
-                    }
-                },
-                block);
+            if (std::visit([](const auto& shown) { return shown.detail; }, block)) {
+                continue;
+            }
+            const auto* table = std::get_if<Table>(&block);
+            body += table != nullptr || after_table ? "\n" : "";
+            after_table = table != nullptr;
+            if (table == nullptr) {
+                add_wrapped(body, std::get<Statement>(block).text, 2, width);
+                continue;
+            }
+            if (!table->title.empty()) {
+                add_wrapped(body, table->title, 2, width);
+            }
+            TableLines(*table, width).add_to(body);
         }
         if (!body.empty()) {
             out += out.empty() ? "" : "\n";

@@ -2,9 +2,13 @@
 
 from statistics import median
 
+import numpy
 from blocks import note, paragraph, table
 from charts import INK, NOISY, colour, dash, legend_above, marker, panel, shade, to_svg
 from words import input_name, noise, number, quantity
+
+WINDOW = 8  # mesh periods of a window of a spectrogram
+MOST_BINS, LOWEST = 120, -60  # frequencies in a spectrogram; dB
 
 
 def _name(report, gearbox):
@@ -108,26 +112,61 @@ def spectrum(report, page):
                        + note("The drawn points are in the JSON, examples.gearboxes.spectrum."))
 
 
+def evenly_spaced(times, signal):
+    """The signal at as many even times, from cubics through four samples each."""
+    place = numpy.interp(numpy.linspace(times[0], times[-1], len(times)), times, range(len(times)))
+    first = numpy.clip(place.astype(int), 1, len(times) - 3)
+    x = place - first
+    a, b, c, d = (signal[first + k] for k in range(-1, 3))
+    return ((x * (x - 1) * (2 - x) * a + x * (x + 1) * (x - 1) * d) / 6
+            + ((x + 1) * (x - 1) * (x - 2) * b + x * (x + 1) * (2 - x) * c) / 2)
+
+
+def levels_over_time(given):
+    """Levels in dB (window, frequency) of a signal at uneven times, in windows of eight mesh periods
+    (Hann), one per mesh period; the middle of each window, its mesh frequency, and the
+    frequencies. None for a signal shorter than a window."""
+    times, mesh = numpy.array(given["time_s"]), given["samples_per_mesh"]
+    length = WINDOW * mesh
+    if len(times) < length:
+        return None
+    even = evenly_spaced(times, numpy.array(given["sensor"]))
+    step = (times[-1] - times[0]) / (len(times) - 1)
+    turn = (numpy.arange(length) + 0.5) / length
+    windows = numpy.lib.stride_tricks.sliding_window_view(even, length)[::mesh]
+    amplitude = numpy.abs(numpy.fft.rfft(windows * (0.5 - 0.5 * numpy.cos(2 * numpy.pi * turn))))
+    line = 1 / (step * length)
+    shown = min(length // 2, int(given["highest_Hz"] / line))
+    width = max(1, -(-shown // MOST_BINS))
+    bins = shown // width
+    peaks = amplitude[:, 1:1 + bins * width].reshape(len(windows), bins, width).max(axis=2)
+    levels = 20 * numpy.log10(numpy.maximum(peaks / (peaks.max() or 1), 10 ** (LOWEST / 20)))
+    middle = times[0] + step * (mesh * numpy.arange(len(windows)) + 0.5 * length)
+    # Mesh period around the middle: the time of as many samples.
+    half = mesh // 2
+    first = numpy.clip(numpy.searchsorted(times, middle), half, len(times) - 1 - half) - half
+    return (levels, middle, 2 * half / mesh / (times[first + 2 * half] - times[first]),
+            line * (1 + width * numpy.arange(bins) + 0.5 * (width - 1)))
+
+
 def spectrogram(report, page):
     """Levels over time and frequency where the speed varies; empty where it does not."""
     charts, rows = [], []
     for g in report.data["examples"]["gearboxes"]:
-        given = g.get("spectrogram")
-        if not given or not given["time_s"]:
+        found = levels_over_time(g["spectrogram"]) if "spectrogram" in g else None
+        if found is None:
             continue
-        times, lines = given["time_s"], given["frequency_Hz"]
+        levels, times, mesh_Hz, lines = found
         figure, axes = panel(3.2)
-        image = axes.imshow(list(zip(*given["level_dB"])), origin="lower", aspect="auto",
-                            cmap="viridis", interpolation="nearest",
-                            extent=(times[0], times[-1], lines[0], lines[-1]))
+        image = axes.imshow(levels.T, origin="lower", aspect="auto", cmap="viridis",
+                            interpolation="nearest", extent=(times[0], times[-1], lines[0], lines[-1]))
         figure.colorbar(image, ax=axes, label="dB of the largest line")
-        for order in range(1, int(lines[-1] / max(given["mesh_Hz"])) + 1):
-            axes.plot(times, [order * f for f in given["mesh_Hz"]], color="white", linewidth=0.5,
-                      linestyle=(0, (1, 3)))
+        for order in range(1, int(lines[-1] / max(mesh_Hz)) + 1):
+            axes.plot(times, order * mesh_Hz, color="white", linewidth=0.5, linestyle=(0, (1, 3)))
         axes.set(ylim=(lines[0], lines[-1]), xlabel="Time, s", ylabel="Frequency, Hz")
         axes.grid(False)
         axes.set_title(_name(report, g), fontsize=10, loc="left")
-        slowest, fastest = min(given["mesh_Hz"]), max(given["mesh_Hz"])
+        slowest, fastest = min(mesh_Hz), max(mesh_Hz)
         rows.append([_name(report, g), number(slowest, 4), number(fastest, 4),
                      number(times[-1] - times[0])])
         charts.append(to_svg(figure, f"Spectrogram of the sensor signal, {_name(report, g)}",

@@ -41,6 +41,8 @@ struct PairedCounts {
     long both = 0, only_a = 0, only_b = 0, neither = 0;
 
     long pairs() const { return both + only_a + only_b + neither; }
+    // Counts a gearbox by its outcomes, 1 (found) or 0.
+    void add(int a, int b) { ++(a == 1 ? b == 1 ? both : only_a : b == 1 ? only_b : neither); }
 };
 
 // Correlation of the two outcomes with Newcombe's continuity correction; 0 where a margin is empty.

@@ -1,7 +1,5 @@
 #include <fmt/core.h>
 
-#include <exception>
-
 #include "mc/commands/commands.hpp"
 #include "mc/commands/options/options.hpp"
 #include "mc/files/input/problems.hpp"
@@ -64,39 +62,36 @@ int accuracy_command(const AccuracyOptions& options) {
         return kDone;
     } catch (const SceneError& error) {
         print_problems({{options.study.path, 0, error.key(), error.what(), error.remedy()}});
-    } catch (const std::exception& error) {
-        fmt::print(stderr, "{}\n", exception_text(error));
+        return kBadInput;
     }
-    return kBadInput;
 }
 
 }  // namespace
 
 void add_accuracy(CLI::App& app, int& code) {
-    const auto options = std::make_shared<AccuracyOptions>();
-    auto* command = app.add_subcommand(
-        "accuracy",
-        "compare solver settings for a study: numerical error and computing time of each");
-    add_study(*command, options->study);
-    add_json(*command, options->json);
-    require_file_name(command->add_option("--html", options->html,
-                                          "write a page with work-precision diagrams to a file"));
-    require_file_name(command->add_option(
-        "--figures", options->figures, "write the page's figures into a folder, as SVG and PNG"));
-    command->add_option("--peers", options->peers,
-                        "table (CSV) with results of other programs, for comparison");
-    add_number(*command, "--repeats", options->repeats,
+    const auto [command, options] = add_command<AccuracyOptions>(
+        app, code, "accuracy",
+        "compare solver settings for a study: numerical error and computing time of each",
+        reporting<accuracy_command>);
+    add_study(command, options.study);
+    add_json(command, options.json);
+    add_file(command, "--html", options.html,
+             "write a page with work-precision diagrams to a file");
+    add_file(command, "--figures", options.figures,
+             "write the page's figures into a folder, as SVG and PNG");
+    command.add_option("--peers", options.peers,
+                       "table (CSV) with results of other programs, for comparison");
+    add_number(command, "--repeats", options.repeats,
                "number of timings of each solver setting (default: 3)", from_to(1, 1000));
-    add_number(*command, "--gearboxes", options->gearboxes,
+    add_number(command, "--gearboxes", options.gearboxes,
                "number of gearboxes whose detection rates are compared; 0: none (default: 480, or "
                "as many as the time allows)",
                from_to(0, 1e6));
-    add_number(*command, "--seconds", options->seconds,
+    add_number(command, "--seconds", options.seconds,
                "processor time after which remaining parts are omitted; 0: no limit (default: 300)",
                from_to(0.0, 1e9, "s"));
-    add_force(*command, options->force);
-    command->add_flag("--quiet", options->quiet, "show no progress");
-    command->callback([options, &code] { code = accuracy_command(*options); });
+    add_force(command, options.force);
+    command.add_flag("--quiet", options.quiet, "show no progress");
 }
 
 }  // namespace gearpod::mc

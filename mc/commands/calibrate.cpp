@@ -5,7 +5,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <exception>
 #include <utility>
 
 #include "mc/commands/commands.hpp"
@@ -14,7 +13,6 @@
 #include "mc/files/input/problems.hpp"
 #include "mc/files/input/terminal_text.hpp"
 #include "mc/files/json_text.hpp"
-#include "mc/files/signal_file.hpp"
 #include "mc/library/run/command_files.hpp"
 #include "mc/recordings/measure_recordings.hpp"
 
@@ -65,208 +63,178 @@ std::vector<HealthyRecord> measured_records(const CalibrateOptions& options,
     return records;
 }
 
-class Command {
-  public:
-    explicit Command(const CalibrateOptions& options) : options_(options) {}
-
-    int run() {
-        if (!options_good()) {
-            return kBadInput;
-        }
-        StudyReading reading = read_study(options_.study.path, options_.study.overrides);
-        CalibrationPlan calibration;
-        if (reading.study) {
-            calibration = make_calibration_plan(*reading.study, options_.study.path);
-        }
-        const StudyScene made = make_scene(options_.study.path, std::move(reading));
-        print_problems(made ? made.notices : made.problems);
-        const auto& scene = made.scene;
-        if (!scene || !outputs_good()) {
-            return kBadInput;
-        }
-        problems_ = calibration.unsupported;
-        if (!problems_.empty()) {
-            return stop();
-        }
-        const int threads = thread_count(scene->ensemble());
-        const MeasurementPlan plan{scene->record(), scene->features(), scene->gearbox().nominal};
-        const std::vector<HealthyRecord> records =
-            options_.features.empty()
-                ? measured_records(options_, list_, plan, threads, problems_)
-                : read_feature_table(options_.features, plan.record.span, problems_);
-        if (records.empty() && problems_.empty()) {
-            problems_.push_back({"calibrate", 0, "", "no recording of a healthy gearbox",
-                                 "check the labels and sizes of the recordings"});
-        }
-        if (!problems_.empty()) {
-            return stop();
-        }
-        set_ = healthy_set(records, options_.feature, problems_);
-        const double rms = set_.mean_of("sensor_rms");
-        if (inputs_.empty() && rms > 0.0) {
-            inputs_ = calibration.default_inputs(rms);
-        } else if (inputs_.empty() && problems_.empty()) {
-            problems_.push_back({"calibrate", 0, "",
-                                 "the default prior of the background noise needs the feature "
-                                 "sensor_rms",
-                                 "give --prior sensor.noise_m_s2=LOW:HIGH:log and the other "
-                                 "priors"});
-        }
-        return problems_.empty() ? calibrated(threads) : stop();
+// Priors and recordings that the options name. Prints problems and returns false if there are any.
+bool read_sources(const CalibrateOptions& options, std::vector<CalibratedInput>& inputs,
+                  RecordingList& list) {
+    Problems problems;
+    const int sources = int{!options.healthy.empty()} + int{!options.manifest.empty()} +
+                        int{!options.features.empty()};
+    if (sources != 1) {
+        problems.push_back({"calibrate", 0, "",
+                            sources == 0 ? "no recordings" : "more than one source of recordings",
+                            "give one of --healthy REC..., --manifest T.csv, --features T.csv"});
     }
+    inputs = read_priors(options.priors, problems);
+    if (sources == 1 && options.features.empty()) {
+        list = list_of(options.manifest, options.healthy, problems);
+        keep_healthy(list);
+    }
+    print_problems(problems);
+    return problems.empty();
+}
 
-  private:
-    int stop() const {
-        print_problems(problems_);
+bool can_write_outputs(const CalibrateOptions& options, const RecordingList& list) {
+    std::vector<FileRole> read{{"the study", options.study.path},
+                               {"the manifest", options.manifest},
+                               {"the table of --features", options.features}};
+    std::erase_if(read, [](const FileRole& file) { return file.path.empty(); });
+    for (const Recording& recording : list.recordings) {
+        read.push_back({"a recording", recording.file});
+    }
+    const bool good = can_write({"--out", options.out}, read,
+                                {text_output("a calibrated study", "# Calibrated"), options.force});
+    read.push_back({"--out", options.out.empty() ? "-" : options.out});
+    return can_write({"--json", options.json}, read, {json_output(), options.force}) && good;
+}
+
+// Features of the healthy gearboxes, and the default priors if the options name none.
+HealthySet measured_set(const CalibrateOptions& options, const Scene& scene,
+                        const CalibrationPlan& calibration, const RecordingList& list, int threads,
+                        std::vector<CalibratedInput>& inputs, Problems& problems) {
+    const MeasurementPlan plan{scene.record(), scene.features(), scene.gearbox().nominal};
+    const std::vector<HealthyRecord> records =
+        options.features.empty() ? measured_records(options, list, plan, threads, problems)
+                                 : read_feature_table(options.features, plan.record.span, problems);
+    if (records.empty() && problems.empty()) {
+        problems.push_back({"calibrate", 0, "", "no recording of a healthy gearbox",
+                            "check the labels and sizes of the recordings"});
+    }
+    if (!problems.empty()) {
+        return {};
+    }
+    HealthySet set = healthy_set(records, options.feature, problems);
+    const double rms = set.mean_of("sensor_rms");
+    if (inputs.empty() && rms > 0.0) {
+        inputs = calibration.default_inputs(rms);
+    } else if (inputs.empty() && problems.empty()) {
+        problems.push_back({"calibrate", 0, "",
+                            "the default prior of the background noise needs the feature "
+                            "sensor_rms",
+                            "give --prior sensor.noise_m_s2=LOW:HIGH:log and the other priors"});
+    }
+    return set;
+}
+
+int fit(const CalibrateOptions& options, const std::vector<CalibratedInput>& inputs,
+        const HealthySet& set, int threads) {
+    StudyOptions random = options.study;
+    for (const CalibratedInput& input : inputs) {
+        random.overrides.push_back(input.as_override());
+    }
+    // Random tooth errors change the default values of other keys, so the study is read again.
+    const StudyReading written = read_study(random.path, random.overrides);
+    if (!written.study) {
+        print_problems(written.problems);
         return kBadInput;
     }
-
-    bool options_good() {
-        const int sources = static_cast<int>(!options_.healthy.empty()) +
-                            static_cast<int>(!options_.manifest.empty()) +
-                            static_cast<int>(!options_.features.empty());
-        if (sources != 1) {
-            problems_.push_back(
-                {"calibrate", 0, "",
-                 sources == 0 ? "no recordings" : "more than one source of recordings",
-                 "give one of --healthy REC..., --manifest T.csv, --features T.csv"});
-        }
-        inputs_ = read_priors(options_.priors, problems_);
-        if (sources == 1 && options_.features.empty()) {
-            try {
-                list_ = options_.manifest.empty() ? recordings_of(options_.healthy, problems_)
-                                                  : read_manifest(options_.manifest, problems_);
-                keep_healthy(list_);
-            } catch (const SignalError& error) {
-                problems_.push_back({printable(error.what()), 0, "", "", ""});
-            }
-        }
-        print_problems(problems_);
-        return std::exchange(problems_, {}).empty();
+    // An override of features.use would make the keys of a baseline record invalid.
+    StudyReading simulated = written;
+    simulated.study->features.use.clear();
+    for (const features::Feature* feature : set.features) {
+        simulated.study->features.use.emplace_back(feature->name);
     }
-
-    bool outputs_good() const {
-        std::vector<FileRole> read{{"the study", options_.study.path},
-                                   {"the manifest", options_.manifest},
-                                   {"the table of --features", options_.features}};
-        std::erase_if(read, [](const FileRole& file) { return file.path.empty(); });
-        for (const Recording& recording : list_.recordings) {
-            read.push_back({"a recording", recording.file});
-        }
-        const bool good =
-            can_write({"--out", options_.out}, read,
-                      {text_output("a calibrated study", "# Calibrated"), options_.force});
-        read.push_back({"--out", options_.out.empty() ? "-" : options_.out});
-        return can_write({"--json", options_.json}, read, {json_output(), options_.force}) && good;
+    const StudyScene made = make_scene(random.path, std::move(simulated));
+    if (!made) {
+        print_problems(made.problems);
+        return kBadInput;
     }
-
-    int calibrated(int threads) {
-        StudyOptions random = options_.study;
-        for (const CalibratedInput& input : inputs_) {
-            random.overrides.push_back(input.as_override());
-        }
-        // Random tooth errors change the default values of other keys, so the study is read again.
-        const StudyReading written = read_study(random.path, random.overrides);
-        if (!written.study) {
-            print_problems(written.problems);
-            return kBadInput;
-        }
-        // An override of features.use would make the keys of a baseline record invalid.
-        StudyReading simulated = written;
-        simulated.study->features.use.clear();
-        for (const features::Feature* feature : set_.features) {
-            simulated.study->features.use.emplace_back(feature->name);
-        }
-        const StudyScene made = make_scene(random.path, std::move(simulated));
-        const auto& scene = made.scene;
-        if (!scene) {
-            print_problems(made.problems);
-            return kBadInput;
-        }
-        check_calibration_python();
-        const CalibrationTask task{.inputs = inputs_,
-                                   .measured = set_,
-                                   .integrated = static_cast<std::size_t>(options_.sets),
-                                   .study = text_without_distributions(*written.study, inputs_),
-                                   .seed = scene->draw().seed};
-        std::vector<SimulatedSet> first;
-        print_cost_of_rounds(task);
-        const auto report_time = [&](double seconds) {
-            if (!options_.quiet) {
-                fmt::print(
-                    stderr,
-                    "this round: about {:.0f} s of processor time, {:.0f} s on {} thread(s)\n",
-                    seconds, seconds / threads, threads);
-            }
-        };
-        return finish(calibrate(task, first, [&](const PriorRegion& region, const SetPlan& plan) {
-            return simulate_sets(scene->tile(), inputs_, region, plan, set_.lengths, set_.features,
-                                 threads, report_time);
-        }));
+    check_calibration_python();
+    const CalibrationTask task{.inputs = inputs,
+                               .measured = set,
+                               .integrated = static_cast<std::size_t>(options.sets),
+                               .study = text_without_distributions(*written.study, inputs),
+                               .seed = made.scene->draw().seed};
+    if (!options.quiet) {
+        fmt::print(stderr,
+                   "{} record(s) of {} gearbox(es){}\n{} rounds of {} parameter sets, {} "
+                   "gearboxes, {} noise realizations each\n",
+                   set.records, set.lengths.size(),
+                   set.left_out > 0 ? fmt::format(", {} more ignored", set.left_out) : "",
+                   kCalibrationRounds, task.integrated, task.integrated * set.lengths.size(),
+                   task.backgrounds);
     }
-
-    void print_cost_of_rounds(const CalibrationTask& task) const {
-        if (!options_.quiet) {
+    const auto report_time = [&](double seconds) {
+        if (!options.quiet) {
             fmt::print(stderr,
-                       "{} record(s) of {} gearbox(es){}\n{} rounds of {} parameter sets, {} "
-                       "gearboxes, {} noise realizations each\n",
-                       set_.records, set_.lengths.size(),
-                       set_.left_out > 0 ? fmt::format(", {} more ignored", set_.left_out) : "",
-                       kCalibrationRounds, task.integrated, task.integrated * set_.lengths.size(),
-                       task.backgrounds);
+                       "this round: about {:.0f} s of processor time, {:.0f} s on {} thread(s)\n",
+                       seconds, seconds / threads, threads);
         }
+    };
+    std::vector<SimulatedSet> first;
+    const CalibrationResult result =
+        calibrate(task, first, [&](const PriorRegion& region, const SetPlan& plan) {
+            return simulate_sets(made.scene->tile(), inputs, region, plan, set.lengths,
+                                 set.features, threads, report_time);
+        });
+    if (options.json != "-" && options.out != "-") {
+        fmt::print("{}", result.text);
     }
-
-    int finish(const CalibrationResult& result) const {
-        if (options_.json != "-" && options_.out != "-") {
-            fmt::print("{}", result.text);
-        }
-        const bool out = options_.out.empty() || write_text_to(options_.out, result.study);
-        const bool json =
-            options_.json.empty() || write_text_to(options_.json, json_text(result.json, 2) + "\n");
-        return out && json ? kDone : kBadInput;
-    }
-
-    const CalibrateOptions& options_;
-    Problems problems_;
-    RecordingList list_;
-    HealthySet set_;
-    std::vector<CalibratedInput> inputs_;
-};
+    const bool out = options.out.empty() || write_text_to(options.out, result.study);
+    const bool json =
+        options.json.empty() || write_text_to(options.json, json_text(result.json, 2) + "\n");
+    return out && json ? kDone : kBadInput;
+}
 
 int calibrate_command(const CalibrateOptions& options) {
-    try {
-        return Command(options).run();
-    } catch (const std::exception& error) {
-        fmt::print(stderr, "{}\n", exception_text(error));
+    std::vector<CalibratedInput> inputs;
+    RecordingList list;
+    if (!read_sources(options, inputs, list)) {
         return kBadInput;
     }
+    StudyReading reading = read_study(options.study.path, options.study.overrides);
+    CalibrationPlan calibration;
+    if (reading.study) {
+        calibration = make_calibration_plan(*reading.study, options.study.path);
+    }
+    const StudyScene made = make_scene(options.study.path, std::move(reading));
+    print_problems(made ? made.notices : made.problems);
+    if (!made || !can_write_outputs(options, list)) {
+        return kBadInput;
+    }
+    const int threads = thread_count(made.scene->ensemble());
+    Problems problems = calibration.unsupported;
+    HealthySet set;
+    if (problems.empty()) {
+        set = measured_set(options, *made.scene, calibration, list, threads, inputs, problems);
+    }
+    print_problems(problems);
+    return problems.empty() ? fit(options, inputs, set, threads) : kBadInput;
 }
 
 }  // namespace
 
 void add_calibrate(CLI::App& app, int& code) {
-    const auto options = std::make_shared<CalibrateOptions>();
-    auto* command = app.add_subcommand(
-        "calibrate",
+    const auto [command, options] = add_command<CalibrateOptions>(
+        app, code, "calibrate",
         "fit tooth errors, background noise, tones, gain and path exponent of a study to "
         "recordings of healthy gearboxes: approximate Bayesian computation with regression "
-        "adjustment");
-    add_study(*command, options->study);
+        "adjustment",
+        reporting<calibrate_command>);
+    add_study(command, options.study);
     command
-        ->add_option("--healthy", options->healthy,
-                     "recordings of healthy gearboxes, each of a different gearbox, or name "
-                     "patterns; same formats as for `features`")
+        .add_option("--healthy", options.healthy,
+                    "recordings of healthy gearboxes, each of a different gearbox, or name "
+                    "patterns; same formats as for `features`")
         ->allow_extra_args(false);
-    command->add_option("--manifest", options->manifest,
-                        "instead: table (CSV) of recordings as for `features`; column gearbox "
-                        "names the gearbox; faulty recordings are ignored");
-    command->add_option("--features", options->features,
-                        "instead: table (CSV) of features as written by `features --csv`");
-    add_columns(*command, options->columns);
+    command.add_option("--manifest", options.manifest,
+                       "instead: table (CSV) of recordings as for `features`; column gearbox "
+                       "names the gearbox; faulty recordings are ignored");
+    command.add_option("--features", options.features,
+                       "instead: table (CSV) of features as written by `features --csv`");
+    add_columns(command, options.columns);
     command
-        ->add_option(
-            "--prior", options->priors,
+        .add_option(
+            "--prior", options.priors,
             "KEY=LOW:HIGH or KEY=LOW:HIGH:log: uniform or log-uniform prior of a study key; may "
             "be repeated (default: gearbox.tooth_quality=2:11, or pitch_error_um if the study has "
             "it; sensor.noise_m_s2 or its density, 1 to 105 % of the recordings' rms, log; "
@@ -275,22 +243,21 @@ void add_calibrate(CLI::App& app, int& code) {
         ->type_name("KEY=LOW:HIGH")
         ->allow_extra_args(false);
     command
-        ->add_option("--feature", options->feature,
-                     "feature to compare; may be repeated (default: all features of the "
-                     "acceleration except those of sun and ring and those that transform the "
-                     "whole record)")
+        .add_option("--feature", options.feature,
+                    "feature to compare; may be repeated (default: all features of the "
+                    "acceleration except those of sun and ring and those that transform the "
+                    "whole record)")
         ->allow_extra_args(false);
-    add_number(*command, "--draws", options->sets,
+    add_number(command, "--draws", options.sets,
                "parameter sets simulated in each of two rounds (default: 200); each set integrates "
                "every gearbox once",
                from_to(50, 10000));
-    require_file_name(command->add_option("--out", options->out,
-                                          "write a study file (TOML) with the calibrated inputs in "
-                                          "[random], or - for standard output"));
-    add_json(*command, options->json);
-    command->add_flag("--quiet", options->quiet, "do not print the computing time");
-    add_force(*command, options->force);
-    command->callback([options, &code] { code = calibrate_command(*options); });
+    add_file(command, "--out", options.out,
+             "write a study file (TOML) with the calibrated inputs in "
+             "[random], or - for standard output");
+    add_json(command, options.json);
+    command.add_flag("--quiet", options.quiet, "do not print the computing time");
+    add_force(command, options.force);
 }
 
 }  // namespace gearpod::mc

@@ -47,14 +47,13 @@ int check_command(const CheckOptions& options) {
 }  // namespace
 
 void add_check(CLI::App& app, int& code) {
-    const auto options = std::make_shared<CheckOptions>();
-    auto* command = app.add_subcommand(
-        "check",
+    const auto [command, options] = add_command<CheckOptions>(
+        app, code, "check",
         "report all problems of study files without simulating them, for example before they are "
-        "queued; exit code 2 if one cannot be simulated");
-    command->add_option("studies", options->studies, "study files (TOML)")->required();
-    add_study_keys(*command, options->changes);
-    command->callback([options, &code] { code = check_command(*options); });
+        "queued; exit code 2 if one cannot be simulated",
+        check_command);
+    command.add_option("studies", options.studies, "study files (TOML)")->required();
+    add_study_keys(command, options.changes);
 }
 
 }  // namespace gearpod::mc

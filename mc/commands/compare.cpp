@@ -11,13 +11,12 @@
 #include "analysis/report/false_alarm_text.hpp"
 #include "mc/commands/commands.hpp"
 #include "mc/commands/options/options.hpp"
+#include "mc/commands/output_folder.hpp"
 #include "mc/ensemble/ranks.hpp"
 #include "mc/files/input/problems.hpp"
 #include "mc/files/input/terminal_text.hpp"
-#include "mc/files/json_text.hpp"
 #include "mc/library/run/command_files.hpp"
 #include "mc/report/numerical_quality.hpp"
-#include "mc/report/page.hpp"
 #include "mc/report/sweep/compared_results.hpp"
 #include "mc/results/reliability_of_results.hpp"
 #include "mc/results/result_rows.hpp"
@@ -67,15 +66,13 @@ Side read_side(const std::string& path) {
 
 // Noise level to show: the reference level among those that all files have, else the first file's.
 double shown_level(const std::vector<Side>& sides) {
-    const auto everywhere = [&](double level) {
-        return std::all_of(sides.begin(), sides.end(), [&](const Side& side) {
-            const auto& levels = side.frame.noise_levels;
-            return std::find(levels.begin(), levels.end(), level) != levels.end();
-        });
-    };
     const auto& levels = sides.front().frame.noise_levels;
-    std::vector<double> common;
-    std::copy_if(levels.begin(), levels.end(), std::back_inserter(common), everywhere);
+    std::vector<double> common = levels;
+    std::erase_if(common, [&](double level) {
+        return !std::ranges::all_of(sides, [&](const Side& side) {
+            return std::ranges::count(side.frame.noise_levels, level) > 0;
+        });
+    });
     return common.empty() ? levels[reference_level(levels)] : common[reference_level(common)];
 }
 
@@ -111,24 +108,24 @@ analysis::ComparedResults compare_sides(const std::vector<Side>& sides) {
 std::vector<Side> read_sides(const std::vector<std::string>& paths) {
     std::vector<Side> sides;
     std::set<std::string> problems;  // a file may be named twice
-    std::string printed;
+    bool good = true;
     const auto say = [&](const std::string& problem) {
-        printed += problems.insert(problem).second ? problem : "";
+        if (!problem.empty() && problems.insert(problem).second) {
+            fmt::print(stderr, "{}", problem);
+            good = false;
+        }
     };
-    bool first_read = false;
-    for (std::size_t i = 0; i < paths.size(); ++i) {
+    for (const std::string& path : paths) {
         try {
-            sides.push_back(read_side(paths[i]));
-            first_read = first_read || i == 0;
-            if (i > 0 && first_read) {
+            sides.push_back(read_side(path));
+            if (sides.front().path == paths.front() && sides.size() > 1) {
                 say(mismatch(sides.front(), sides.back()));
             }
         } catch (const std::exception& error) {
             say(exception_text(error) + "\n");
         }
     }
-    fmt::print(stderr, "{}", printed);
-    return printed.empty() ? std::move(sides) : std::vector<Side>{};
+    return good ? std::move(sides) : std::vector<Side>{};
 }
 
 int compare_command(const CompareOptions& options) {
@@ -145,26 +142,19 @@ int compare_command(const CompareOptions& options) {
                    "reference\n");
         return kBadInput;
     }
-    try {
-        const std::vector<Side> sides = read_sides(options.results);
-        if (sides.empty()) {
-            return kBadInput;
-        }
-        const analysis::ComparedResults results = compare_sides(sides);
-        const nlohmann::json json = comparison_json(results);
-        if (!options.json.empty() && !write_text_to(options.json, json_text(json, 2) + "\n")) {
-            return kBadInput;
-        }
-        write_report_page(json_text(json), options.html, "");
-        if (options.json != "-") {
-            fmt::print("{}", analysis::report_text(comparison_report(results)));
-        }
-        if (!options.html.empty() && options.json != "-") {
+    const std::vector<Side> sides = read_sides(options.results);
+    if (sides.empty()) {
+        return kBadInput;
+    }
+    const analysis::ComparedResults results = compare_sides(sides);
+    if (!write_json_and_page(comparison_json(results), options.json, options.html)) {
+        return kBadInput;
+    }
+    if (options.json != "-") {
+        fmt::print("{}", analysis::report_text(comparison_report(results)));
+        if (!options.html.empty()) {
             fmt::print("\npage: {}\n", options.html);
         }
-    } catch (const std::exception& error) {
-        fmt::print(stderr, "{}\n", exception_text(error));
-        return kBadInput;
     }
     return kDone;
 }
@@ -172,18 +162,17 @@ int compare_command(const CompareOptions& options) {
 }  // namespace
 
 void add_compare(CLI::App& app, int& code) {
-    const auto options = std::make_shared<CompareOptions>();
-    auto* command = app.add_subcommand(
-        "compare",
-        "compare detection between results files, for example of two sensors, noises or designs");
+    const auto [command, options] = add_command<CompareOptions>(
+        app, code, "compare",
+        "compare detection between results files, for example of two sensors, noises or designs",
+        reporting<compare_command>);
     command
-        ->add_option("results", options->results,
-                     "results files (HDF5); all others are compared with the first")
+        .add_option("results", options.results,
+                    "results files (HDF5); all others are compared with the first")
         ->required();
-    add_json(*command, options->json);
-    add_page(*command, options->html);
-    add_force(*command, options->force);
-    command->callback([options, &code] { code = compare_command(*options); });
+    add_json(command, options.json);
+    add_page(command, options.html);
+    add_force(command, options.force);
 }
 
 }  // namespace gearpod::mc

@@ -1,3 +1,5 @@
+#include "mc/report/description/describe.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -25,9 +27,6 @@
 #include "mc/numerics/forecast/memory.hpp"
 #include "mc/numerics/numerics_choice.hpp"
 #include "mc/plan/scene_error.hpp"
-#include "mc/report/description/describe_effects.hpp"
-#include "mc/report/description/describe_forecast.hpp"
-#include "mc/report/description/describe_lives.hpp"
 #include "mc/report/description/terminal_text.hpp"
 #include "mc/study/gears.hpp"
 #include "mc/study/schema/schema.hpp"

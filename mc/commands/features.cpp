@@ -1,10 +1,7 @@
 // Command `features SIGNAL --study STUDY`: features of one measured signal.
-#include "mc/commands/features.hpp"
-
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <exception>
 #include <nlohmann/json.hpp>
 #include <optional>
 
@@ -20,9 +17,31 @@
 #include "mc/library/signal_features.hpp"
 #include "mc/recordings/measure_recordings.hpp"
 #include "mc/recordings/population.hpp"
+#include "mc/recordings/recording_baselines.hpp"
 
 namespace gearpod::mc {
 namespace {
+
+struct FeaturesOptions {
+    StudyOptions study;
+    std::vector<std::string> signals;  // files, or glob patterns
+    std::string manifest;              // table of recordings, instead of signals
+    SignalColumns columns;
+    std::vector<std::string> healthy;  // recordings of healthy gearboxes
+    std::string baseline;              // earlier recording of the same gearbox, "": none
+    // Baselines of many recordings; average 0: monitoring.average_records.
+    BaselineOptions baselines{0, {}, false, 0};
+    double noise_level = 1.0;  // of simulated healthy gearboxes, used without `healthy`
+    std::string json;          // "": none; "-": standard output
+    std::string out, csv;      // results file and table, for many recordings
+    std::string against;       // results file of healthy gearboxes to compare with
+    std::string feature;       // decides the alarm; "": the best ranked one in `against`
+    bool force = false;        // replaces outputs of another kind
+    bool quiet = false;
+};
+
+// Writes the features of many recordings to a results file and a table. Returns the exit code.
+int recordings_command(const FeaturesOptions& options);
 
 constexpr std::size_t kMissingColumn = 38;  // of the reasons why features are missing
 
@@ -115,107 +134,25 @@ int features_command(const FeaturesOptions& options) {
     if (!scene || !writable) {
         return kBadInput;
     }
-    try {
-        SignalRequest request;
-        request.signal = options.signals.front();
-        request.columns = options.columns;
-        request.healthy = {options.healthy.begin(), options.healthy.end()};
-        request.baseline = options.baseline;
-        request.noise_level = options.noise_level;
-        request.against = options.against;
-        request.feature = options.feature;
-        const SignalFeatures found = signal_features(request, scene->tile());
-        if (!options.json.empty()) {
-            const std::string text = json_text(signal_features_json(found, request), 2);
-            return write_text_to(options.json, text + "\n") ? kDone : kBadInput;
-        }
-        print_text(found);
-        if (found.against) {
-            fmt::print("{}", decisions_text(*found.against, found));
-        }
-        return kDone;
-    } catch (const std::exception& error) {
-        fmt::print(stderr, "{}\n", exception_text(error));
+    SignalRequest request;
+    request.signal = options.signals.front();
+    request.columns = options.columns;
+    request.healthy = {options.healthy.begin(), options.healthy.end()};
+    request.baseline = options.baseline;
+    request.noise_level = options.noise_level;
+    request.against = options.against;
+    request.feature = options.feature;
+    const SignalFeatures found = signal_features(request, scene->tile());
+    if (!options.json.empty()) {
+        const std::string text = json_text(signal_features_json(found, request), 2);
+        return write_text_to(options.json, text + "\n") ? kDone : kBadInput;
     }
-    return kBadInput;
+    print_text(found);
+    if (found.against) {
+        fmt::print("{}", decisions_text(*found.against, found));
+    }
+    return kDone;
 }
-
-}  // namespace
-
-void add_features(CLI::App& app, int& code) {
-    const auto options = std::make_shared<FeaturesOptions>();
-    auto* command = app.add_subcommand(
-        "features",
-        "compute the features of measured signals (CSV, HDF5, MAT, TDMS, sound, universal files)");
-    command->add_option("signal", options->signals,
-                        "signal files (.csv, .h5, .hdf5, .mat, .tdms, .uff, .wav and others), or "
-                        "name patterns with "
-                        "* and ?");
-    add_study_keys(*command, options->study);
-    command->add_option("--study", options->study.path, "study file (TOML)")->required();
-    command->add_option("--manifest", options->manifest,
-                        "table (CSV) of recordings with columns file, row, gearbox, time, label, "
-                        "size, and operating conditions");
-    add_columns(*command, options->columns);
-    command->add_option("--te", options->columns.te,
-                        "column of the transmission error, rad (default: te)");
-    command
-        ->add_option("--healthy", options->healthy,
-                     "recording of a healthy gearbox, the reference of na4; may be repeated "
-                     "(default: gearboxes simulated from the study)")
-        ->allow_extra_args(false)
-        ->option_text("FILE");  // one for each --healthy, because the signals are files, too
-    require_file_name(command->add_option(
-        "--baseline", options->baseline,
-        "earlier recording of the same gearbox in healthy condition, the reference of own_... and "
-        "change_... features"));
-    add_number(*command, "--baseline-records", options->baselines.records,
-               "instead, many signals: the baseline of each gearbox is the mean of its first N "
-               "healthy recordings, aligned by circular correlation (or of those with yes in the "
-               "manifest's column baseline)",
-               from_to(1, 1000000));
-    command
-        ->add_option("--baseline-by", options->baselines.conditions,
-                     "operating condition of the manifest; recordings with equal values share a "
-                     "baseline; may be repeated")
-        ->allow_extra_args(false)
-        ->type_name("COLUMN");
-    command
-        ->add_option_function<std::string>(
-            "--baseline-scale",
-            [&baselines = options->baselines](const std::string& value) {
-                baselines.scaled = value == "fit";
-            },
-            "fit: scale the baseline to each recording before it is subtracted (least squares), so "
-            "that a drifting gain leaves no change; the part of a fault that resembles the "
-            "baseline is then lost, too (default: none)")
-        ->check(CLI::IsMember({"none", "fit"}));
-    add_number(*command, "--average", options->baselines.average,
-               "number of consecutive recordings of a gearbox, aligned with its baseline, that are "
-               "averaged before features (default: monitoring.average_records)",
-               from_to(1, 1000));
-    add_number(*command, "--noise-level", options->noise_level,
-               "noise level of the simulated gearboxes (default: 1)", at_least(0.0));
-    require_file_name(command->add_option(
-        "--json", options->json, "one signal: write JSON to a file, or - for standard output"));
-    require_file_name(command->add_option(
-        "--out", options->out, "many signals: write a results file (HDF5) for `report`"));
-    require_file_name(command->add_option(
-        "--csv", options->csv, "many signals: write a table to a file, or - for standard output"));
-    command->add_flag("--quiet", options->quiet, "show no progress");
-    require_file_name(command->add_option(
-        "--against", options->against,
-        "results file of healthy gearboxes; decide with its threshold: alarm or not"));
-    command->add_option("--feature", options->feature,
-                        "feature that decides the alarm (default: the best ranked in the "
-                        "results file)");
-    add_force(*command, options->force);
-    command->callback([options, &code] { code = features_command(*options); });
-}
-
-// Command `features` for many recordings: writes a results file and a table.
-
-namespace {
 
 // Problems with the combination of options.
 Problems option_problems(const FeaturesOptions& options) {
@@ -262,16 +199,6 @@ bool can_write_all(const FeaturesOptions& options, const RecordingList& list) {
            out_good;
 }
 
-RecordingList list_of(const FeaturesOptions& options, Problems& problems) {
-    try {
-        return options.manifest.empty() ? recordings_of(options.signals, problems)
-                                        : read_manifest(options.manifest, problems);
-    } catch (const SignalError& error) {
-        problems.push_back({printable(error.what()), 0, "", "", ""});
-        return {};
-    }
-}
-
 // Prints one sentence for each recording.
 void print_decisions(const FeaturesOptions& options, const Population& population,
                      std::span<const features::Feature* const> features, const RecordingList& list,
@@ -309,13 +236,11 @@ int summary(const FeaturesOptions& options, const std::vector<MeasuredRecording>
     return bad > 0 ? kSomeFailed : kDone;
 }
 
-}  // namespace
-
 int recordings_command(const FeaturesOptions& options) {
     Problems problems = option_problems(options);
     RecordingList list;
     if (problems.empty()) {
-        list = list_of(options, problems);
+        list = list_of(options.manifest, options.signals, problems);
     }
     if (!options.out.empty()) {
         for (Problem& problem : condition_name_problems(options.manifest, list)) {
@@ -341,55 +266,119 @@ int recordings_command(const FeaturesOptions& options) {
         print_problems(problems);
         return kBadInput;
     }
-    try {
-        const MeasurementPlan plan{scene->record(), scene->features(), scene->gearbox().nominal};
-        std::optional<Population> population;
-        if (!options.against.empty()) {
-            population = read_population(options.against, options.noise_level, plan.features.teeth);
-        }
-        std::vector<std::string> notes;
-        const HealthyReference healthy =
-            options.healthy.empty()
-                ? HealthyReference()
-                : measured_reference({options.healthy.begin(), options.healthy.end()},
-                                     options.columns, plan, 1, notes);
-        const auto baseline = measured_baseline(options.baseline, options.columns, plan);
-        if (baseline) {
-            add_notes(baseline->signal, baseline->file, notes);
-        }
-        for (const std::string& note : notes) {
-            fmt::print(stderr, "{}\n", wrapped_text("note: " + note, 2));
-        }
-        comparison.given = baseline ? &*baseline : nullptr;
-        const bool compared = comparison.any(list);
-        const auto features = measurable(plan.features, compared);
-        const int threads = thread_count(scene->ensemble());
-        Progress progress(static_cast<long>(list.recordings.size()),
-                          options.quiet || options.csv == "-", 0, Progress::Form::text,
-                          "recordings");
-        const auto [measured, baseline_notes] =
-            measure_recordings(list, options.columns, plan, healthy, comparison, threads,
-                               [&] { progress.advance(1); });
-        progress.finish();
-        for (const std::string& note : baseline_notes) {
-            fmt::print(stderr, "{}\n", wrapped_text("note: " + printable(note), 2));
-        }
-        print_notes(list, measured);
-        const bool csv_good =
-            options.csv.empty() ||
-            write_text_to(options.csv, recordings_csv(list, measured, features, compared));
-        if (!options.out.empty()) {
-            write_results(options.out, recordings_results(list, measured, features, compared,
-                                                          scene->ensemble(), threads));
-        }
-        if (population) {
-            print_decisions(options, *population, features, list, measured);
-        }
-        return csv_good ? summary(options, measured) : kBadInput;
-    } catch (const std::exception& error) {
-        fmt::print(stderr, "{}\n", exception_text(error));
-        return kBadInput;
+    const MeasurementPlan plan{scene->record(), scene->features(), scene->gearbox().nominal};
+    std::optional<Population> population;
+    if (!options.against.empty()) {
+        population = read_population(options.against, options.noise_level, plan.features.teeth);
     }
+    std::vector<std::string> notes;
+    const HealthyReference healthy =
+        options.healthy.empty()
+            ? HealthyReference()
+            : measured_reference({options.healthy.begin(), options.healthy.end()}, options.columns,
+                                 plan, 1, notes);
+    const auto baseline = measured_baseline(options.baseline, options.columns, plan);
+    if (baseline) {
+        add_notes(baseline->signal, baseline->file, notes);
+    }
+    for (const std::string& note : notes) {
+        fmt::print(stderr, "{}\n", wrapped_text("note: " + note, 2));
+    }
+    comparison.given = baseline ? &*baseline : nullptr;
+    const bool compared = comparison.any(list);
+    const auto features = measurable(plan.features, compared);
+    const int threads = thread_count(scene->ensemble());
+    Progress progress(static_cast<long>(list.recordings.size()),
+                      options.quiet || options.csv == "-", 0, Progress::Form::text, "recordings");
+    const auto [measured, baseline_notes] = measure_recordings(
+        list, options.columns, plan, healthy, comparison, threads, [&] { progress.advance(1); });
+    progress.finish();
+    for (const std::string& note : baseline_notes) {
+        fmt::print(stderr, "{}\n", wrapped_text("note: " + printable(note), 2));
+    }
+    print_notes(list, measured);
+    const bool csv_good =
+        options.csv.empty() ||
+        write_text_to(options.csv, recordings_csv(list, measured, features, compared));
+    if (!options.out.empty()) {
+        write_results(options.out, recordings_results(list, measured, features, compared,
+                                                      scene->ensemble(), threads));
+    }
+    if (population) {
+        print_decisions(options, *population, features, list, measured);
+    }
+    return csv_good ? summary(options, measured) : kBadInput;
+}
+
+}  // namespace
+
+void add_features(CLI::App& app, int& code) {
+    const auto [command, options] = add_command<FeaturesOptions>(
+        app, code, "features",
+        "compute the features of measured signals (CSV, HDF5, MAT, TDMS, sound, universal files)",
+        reporting<features_command>);
+    command.add_option("signal", options.signals,
+                       "signal files (.csv, .h5, .hdf5, .mat, .tdms, .uff, .wav and others), or "
+                       "name patterns with "
+                       "* and ?");
+    add_study_keys(command, options.study);
+    command.add_option("--study", options.study.path, "study file (TOML)")->required();
+    command.add_option("--manifest", options.manifest,
+                       "table (CSV) of recordings with columns file, row, gearbox, time, label, "
+                       "size, and operating conditions");
+    add_columns(command, options.columns);
+    command.add_option("--te", options.columns.te,
+                       "column of the transmission error, rad (default: te)");
+    command
+        .add_option("--healthy", options.healthy,
+                    "recording of a healthy gearbox, the reference of na4; may be repeated "
+                    "(default: gearboxes simulated from the study)")
+        ->allow_extra_args(false)
+        ->option_text("FILE");  // one for each --healthy, because the signals are files, too
+    add_file(
+        command, "--baseline", options.baseline,
+        "earlier recording of the same gearbox in healthy condition, the reference of own_... and "
+        "change_... features");
+    add_number(command, "--baseline-records", options.baselines.records,
+               "instead, many signals: the baseline of each gearbox is the mean of its first N "
+               "healthy recordings, aligned by circular correlation (or of those with yes in the "
+               "manifest's column baseline)",
+               from_to(1, 1000000));
+    command
+        .add_option("--baseline-by", options.baselines.conditions,
+                    "operating condition of the manifest; recordings with equal values share a "
+                    "baseline; may be repeated")
+        ->allow_extra_args(false)
+        ->type_name("COLUMN");
+    command
+        .add_option_function<std::string>(
+            "--baseline-scale",
+            [&baselines = options.baselines](const std::string& value) {
+                baselines.scaled = value == "fit";
+            },
+            "fit: scale the baseline to each recording before it is subtracted (least squares), so "
+            "that a drifting gain leaves no change; the part of a fault that resembles the "
+            "baseline is then lost, too (default: none)")
+        ->check(CLI::IsMember({"none", "fit"}));
+    add_number(command, "--average", options.baselines.average,
+               "number of consecutive recordings of a gearbox, aligned with its baseline, that are "
+               "averaged before features (default: monitoring.average_records)",
+               from_to(1, 1000));
+    add_number(command, "--noise-level", options.noise_level,
+               "noise level of the simulated gearboxes (default: 1)", at_least(0.0));
+    add_file(command, "--json", options.json,
+             "one signal: write JSON to a file, or - for standard output");
+    add_file(command, "--out", options.out,
+             "many signals: write a results file (HDF5) for `report`");
+    add_file(command, "--csv", options.csv,
+             "many signals: write a table to a file, or - for standard output");
+    command.add_flag("--quiet", options.quiet, "show no progress");
+    add_file(command, "--against", options.against,
+             "results file of healthy gearboxes; decide with its threshold: alarm or not");
+    command.add_option("--feature", options.feature,
+                       "feature that decides the alarm (default: the best ranked in the "
+                       "results file)");
+    add_force(command, options.force);
 }
 
 }  // namespace gearpod::mc

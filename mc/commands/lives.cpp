@@ -20,7 +20,6 @@
 #include "mc/files/atomic_file.hpp"
 #include "mc/files/input/problems.hpp"
 #include "mc/files/input/terminal_text.hpp"
-#include "mc/files/json_text.hpp"
 #include "mc/library/run/command_files.hpp"
 #include "mc/library/run/run.hpp"
 #include "mc/library/run/run_preparation.hpp"
@@ -38,14 +37,6 @@
 namespace gearpod::mc {
 namespace {
 
-struct LivesOutputs {
-    std::string json, html, figures;  // "": none; JSON "-": standard output instead of the text
-    bool shows_withheld = false;
-    bool prints_text = true;
-    std::string results = {}, evidence = {};  // results file, and folder for its evidence; "": none
-    bool force = false;
-};
-
 // The JSON of lives with the definitions of the features, the fault and the provenance.
 nlohmann::json with_origin(nlohmann::json json, const CampaignPlan& plan, const Results& frame) {
     for (const features::Feature* feature : plan.ensemble.features) {
@@ -61,31 +52,34 @@ nlohmann::json with_origin(nlohmann::json json, const CampaignPlan& plan, const 
 // Evaluates the rows and writes the requested outputs. Returns kBadInput after printing a problem,
 // or if the results are withheld.
 int write_outputs(const CampaignPlan& plan, const Results& frame, const RowSource& rows,
-                  const LivesOutputs& outputs) {
+                  const ReportOptions& outputs, bool prints_text = true) {
     const Campaign campaign = campaign_of(plan, frame, rows);
     const LifeMonitor monitor(plan, campaign);
     if (!outputs.json.empty() || !outputs.html.empty() || !outputs.figures.empty() ||
         !outputs.evidence.empty()) {
         const auto json = lives_json(monitor, outputs.shows_withheld);
-        if (!outputs.evidence.empty() &&
-            !write_evidence(outputs.evidence,
-                            evidence_files(with_origin(json, plan, frame), outputs.results),
-                            {{"the results file", outputs.results},
-                             {"--json", outputs.json},
-                             {"--html", outputs.html}},
-                            outputs.force)) {
+        if (!outputs.evidence.empty()) {
+            const OutputFolder folder{
+                {"--evidence", outputs.evidence},
+                evidence_files(with_origin(json, plan, frame), outputs.results)};
+            if (!can_write_folders({folder},
+                                   {{"the results file", outputs.results},
+                                    {"--json", outputs.json},
+                                    {"--html", outputs.html}},
+                                   outputs.force)) {
+                return kBadInput;
+            }
+            write_files(folder);
+        }
+        if (!write_json_and_page(json, outputs.json, outputs.html, outputs.figures)) {
             return kBadInput;
         }
-        if (!outputs.json.empty() && !write_text_to(outputs.json, json_text(json, 2) + "\n")) {
-            return kBadInput;
-        }
-        write_report_page(json_text(json), outputs.html, outputs.figures);
     }
     const std::string withheld = outputs.shows_withheld ? "" : why_withheld(plan, campaign);
-    if (!outputs.prints_text && !withheld.empty()) {
+    if (!prints_text && !withheld.empty()) {
         fmt::print(stderr, "{}\n", withheld);
     }
-    if (outputs.prints_text && outputs.json != "-") {
+    if (prints_text && outputs.json != "-") {
         fmt::print("{}", report_text(lives_report(monitor, outputs.shows_withheld), kLineWidth));
         if (!outputs.html.empty()) {
             fmt::print("\npage: {}\n", outputs.html);
@@ -129,9 +123,11 @@ int run_lives_on_leader(const LivesOptions& options, const LifeTiles& tiles,
             write_results(path, frame, rows);
             int code = count_rows(rows, 1).failed() > 0 ? kSomeFailed : kDone;
             if (run.prints_results) {
-                const int written = write_outputs(
-                    campaign, frame, rows,
-                    {options.json, options.html, "", options.shows_withheld, !run.quiet});
+                ReportOptions outputs;
+                outputs.json = options.json;
+                outputs.html = options.html;
+                outputs.shows_withheld = options.shows_withheld;
+                const int written = write_outputs(campaign, frame, rows, outputs, !run.quiet);
                 code = written == kDone ? code : written;
                 if (!run.quiet && options.json != "-") {
                     fmt::print("\nresults: {}\n", path);
@@ -185,32 +181,26 @@ std::unique_ptr<Checkpoint> lives_checkpoint(const RunOptions& run, const Campai
     return nullptr;
 }
 
-int lives_command(const LivesOptions& options) {
-    const Ranks ranks;
-    return lives_study(options, ranks);
-}
-
 }  // namespace
 
 void add_lives(CLI::App& app, int& code) {
-    const auto options = std::make_shared<LivesOptions>();
-    auto* command = app.add_subcommand(
-        "lives",
+    const auto [command, options] = add_command<LivesOptions>(
+        app, code, "lives",
         "simulate gearboxes that are measured repeatedly while a crack grows, and report the "
-        "cracks found in time, the warning time and the false alarms");
-    RunOptions& run = options->run;
-    add_study(*command, run.study);
-    add_ensemble(*command, "number of gearboxes with a growing crack", run.study);
-    add_results(*command, run,
+        "cracks found in time, the warning time and the false alarms",
+        [](const LivesOptions& lives) { return lives_study(lives, Ranks()); });
+    RunOptions& run = options.run;
+    add_study(command, run.study);
+    add_ensemble(command, "number of gearboxes with a growing crack", run.study);
+    add_results(command, run,
                 "continue an interrupted run, or add cracked gearboxes to a finished one",
                 "overwrite the results of another study or any other file");
-    add_progress(*command, run);
-    add_json(*command, options->json);
-    add_page(*command, options->html);
-    command->add_flag("--show-withheld", options->shows_withheld,
-                      "report lives although their signals are interpolated too coarsely");
-    command->add_flag("--quiet", run.quiet, "print problems only");
-    command->callback([options, &code] { code = lives_command(*options); });
+    add_progress(command, run);
+    add_json(command, options.json);
+    add_page(command, options.html);
+    command.add_flag("--show-withheld", options.shows_withheld,
+                     "report lives although their signals are interpolated too coarsely");
+    command.add_flag("--quiet", run.quiet, "print problems only");
 }
 
 int lives_study(const LivesOptions& options, const Ranks& ranks) {
@@ -275,14 +265,7 @@ int report_lives(const ReportOptions& options) {
     }
     const Results frame = read_frame(options.results);
     const FileRows rows(options.results, frame);
-    return write_outputs(check_lives(options.results, frame, rows), frame, rows,
-                         {.json = options.json,
-                          .html = options.html,
-                          .figures = options.figures,
-                          .shows_withheld = options.shows_withheld,
-                          .results = options.results,
-                          .evidence = options.evidence,
-                          .force = options.force});
+    return write_outputs(check_lives(options.results, frame, rows), frame, rows, options);
 }
 
 }  // namespace gearpod::mc

@@ -229,17 +229,16 @@ int merge_command(const MergeOptions& options) {
 }  // namespace
 
 void add_merge(CLI::App& app, int& code) {
-    const auto options = std::make_shared<MergeOptions>();
-    auto* command = app.add_subcommand(
-        "merge", "join the results files of all parts of a study into one, as one run writes it");
-    command->add_option("results", options->results, "results files of `run --part` 1/N to N/N")
+    const auto [command, options] = add_command<MergeOptions>(
+        app, code, "merge",
+        "join the results files of all parts of a study into one, as one run writes it",
+        merge_command);
+    command.add_option("results", options.results, "results files of `run --part` 1/N to N/N")
         ->required();
-    require_file_name(
-        command->add_option("--out", options->out, "results file to write")->required());
-    command->add_flag("--force", options->force,
-                      "overwrite the results of another study or any other file");
-    command->add_flag("--quiet", options->quiet, "print problems only");
-    command->callback([options, &code] { code = merge_command(*options); });
+    add_file(command, "--out", options.out, "results file to write")->required();
+    command.add_flag("--force", options.force,
+                     "overwrite the results of another study or any other file");
+    command.add_flag("--quiet", options.quiet, "print problems only");
 }
 
 }  // namespace gearpod::mc

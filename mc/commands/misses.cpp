@@ -156,32 +156,27 @@ std::string misses_report(const Prepared& prepared, const MissRateResult& result
 nlohmann::json misses_json(const MissesOptions& options, const Prepared& prepared,
                            const MissRateResult& result) {
     const MissRateRequest& q = prepared.question;
-    nlohmann::json json{{"kind", "misses"},
-                        {"results", options.results},
-                        {"feature", q.feature},
-                        {"noise_level", q.noise_level},
-                        {"threshold", q.threshold},
-                        {"size", options.size},
-                        {"size_unit", prepared.size.unit},
-                        {"gearboxes", result.gearboxes},
-                        {"failed", result.failed},
-                        {"records", q.records},
-                        {"confidence", prepared.confidence},
-                        {"miss_rate", nullptr},
-                        {"lower", nullptr},
-                        {"upper", nullptr},
-                        {"carrying", nullptr},
-                        {"relative_error", nullptr},
-                        {"counted_records", nullptr}};
-    if (result.misses) {
-        json["miss_rate"] = result.misses->expected;
-        json["lower"] = result.misses->rate.lower;
-        json["upper"] = result.misses->rate.upper;
-        json["carrying"] = result.misses->contributing;
-        json["relative_error"] = std::sqrt(result.misses->variance);
-        json["counted_records"] = analysis::number(result.counted);
-    }
-    return json;
+    const auto found = [&](auto value) {
+        return result.misses ? analysis::json_of(value(*result.misses)) : nlohmann::json(nullptr);
+    };
+    return {
+        {"kind", "misses"},
+        {"results", options.results},
+        {"feature", q.feature},
+        {"noise_level", q.noise_level},
+        {"threshold", q.threshold},
+        {"size", options.size},
+        {"size_unit", prepared.size.unit},
+        {"gearboxes", result.gearboxes},
+        {"failed", result.failed},
+        {"records", q.records},
+        {"confidence", prepared.confidence},
+        {"miss_rate", found([](const auto& misses) { return misses.expected; })},
+        {"lower", found([](const auto& misses) { return misses.rate.lower; })},
+        {"upper", found([](const auto& misses) { return misses.rate.upper; })},
+        {"carrying", found([](const auto& misses) { return misses.contributing; })},
+        {"relative_error", found([](const auto& misses) { return std::sqrt(misses.variance); })},
+        {"counted_records", found([&](const auto&) { return result.counted; })}};
 }
 
 int misses_command(const MissesOptions& options) {
@@ -206,28 +201,26 @@ int misses_command(const MissesOptions& options) {
 }  // namespace
 
 void add_misses(CLI::App& app, int& code) {
-    const auto options = std::make_shared<MissesOptions>();
-    auto* command = app.add_subcommand(
-        "misses",
+    const auto [command, options] = add_command<MissesOptions>(
+        app, code, "misses",
         "estimate how often a feature misses a fault of one size, when misses are rare and due to "
-        "noise (importance sampling of the noise)");
+        "noise (importance sampling of the noise)",
+        misses_command);
     command
-        ->add_option("results", options->results,
-                     "results file (HDF5) of `run`; gives the study and the threshold")
+        .add_option("results", options.results,
+                    "results file (HDF5) of `run`; gives the study and the threshold")
         ->required();
-    command->add_option("--feature", options->feature, "feature of the acceleration signal")
+    command.add_option("--feature", options.feature, "feature of the acceleration signal")
         ->required();
-    add_number(*command, "--size", options->size, "fault size, in the unit of the study")
-        ->required();
-    add_number(*command, "--noise-level", options->noise_level,
+    add_number(command, "--size", options.size, "fault size, in the unit of the study")->required();
+    add_number(command, "--noise-level", options.noise_level,
                "one of sensor.noise_levels (default: 1, or the first above 0)");
-    add_number(*command, "--gearboxes", options->gearboxes, "number of gearboxes (default: 200)");
-    add_number(*command, "--records", options->records,
+    add_number(command, "--gearboxes", options.gearboxes, "number of gearboxes (default: 200)");
+    add_number(command, "--records", options.records,
                "records of each gearbox, a multiple of four (default: 64)");
-    add_json(*command, options->json);
-    command->add_flag("--quiet", options->quiet, "show no progress");
-    add_force(*command, options->force);
-    command->callback([options, &code] { code = misses_command(*options); });
+    add_json(command, options.json);
+    command.add_flag("--quiet", options.quiet, "show no progress");
+    add_force(command, options.force);
 }
 
 }  // namespace gearpod::mc

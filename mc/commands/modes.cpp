@@ -8,13 +8,12 @@
 
 #include "mc/commands/commands.hpp"
 #include "mc/commands/options/options.hpp"
-#include "mc/files/json_text.hpp"
+#include "mc/commands/output_folder.hpp"
 #include "mc/library/run/command_files.hpp"
 #include "mc/library/stiffness_modes.hpp"
 #include "mc/numerics/numerics_choice.hpp"
 #include "mc/plan/gearbox_plan.hpp"
 #include "mc/plan/scene_error.hpp"
-#include "mc/report/page.hpp"
 #include "mc/study/gears.hpp"
 
 namespace gearpod::mc {
@@ -43,38 +42,34 @@ struct Modes {
     std::vector<SpeedFrequencies> speeds;
     std::vector<CriticalSpeed> critical;
     std::vector<double> train_Hz;  // with coupled stages; empty without
+
+    double nominal_rpm() const { return rpm(speeds.back().speed_rad_s) / kHighestSpeed; }
 };
 
 nlohmann::json json_of(const std::string& title, const Modes& modes) {
-    nlohmann::json json{{"kind", "modes"},
-                        {"title", title},
-                        {"frequencies_Hz", modes.frequencies_Hz},
-                        {"train_frequencies_Hz", nullptr},
-                        {"campbell", nullptr}};
-    if (!modes.train_Hz.empty()) {
-        json["train_frequencies_Hz"] = modes.train_Hz;
-    }
-    if (modes.speeds.empty()) {
-        return json;
-    }
-    nlohmann::json campbell{{"member", modes.speed_member},
-                            {"nominal_rpm", rpm(modes.speeds.back().speed_rad_s) / kHighestSpeed},
-                            {"harmonics", kHarmonics},
-                            {"speeds", nlohmann::json::array()},
-                            {"critical_speeds", nlohmann::json::array()}};
+    using Json = nlohmann::json;
+    Json speeds = Json::array(), critical_speeds = Json::array();
     for (const SpeedFrequencies& speed : modes.speeds) {
-        campbell["speeds"].push_back({{"rpm", rpm(speed.speed_rad_s)},
-                                      {"mesh_Hz", speed.mesh_Hz},
-                                      {"frequencies_Hz", speed.frequencies_Hz}});
+        speeds.push_back({{"rpm", rpm(speed.speed_rad_s)},
+                          {"mesh_Hz", speed.mesh_Hz},
+                          {"frequencies_Hz", speed.frequencies_Hz}});
     }
     for (const CriticalSpeed& critical : modes.critical) {
-        campbell["critical_speeds"].push_back({{"rpm", rpm(critical.speed_rad_s)},
-                                               {"harmonic", critical.harmonic},
-                                               {"frequency_Hz", critical.frequency_Hz},
-                                               {"modes", critical.modes}});
+        critical_speeds.push_back({{"rpm", rpm(critical.speed_rad_s)},
+                                   {"harmonic", critical.harmonic},
+                                   {"frequency_Hz", critical.frequency_Hz},
+                                   {"modes", critical.modes}});
     }
-    json["campbell"] = std::move(campbell);
-    return json;
+    return {{"kind", "modes"},
+            {"title", title},
+            {"frequencies_Hz", modes.frequencies_Hz},
+            {"train_frequencies_Hz", modes.train_Hz.empty() ? Json(nullptr) : Json(modes.train_Hz)},
+            {"campbell", modes.speeds.empty() ? Json(nullptr)
+                                              : Json{{"member", modes.speed_member},
+                                                     {"nominal_rpm", modes.nominal_rpm()},
+                                                     {"harmonics", kHarmonics},
+                                                     {"speeds", speeds},
+                                                     {"critical_speeds", critical_speeds}}}};
 }
 
 void print_frequencies(const std::string& of, const std::vector<double>& frequencies) {
@@ -96,7 +91,7 @@ void print_critical_speeds(const Modes& modes) {
     if (modes.speeds.empty()) {
         return;
     }
-    const double nominal_rpm = rpm(modes.speeds.back().speed_rad_s) / kHighestSpeed;
+    const double nominal_rpm = modes.nominal_rpm();
     fmt::print(
         "\nspeeds of the {} at which mesh harmonics 1 to {} meet a natural frequency,\n"
         "up to {:g} times the nominal {:.5g} rpm{}\n",
@@ -134,17 +129,12 @@ int modes_command(const ModesOptions& options) {
         return kBadInput;
     }
     modes.critical = critical_speeds(modes.speeds, kHarmonics);
-    const nlohmann::json json = json_of(study->title, modes);
-    if (!options.html.empty() || !options.figures.empty()) {
-        write_report_page(json.dump(), options.html, options.figures);
+    if (!write_json_and_page(json_of(study->title, modes), options.json, options.html,
+                             options.figures)) {
+        return kBadInput;
     }
-    if (!options.json.empty()) {
-        if (!write_text_to(options.json, json_text(json, 2) + "\n")) {
-            return kBadInput;
-        }
-        if (options.json == "-") {
-            return kDone;
-        }
+    if (options.json == "-") {
+        return kDone;
     }
     print_frequencies(modes.train_Hz.empty() ? "" : " of the gearbox alone", modes.frequencies_Hz);
     if (!modes.train_Hz.empty()) {
@@ -161,18 +151,14 @@ int modes_command(const ModesOptions& options) {
 }  // namespace
 
 void add_modes(CLI::App& app, int& code) {
-    const auto options = std::make_shared<ModesOptions>();
-    auto* command =
-        app.add_subcommand("modes", "print the natural frequencies at mean mesh stiffness");
-    add_study(*command, options->study);
-    add_json(*command, options->json);
-    require_file_name(
-        command->add_option("--html", options->html, "write a page with the Campbell diagram"));
-    require_file_name(
-        command->add_option("--figures", options->figures,
-                            "write the figures of the page to a folder, as SVG and PNG"));
-    add_force(*command, options->force);
-    command->callback([options, &code] { code = modes_command(*options); });
+    const auto [command, options] = add_command<ModesOptions>(
+        app, code, "modes", "print the natural frequencies at mean mesh stiffness", modes_command);
+    add_study(command, options.study);
+    add_json(command, options.json);
+    add_file(command, "--html", options.html, "write a page with the Campbell diagram");
+    add_file(command, "--figures", options.figures,
+             "write the figures of the page to a folder, as SVG and PNG");
+    add_force(command, options.force);
 }
 
 }  // namespace gearpod::mc

@@ -180,15 +180,15 @@ void add_new(CLI::App& app, int& code) {
     add_number(*command, "--torque", data.torque_N_m, "input torque, N m");
     add_number(*command, "--speed", data.speed_rpm, "input speed, rpm");
     add_number(*command, "--power", data.power_kW, "power, kW, instead of torque or speed");
-    require_file_name(command->add_option("--rexs", options->rexs,
-                                          "gear-unit model to read instead (REXS 1.0 to 1.6, XML): "
-                                          "a planetary or cylindrical stage"));
+    add_file(*command, "--rexs", options->rexs,
+             "gear-unit model to read instead (REXS 1.0 to 1.6, XML): "
+             "a planetary or cylindrical stage");
     command->add_option("--stage", options->stage,
                         "id of the model's stage; needed if it has several");
     command->add_option("--load-case", options->load_case,
                         "id of the model's load case; needed if it has several");
-    require_file_name(command->add_option("--out", options->out,
-                                          "study file to write (default: - for standard output)"));
+    add_file(*command, "--out", options->out,
+             "study file to write (default: - for standard output)");
     command->add_flag("--force", options->force, "overwrite an existing file");
     command->callback([command, options, &code] {
         check_new_options(*command, *options);

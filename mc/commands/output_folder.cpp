@@ -1,13 +1,16 @@
 #include "mc/commands/output_folder.hpp"
 
-#include <fmt/core.h>
+#include <fmt/format.h>
 
 #include <filesystem>
+#include <iterator>
+#include <nlohmann/json.hpp>
 #include <span>
 #include <stdexcept>
 
 #include "mc/files/atomic_file.hpp"
 #include "mc/files/input/terminal_text.hpp"
+#include "mc/files/json_text.hpp"
 #include "mc/library/run/command_files.hpp"
 
 namespace gearpod::mc {
@@ -34,46 +37,63 @@ OutputKind kind_in_folder(const std::string& role, const NamedFile& file) {
 
 }  // namespace
 
-bool can_write_folder(const FileRole& folder, const std::vector<NamedFile>& files,
-                      const std::vector<FileRole>& others, bool force) {
-    bool good = true;
-    for (const NamedFile& file : files) {
-        const std::string path = path_in(folder.path, file.name);
-        if (const std::string why =
-                why_not_replaced(path, {kind_in_folder(folder.role, file), force});
-            !why.empty()) {
-            fmt::print(stderr, "{} {}: {}\n", folder.role, printable(path), why);
-            good = false;
+bool write_json_and_page(const nlohmann::json& json, const std::string& file,
+                         const std::string& html, const std::string& figures) {
+    if (!file.empty() && !write_text_to(file, json_text(json, 2) + "\n")) {
+        return false;
+    }
+    write_report_page(json_text(json), html, figures);
+    return true;
+}
+
+std::string columns_csv(const std::vector<SignalColumn>& columns, int digits, bool units) {
+    std::string text;
+    for (const SignalColumn& column : columns) {
+        text += (text.empty() ? "" : ",") + column.name + (units ? " [" + column.unit + "]" : "");
+    }
+    for (std::size_t row = 0; row < columns.front().values.size(); ++row) {
+        for (const SignalColumn& column : columns) {
+            fmt::format_to(std::back_inserter(text), "{}{:.{}g}",
+                           &column == columns.data() ? "\n" : ",", column.values[row], digits);
         }
-        for (const FileRole& other : others) {
-            if (!other.path.empty() && other.path != "-" && same_file(path, other.path)) {
-                fmt::print(stderr, "{} {}: would overwrite {}; choose another folder\n",
-                           folder.role, printable(path), other.role);
+    }
+    return text + "\n";
+}
+
+bool can_write_folders(const std::vector<OutputFolder>& folders,
+                       const std::vector<FileRole>& others, bool force) {
+    bool good = true;
+    for (const auto& [folder, files] : folders) {
+        for (const NamedFile& file : files) {
+            const std::string path = path_in(folder.path, file.name);
+            const auto refuse = [&](const std::string& why) {
+                fmt::print(stderr, "{} {}: {}\n", folder.role, printable(path), why);
                 good = false;
+            };
+            if (const std::string why =
+                    why_not_replaced(path, {kind_in_folder(folder.role, file), force});
+                !why.empty()) {
+                refuse(why);
+            }
+            for (const FileRole& other : others) {
+                if (!other.path.empty() && other.path != "-" && same_file(path, other.path)) {
+                    refuse("would overwrite " + other.role + "; choose another folder");
+                }
             }
         }
     }
     return good;
 }
 
-void write_files(const std::string& folder, const std::vector<NamedFile>& files) {
+void write_files(const OutputFolder& folder) {
     std::error_code failed;
-    std::filesystem::create_directories(folder, failed);
+    std::filesystem::create_directories(folder.role.path, failed);
     if (failed) {
-        throw std::runtime_error(folder + ": " + failed.message());
+        throw std::runtime_error(folder.role.path + ": " + failed.message());
     }
-    for (const NamedFile& file : files) {
-        write_file(path_in(folder, file.name), std::as_bytes(std::span(file.bytes)));
+    for (const NamedFile& file : folder.files) {
+        write_file(path_in(folder.role.path, file.name), std::as_bytes(std::span(file.bytes)));
     }
-}
-
-bool write_evidence(const std::string& folder, const std::vector<NamedFile>& files,
-                    const std::vector<FileRole>& others, bool force) {
-    if (!can_write_folder({"--evidence", folder}, files, others, force)) {
-        return false;
-    }
-    write_files(folder, files);
-    return true;
 }
 
 }  // namespace gearpod::mc

@@ -93,31 +93,25 @@ std::string unknown_rate_text(const RareRateRequest& question, const RareRateRes
                      question.gearboxes, analysis::kLeastFamilies);
 }
 
-std::string alarms_text(const PreparedRare& prepared, const RareRateResult& result) {
+// The request and its result.
+std::string rate_text(const PreparedRare& prepared, const RareRateResult& result) {
     const RareRateRequest& q = prepared.question;
-    const std::string requested = fmt::format(
-        "false-alarm rate {:g} of {} at noise x {:g}: ", *q.rate, q.feature, q.noise_level);
+    std::string text =
+        q.rate ? fmt::format("false-alarm rate {:g} of {} at noise x {:g}: ", *q.rate, q.feature,
+                             q.noise_level)
+               : miss_probability_text(prepared.size, q.feature, q.noise_level, q.threshold);
     if (!result.estimate) {
-        return requested + unknown_rate_text(q, result);
+        return text + unknown_rate_text(q, result);
     }
-    return requested + fmt::format(
-                           "threshold {:.5g} [{:.5g}, {:.5g}] (alarm if {}); estimated rate of "
-                           "this threshold {:.3g} [{:.3g}, {:.3g}] at {:g} % confidence",
-                           result.estimate->threshold, result.threshold.lower,
-                           result.threshold.upper, alarm_symbol_of(q.feature),
-                           result.estimate->expected, result.estimate->rate.lower,
-                           result.estimate->rate.upper, 100.0 * prepared.confidence);
-}
-
-std::string misses_text(const PreparedRare& prepared, const RareRateResult& result) {
-    const RareRateRequest& q = prepared.question;
-    const std::string requested =
-        miss_probability_text(prepared.size, q.feature, q.noise_level, q.threshold);
-    return result.estimate
-               ? requested + fmt::format("{:.3g} [{:.3g}, {:.3g}] at {:g} % confidence",
-                                         result.estimate->expected, result.estimate->rate.lower,
-                                         result.estimate->rate.upper, 100.0 * prepared.confidence)
-               : requested + unknown_rate_text(q, result);
+    if (q.rate) {
+        text += fmt::format(
+            "threshold {:.5g} [{:.5g}, {:.5g}] (alarm if {}); estimated rate of this threshold ",
+            result.estimate->threshold, result.threshold.lower, result.threshold.upper,
+            alarm_symbol_of(q.feature));
+    }
+    return text + fmt::format("{:.3g} [{:.3g}, {:.3g}] at {:g} % confidence",
+                              result.estimate->expected, result.estimate->rate.lower,
+                              result.estimate->rate.upper, 100.0 * prepared.confidence);
 }
 
 // Cost of the estimate, and how many gearboxes plain counting would need for the same error.
@@ -162,10 +156,8 @@ std::string shift_text(const RareRateResult& result) {
 }
 
 std::string rare_text(const PreparedRare& prepared, const RareRateResult& result) {
-    std::string text = wrapped_text(prepared.question.rate ? alarms_text(prepared, result)
-                                                           : misses_text(prepared, result),
-                                    2) +
-                       "\n" + wrapped_text(cost_text(prepared.question, result), 2) + "\n";
+    std::string text = wrapped_text(rate_text(prepared, result), 2) + "\n" +
+                       wrapped_text(cost_text(prepared.question, result), 2) + "\n";
     if (result.levels > 1) {
         text += wrapped_text(shift_text(result), 2) + "\n";
     }
@@ -240,29 +232,28 @@ int rare_command(const RareOptions& options) {
 }  // namespace
 
 void add_rare(CLI::App& app, int& code) {
-    const auto options = std::make_shared<RareOptions>();
-    auto* command = app.add_subcommand(
-        "rare",
+    const auto [command, options] = add_command<RareOptions>(
+        app, code, "rare",
         "estimate the threshold of rare false alarms, or a rare miss rate, when they are due to "
-        "variation between gearboxes (multilevel splitting)");
+        "variation between gearboxes (multilevel splitting)",
+        rare_command);
     command
-        ->add_option("results", options->results,
-                     "results file (HDF5) of `run`; gives the study and the threshold")
+        .add_option("results", options.results,
+                    "results file (HDF5) of `run`; gives the study and the threshold")
         ->required();
-    command->add_option("--feature", options->feature, "feature of the file")->required();
+    command.add_option("--feature", options.feature, "feature of the file")->required();
     auto* rate =
-        add_number(*command, "--rate", options->rate, "false-alarm rate; find its threshold");
-    add_number(*command, "--size", options->size,
+        add_number(command, "--rate", options.rate, "false-alarm rate; find its threshold");
+    add_number(command, "--size", options.size,
                "fault size, in the unit of the study; find its miss rate")
         ->excludes(rate);
-    add_number(*command, "--noise-level", options->noise_level,
+    add_number(command, "--noise-level", options.noise_level,
                "one of sensor.noise_levels (default: 1, or the first above 0)");
-    add_number(*command, "--gearboxes", options->gearboxes,
+    add_number(command, "--gearboxes", options.gearboxes,
                "number of gearboxes of each level (default: 1000)");
-    add_json(*command, options->json);
-    command->add_flag("--quiet", options->quiet, "show no progress");
-    add_force(*command, options->force);
-    command->callback([options, &code] { code = rare_command(*options); });
+    add_json(command, options.json);
+    command.add_flag("--quiet", options.quiet, "show no progress");
+    add_force(command, options.force);
 }
 
 }  // namespace gearpod::mc

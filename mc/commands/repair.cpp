@@ -6,13 +6,12 @@
 
 #include <cerrno>
 #include <cstring>
-#include <exception>
 #include <stdexcept>
 
 #include "mc/commands/commands.hpp"
+#include "mc/commands/options/options.hpp"
 #include "mc/ensemble/results_check.hpp"
 #include "mc/files/file_descriptor.hpp"
-#include "mc/files/input/problems.hpp"
 #include "mc/library/run/run_options.hpp"
 #include "mc/results/file_checksum.hpp"
 #include "mc/results/result_rows.hpp"
@@ -25,35 +24,21 @@ struct RepairOptions {
     std::string results;
 };
 
-// Throws std::runtime_error unless the file can be read completely and holds values that a run may
-// write.
-void check_contents(const std::string& path) {
+int repair_command(const RepairOptions& options) {
+    const std::string& path = options.results;
+    const bool intact = check_file_checksum(path) == ChecksumState::intact;
+    // Throws unless the file can be read completely and holds values that a run may write.
     const Results results = read_unverified_results(path);
     if (results.provenance_value("kind") != kLivesKind) {
         check_results(path, results, ColumnRows(results));
     }
-}
-
-void renew_hash(const std::string& path) {
+    if (intact) {
+        fmt::print("{}: its integrity hash fits its contents; nothing to repair\n", path);
+        return kDone;
+    }
     const Descriptor file(::open(path.c_str(), O_RDWR | O_CLOEXEC));
     if (file.get() < 0 || !write_checksum(file.get()) || ::fsync(file.get()) != 0) {
         throw std::runtime_error(path + ": cannot be written (" + std::strerror(errno) + ")");
-    }
-}
-
-int repair_command(const RepairOptions& options) {
-    const std::string& path = options.results;
-    try {
-        const bool intact = check_file_checksum(path) == ChecksumState::intact;
-        check_contents(path);
-        if (intact) {
-            fmt::print("{}: its integrity hash fits its contents; nothing to repair\n", path);
-            return kDone;
-        }
-        renew_hash(path);
-    } catch (const std::exception& error) {
-        fmt::print(stderr, "{}\n", exception_text(error));
-        return kBadInput;
     }
     fmt::print(
         "{}: can be read completely and has a new integrity hash; changes of its contents before "
@@ -65,13 +50,12 @@ int repair_command(const RepairOptions& options) {
 }  // namespace
 
 void add_repair(CLI::App& app, int& code) {
-    const auto options = std::make_shared<RepairOptions>();
-    auto* command = app.add_subcommand(
-        "repair",
+    const auto [command, options] = add_command<RepairOptions>(
+        app, code, "repair",
         "renew the integrity hash of a results file that another program has changed on purpose or "
-        "written anew; the file is read completely first");
-    command->add_option("results", options->results, "results file (HDF5)")->required();
-    command->callback([options, &code] { code = repair_command(*options); });
+        "written anew; the file is read completely first",
+        reporting<repair_command>);
+    command.add_option("results", options.results, "results file (HDF5)")->required();
 }
 
 }  // namespace gearpod::mc

@@ -8,25 +8,23 @@
 namespace gearpod::mc {
 
 void add_run(CLI::App& app, int& code) {
-    const auto options = std::make_shared<RunOptions>();
-    auto* command = app.add_subcommand("run", "simulate a study and report its detection rates");
-    add_study(*command, options->study);
-    add_ensemble(*command, "number of gearboxes over all fault sizes", options->study);
-    add_results(*command, *options,
-                "continue an interrupted run, or add gearboxes to a finished one",
+    const auto [command, options] = add_command<RunOptions>(
+        app, code, "run", "simulate a study and report its detection rates", run_command);
+    add_study(command, options.study);
+    add_ensemble(command, "number of gearboxes over all fault sizes", options.study);
+    add_results(command, options, "continue an interrupted run, or add gearboxes to a finished one",
                 "overwrite the results of another study or any other file; start even if the "
                 "memory may not suffice");
     command
-        ->add_option("--part", options->part,
-                     "compute part K of N of the gearboxes, e.g. 2/4; `merge` joins the parts")
+        .add_option("--part", options.part,
+                    "compute part K of N of the gearboxes, e.g. 2/4; `merge` joins the parts")
         ->type_name("K/N");
-    add_progress(*command, *options);
-    command->add_option("--watch", options->watch,
-                        "feature whose detection rate the progress shows");
+    add_progress(command, options);
+    command.add_option("--watch", options.watch, "feature whose detection rate the progress shows");
     command
-        ->add_option_function<std::vector<std::string>>(
+        .add_option_function<std::vector<std::string>>(
             "--signals",
-            [&run = *options](const std::vector<std::string>& rows) {
+            [&run = options](const std::vector<std::string>& rows) {
                 for (const std::string& row : rows) {
                     run.signals.push_back(whole_number(row));
                 }
@@ -37,8 +35,7 @@ void add_run(CLI::App& app, int& code) {
         ->check(number_check(NumberForm::whole, {}))
         ->delimiter(',')
         ->allow_extra_args(false);
-    command->add_flag("--quiet", options->quiet, "print problems only");
-    command->callback([options, &code] { code = run_command(*options); });
+    command.add_flag("--quiet", options.quiet, "print problems only");
 }
 
 }  // namespace gearpod::mc

@@ -5,6 +5,7 @@
 
 #include "mc/commands/commands.hpp"
 #include "mc/commands/options/options.hpp"
+#include "mc/commands/output_folder.hpp"
 #include "mc/files/atomic_file.hpp"
 #include "mc/files/hdf5_data.hpp"
 #include "mc/files/input/problems.hpp"
@@ -51,23 +52,6 @@ void write_hdf5(const std::string& path, const Simulation& simulation, const Ens
         }
     }
     write_file(path, file_bytes(file));
-}
-
-// Signals as CSV, "name [unit]" in the header; all columns have the same length.
-std::string signals_csv(const std::vector<SignalColumn>& columns) {
-    std::string text;
-    for (const SignalColumn& column : columns) {
-        text += fmt::format("{}{} [{}]", text.empty() ? "" : ",", column.name, column.unit);
-    }
-    text += "\n";
-    for (std::size_t row = 0; row < columns[0].values.size(); ++row) {
-        for (std::size_t c = 0; c < columns.size(); ++c) {
-            fmt::format_to(std::back_inserter(text), "{}{:.17g}", c == 0 ? "" : ",",
-                           columns[c].values[row]);
-        }
-        text += "\n";
-    }
-    return text;
 }
 
 void print_summary(const Simulation& simulation, const std::string& out) {
@@ -127,7 +111,7 @@ int simulate_command(const SimulateOptions& options) {
     }
     try {
         if (csv) {
-            const std::string text = signals_csv(simulation.columns);
+            const std::string text = columns_csv(simulation.columns, 17, true);
             write_file(options.out, std::as_bytes(std::span(text)));
         } else if (!options.out.empty()) {
             write_hdf5(options.out, simulation, scene->ensemble());
@@ -143,18 +127,15 @@ int simulate_command(const SimulateOptions& options) {
 }  // namespace
 
 void add_simulate(CLI::App& app, int& code) {
-    const auto options = std::make_shared<SimulateOptions>();
-    auto* command =
-        app.add_subcommand("simulate", "compute the signals and features of one gearbox");
-    add_study(*command, options->study);
-    add_number(*command, "--instance", options->instance, "row of the results file, from 0")
+    const auto [command, options] = add_command<SimulateOptions>(
+        app, code, "simulate", "compute the signals and features of one gearbox", simulate_command);
+    add_study(command, options.study);
+    add_number(command, "--instance", options.instance, "row of the results file, from 0")
         ->required();
-    require_file_name(
-        command->add_option("--out", options->out, "file for the signals, .h5 or .csv"));
-    add_number(*command, "--meshes", options->meshes,
+    add_file(command, "--out", options.out, "file for the signals, .h5 or .csv");
+    add_number(command, "--meshes", options.meshes,
                "number of mesh periods (default: one planet turn)", at_least(1));
-    add_force(*command, options->force);
-    command->callback([options, &code] { code = simulate_command(*options); });
+    add_force(command, options.force);
 }
 
 }  // namespace gearpod::mc

@@ -5,6 +5,7 @@
 
 #include "mc/commands/commands.hpp"
 #include "mc/commands/options/options.hpp"
+#include "mc/commands/output_folder.hpp"
 #include "mc/library/run/command_files.hpp"
 #include "mc/library/stiffness_modes.hpp"
 #include "mc/plan/description.hpp"
@@ -20,20 +21,6 @@ struct StiffnessOptions {
     bool te = false;     // loaded static transmission error instead of the stiffness
     bool force = false;  // replaces outputs of another kind
 };
-
-std::string csv_text(const std::vector<SignalColumn>& columns) {
-    std::string text;
-    for (const SignalColumn& column : columns) {
-        text += (text.empty() ? "" : ",") + column.name;
-    }
-    for (std::size_t row = 0; row < columns.front().values.size(); ++row) {
-        for (const SignalColumn& column : columns) {
-            text +=
-                fmt::format("{}{:.9g}", &column == columns.data() ? "\n" : ",", column.values[row]);
-        }
-    }
-    return text + "\n";
-}
 
 void print_te(const GearboxPlan& gearbox) {
     for (const SceneMesh& mesh : gearbox.stiffness->meshes()) {
@@ -88,26 +75,23 @@ int stiffness_command(const StiffnessOptions& options) {
     const std::vector<SignalColumn> columns =
         options.te ? transmission_error_columns(gearbox, options.points)
                    : stiffness_columns(gearbox, options.points);
-    return write_text_to(options.csv, csv_text(columns)) ? kDone : kBadInput;
+    return write_text_to(options.csv, columns_csv(columns, 9, false)) ? kDone : kBadInput;
 }
 
 }  // namespace
 
 void add_stiffness(CLI::App& app, int& code) {
-    const auto options = std::make_shared<StiffnessOptions>();
-    auto* command =
-        app.add_subcommand("stiffness", "print the mesh stiffness over one mesh period");
-    add_study(*command, options->study);
-    require_file_name(command->add_option("--csv", options->csv,
-                                          "write the curves to a file, or - for standard output"));
-    add_number(*command, "--points", options->points, "phases of the curves (default: 1000)",
+    const auto [command, options] = add_command<StiffnessOptions>(
+        app, code, "stiffness", "print the mesh stiffness over one mesh period", stiffness_command);
+    add_study(command, options.study);
+    add_file(command, "--csv", options.csv, "write the curves to a file, or - for standard output");
+    add_number(command, "--points", options.points, "phases of the curves (default: 1000)",
                from_to(2, 1e6));
-    add_force(*command, options->force);
-    command->add_flag(
-        "--te", options->te,
+    add_force(command, options.force);
+    command.add_flag(
+        "--te", options.te,
         "print the static transmission error under nominal load, including tooth relief, instead "
         "of the stiffness");
-    command->callback([options, &code] { code = stiffness_command(*options); });
 }
 
 }  // namespace gearpod::mc

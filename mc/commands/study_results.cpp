@@ -21,9 +21,9 @@
 namespace gearpod::mc {
 
 void require_none(const Problems& problems) {
-    if (!problems.empty()) {
-        const std::string lines = format(problems);
-        throw std::runtime_error(lines.substr(0, lines.size() - 1));
+    if (std::string lines = format(problems); !problems.empty()) {
+        lines.pop_back();
+        throw std::runtime_error(lines);
     }
 }
 

@@ -11,18 +11,16 @@
 #include "mc/commands/commands.hpp"
 #include "mc/commands/lives.hpp"
 #include "mc/commands/options/options.hpp"
+#include "mc/commands/output_folder.hpp"
 #include "mc/ensemble/ranks.hpp"
 #include "mc/ensemble/run_store.hpp"
 #include "mc/files/input/problems.hpp"
 #include "mc/files/input/terminal_text.hpp"
-#include "mc/files/json_text.hpp"
 #include "mc/library/run/command_files.hpp"
 #include "mc/library/run/run.hpp"
 #include "mc/library/run/run_preparation.hpp"
 #include "mc/lives/campaign.hpp"
-#include "mc/report/page.hpp"
-#include "mc/report/sweep/lives_summary.hpp"
-#include "mc/report/sweep/run_summary.hpp"
+#include "mc/report/sweep/summaries.hpp"
 #include "mc/results/result_rows.hpp"
 
 namespace gearpod::mc {
@@ -140,8 +138,12 @@ class Sweep {
     int run() {
         for (std::size_t p = 0; p < points_.size(); ++p) {
             const int code = run_point(p);
+            if (ranks_.leads() && code == kResumable) {
+                fmt::print(stderr, "{} of {} points are finished; repeat the command to continue\n",
+                           p, points_.size());
+            }
             if (code != kDone && code != kSomeFailed) {
-                return stopped(p, code);
+                return code;
             }
         }
         return std::stoi(ranks_.from_leader(ranks_.leads() ? std::to_string(conclude()) : ""));
@@ -167,75 +169,46 @@ class Sweep {
         return options_.lives ? lives_study({run, "", ""}, ranks_) : run_study(run, ranks_);
     }
 
-    int stopped(std::size_t finished, int code) const {
-        if (ranks_.leads() && code == kResumable) {
-            fmt::print(stderr, "{} of {} points are finished; repeat the command to continue\n",
-                       finished, points_.size());
-        }
-        return code;
-    }
-
-    // Summary of all points.
-    struct SweepSummary {
-        std::string text;
-        nlohmann::ordered_json json;
-        bool failed = false;               // some gearboxes failed
-        std::vector<std::string> results;  // results files
-    };
-
-    SweepSummary summary_of(const std::string& title) const {
-        SweepSummary summary;
-        for (const SweepPoint& point : points_) {
-            summary.results.push_back(results_path(run_of(options_, point)));
-        }
-        const auto take = [&](const auto& sweep, const analysis::Report& report, auto json) {
-            summary.text = analysis::report_text(report);
-            summary.json = std::move(json);
-            summary.failed = std::ranges::any_of(
-                sweep.points, [](const auto& point) { return point.failed > 0; });
-        };
-        if (options_.lives) {
-            const LivesSweep sweep = summarise_lives(title, keys_, points_, summary.results);
-            take(sweep, lives_sweep_report(sweep), lives_sweep_json(sweep));
-        } else {
-            const RunSweep sweep =
-                summarise_runs(title, keys_, points_, summary.results, thread_count());
-            take(sweep, sweep_report(sweep), sweep_json(sweep));
-        }
-        return summary;
-    }
-
-    // Writes JSON and page if requested. Returns false after printing a problem.
-    bool write_files(const nlohmann::ordered_json& json) const {
-        return (options_.json.empty() || write_text_to(options_.json, json_text(json, 2) + "\n")) &&
-               (options_.html.empty() ||
-                write_text_to(options_.html, report_page(json_text(json))));
-    }
-
     int conclude() const {
-        SweepSummary sweep_summary;
+        std::vector<std::string> results;  // files
+        for (const SweepPoint& point : points_) {
+            results.push_back(results_path(run_of(options_, point)));
+        }
         try {
             const auto study = read_study(options_.study.path, options_.study.overrides).study;
             const std::string title = study ? printable(study->title) : "";
-            sweep_summary = summary_of(title);
-            if (!write_files(sweep_summary.json)) {
-                return kBadInput;
+            if (options_.lives) {
+                const LivesSweep sweep = summarise_lives(title, keys_, points_, results);
+                return show(sweep.points, lives_sweep_report(sweep), lives_sweep_json(sweep));
             }
+            const RunSweep sweep = summarise_runs(title, keys_, points_, results, thread_count());
+            return show(sweep.points, sweep_report(sweep), sweep_json(sweep));
         } catch (const std::exception& error) {
             fmt::print(stderr, "{}\n", exception_text(error));
             return kBadInput;
         }
+    }
+
+    // Writes JSON and page if requested, and prints the text. Returns the exit code.
+    template <class Points>
+    int show(const Points& points, const analysis::Report& report,
+             const nlohmann::json& json) const {
+        if (!write_json_and_page(json, options_.json, options_.html)) {
+            return kBadInput;
+        }
         if (options_.json != "-") {
-            fmt::print("{}\nresults: {}\n", sweep_summary.text, folder_of(options_));
+            fmt::print("{}\nresults: {}\n", analysis::report_text(report), folder_of(options_));
             if (!options_.html.empty()) {
                 fmt::print("page: {}\n", options_.html);
             }
-            if (sweep_summary.results.size() > 1 && !options_.lives) {
+            if (points.size() > 1 && !options_.lives) {
                 fmt::print("all differences of two points: gearpod compare {} {}\n",
-                           sweep_summary.results[0], sweep_summary.results[1]);
+                           points[0].results, points[1].results);
             }
         }
-        return sweep_summary.failed ? kSomeFailed : kDone;
+        return std::ranges::any_of(points, [](const auto& point) { return point.failed > 0; })
+                   ? kSomeFailed
+                   : kDone;
     }
 
     const SweepOptions& options_;
@@ -293,33 +266,30 @@ int sweep_command(const SweepOptions& options) {
 }  // namespace
 
 void add_sweep(CLI::App& app, int& code) {
-    const auto options = std::make_shared<SweepOptions>();
-    auto* command = app.add_subcommand(
-        "sweep",
+    const auto [command, options] = add_command<SweepOptions>(
+        app, code, "sweep",
         "run a study at every combination of some key values, with the same random numbers, and "
-        "compare the results; finished points are not computed again");
-    add_study(*command, options->study);
+        "compare the results; finished points are not computed again",
+        sweep_command);
+    add_study(command, options.study);
     command
-        ->add_option("--vary", options->vary,
-                     "key to vary and its values, e.g. sensor.noise_m_s2=[0.5,1,2]; repeat the "
-                     "option for more keys")
+        .add_option("--vary", options.vary,
+                    "key to vary and its values, e.g. sensor.noise_m_s2=[0.5,1,2]; repeat the "
+                    "option for more keys")
         ->type_name("SECTION.KEY=[A,B,...]")
         ->required()
         ->allow_extra_args(false);
-    command->add_flag("--lives", options->lives,
-                      "run `lives` instead of `run`: cracks found before tooth failure, warning "
-                      "times and false alarms at every combination");
-    add_ensemble(*command, "number of gearboxes over all fault sizes", options->study);
-    require_file_name(
-        command->add_option("--out", options->out,
-                            "folder of the results files (default: the study's name with -sweep)"));
-    add_json(*command, options->json);
-    require_file_name(
-        command->add_option("--html", options->html, "write a page with curves to a file"));
-    command->add_flag("--force", options->force,
-                      "overwrite the results of another study or any other file");
-    command->add_flag("--quiet", options->quiet, "show no progress");
-    command->callback([options, &code] { code = sweep_command(*options); });
+    command.add_flag("--lives", options.lives,
+                     "run `lives` instead of `run`: cracks found before tooth failure, warning "
+                     "times and false alarms at every combination");
+    add_ensemble(command, "number of gearboxes over all fault sizes", options.study);
+    add_file(command, "--out", options.out,
+             "folder of the results files (default: the study's name with -sweep)");
+    add_json(command, options.json);
+    add_file(command, "--html", options.html, "write a page with curves to a file");
+    command.add_flag("--force", options.force,
+                     "overwrite the results of another study or any other file");
+    command.add_flag("--quiet", options.quiet, "show no progress");
 }
 
 }  // namespace gearpod::mc

@@ -6,7 +6,6 @@
 #include <nlohmann/json.hpp>
 
 #include "analysis/report/detection_json.hpp"
-#include "analysis/report/reliability_json.hpp"
 #include "mc/ensemble/ranks.hpp"
 #include "mc/files/input/problems.hpp"
 #include "mc/results/reliability_of_results.hpp"

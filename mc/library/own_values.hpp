@@ -20,7 +20,7 @@ struct OwnValues {
 // Detection rates, POD curves and areas under the ROC curve, with the groups, sizes, false-alarm
 // rate and confidence of a results file:
 // {"detection": {"false_alarm_rate", "confidence", "size", "level": as in detection_json.hpp},
-//  "reliability": an entry of "levels" of a feature in reliability_json.hpp, or null for too many
+//  "reliability": an entry of "levels" of a feature in detection_json.hpp, or null for too many
 //  gearboxes}
 // Throws BadInput if the number of values is not that of the rows, if the threshold records are
 // importance-sampled, or for a file of lives; std::runtime_error if the file cannot be read.

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 #include <limits>
 #include <nlohmann/json.hpp>
@@ -46,6 +45,21 @@ double threshold_of(const Results& frame, std::size_t feature) {
                : kNan;
 }
 
+std::size_t other_fault_variant(const Results& frame) {
+    const auto found = std::ranges::find(frame.variants, kOtherFault, &Variant::name);
+    return static_cast<std::size_t>(found - frame.variants.begin());
+}
+
+std::string share_text(const OtherFaultAlarms& one) {
+    return analysis::percent_text(static_cast<double>(one.alarms) /
+                                  static_cast<double>(one.tested));
+}
+
+std::string bounds_text(const OtherFaultAlarms& one) {
+    return fmt::format("{} to {}", analysis::percent_text(one.interval.lower),
+                       analysis::percent_text(one.interval.upper));
+}
+
 }  // namespace
 
 std::vector<TimeGroup> alarms_over_time(const Results& frame, const RowSource& rows) {
@@ -65,10 +79,7 @@ std::vector<TimeGroup> alarms_over_time(const Results& frame, const RowSource& r
     std::vector<TimeGroup> groups;
     double before = -std::numeric_limits<double>::infinity();
     for (const double end : ends_of(times)) {
-        TimeGroup group;
-        group.first = end;
-        group.last = end;
-        group.alarms.assign(shape.features, 0);
+        TimeGroup group{end, end, 0, {}, std::vector<long>(shape.features, 0), {}};
         std::vector<std::vector<double>> here(shape.features);
         for (std::size_t i = 0; i < times.size(); ++i) {
             if (times[i] <= before || times[i] > end) {
@@ -152,25 +163,6 @@ nlohmann::json alarms_json(const Results& frame, const std::vector<TimeGroup>& g
     return json;
 }
 
-namespace {
-
-std::size_t other_fault_variant(const Results& frame) {
-    const auto found = std::ranges::find(frame.variants, kOtherFault, &Variant::name);
-    return static_cast<std::size_t>(found - frame.variants.begin());
-}
-
-std::string share_text(const OtherFaultAlarms& one) {
-    return analysis::percent_text(static_cast<double>(one.alarms) /
-                                  static_cast<double>(one.tested));
-}
-
-std::string bounds_text(const OtherFaultAlarms& one) {
-    return fmt::format("{} to {}", analysis::percent_text(one.interval.lower),
-                       analysis::percent_text(one.interval.upper));
-}
-
-}  // namespace
-
 std::vector<OtherFaultAlarms> other_fault_alarms(const Results& frame, const RowSource& rows) {
     const RowShape shape = row_shape(frame);
     const std::size_t variant = other_fault_variant(frame);
@@ -209,7 +201,7 @@ std::vector<OtherFaultAlarms> other_fault_alarms(const Results& frame, const Row
     return all;
 }
 
-std::string other_fault_limit(const Results& frame, std::string fault,
+std::string other_fault_limit(const Results& frame, const std::string& fault,
                               const std::vector<OtherFaultAlarms>& alarms,
                               const std::string& feature, std::size_t level) {
     const auto found = std::ranges::find_if(alarms, [&](const OtherFaultAlarms& one) {
@@ -218,12 +210,11 @@ std::string other_fault_limit(const Results& frame, std::string fault,
     if (found == alarms.end()) {
         return "";
     }
-    fault.front() = static_cast<char>(std::toupper(static_cast<unsigned char>(fault.front())));
     return fmt::format(
         "{} raises this alarm in {} of {} healthy gearboxes ({}; {} at {} confidence), against {} "
         "without it.",
-        fault, found->alarms, found->tested, share_text(*found), bounds_text(*found),
-        analysis::percent_text(frame.request.confidence), found->without);
+        analysis::capitalised(fault), found->alarms, found->tested, share_text(*found),
+        bounds_text(*found), analysis::percent_text(frame.request.confidence), found->without);
 }
 
 analysis::Section other_fault_section(const Results& frame, const std::string& fault,

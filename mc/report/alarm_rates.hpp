@@ -31,8 +31,7 @@ std::vector<TimeGroup> alarms_over_time(const Results& frame, const RowSource& r
 analysis::Section alarms_section(const Results& frame, const std::vector<TimeGroup>& groups,
                                  const std::vector<std::size_t>& ranked);
 
-// [{"first", "last", "recordings", "values": {feature: count}, "alarms": {feature: count or null},
-// "medians": {feature: number or null}}]
+// docs/reference/report-json.md lists the keys.
 nlohmann::json alarms_json(const Results& frame, const std::vector<TimeGroup>& groups);
 
 // Alarms that another fault than the study's raises in healthy gearboxes
@@ -53,7 +52,7 @@ std::vector<OtherFaultAlarms> other_fault_alarms(const Results& frame, const Row
 
 // Sentence on the alarms of one feature at one noise level; "" without them. `fault`: the other
 // fault in words.
-std::string other_fault_limit(const Results& frame, std::string fault,
+std::string other_fault_limit(const Results& frame, const std::string& fault,
                               const std::vector<OtherFaultAlarms>& alarms,
                               const std::string& feature, std::size_t level);
 analysis::Section other_fault_section(const Results& frame, const std::string& fault,

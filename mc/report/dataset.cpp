@@ -23,6 +23,19 @@ std::size_t split_of(Philox engine) {
     return variate < kFirstShare ? 0 : variate < kFirstShare + kSecondShare ? 1 : 2;
 }
 
+// Meaning of a column of /instances.
+std::string input_meaning(const std::string& name) {
+    if (name == kNoiseWeight) {
+        return "importance weight of the record for features of the accelerometer";
+    }
+    for (const Key& key : schema()) {
+        if (key.may_be_random() && key.column() == name) {
+            return fmt::format("{}: {}", key.path(), key.doc);
+        }
+    }
+    return "column of the recordings' list";
+}
+
 }  // namespace
 
 RowIdentities::RowIdentities(const Results& frame, const std::optional<RunFacts>& facts) {
@@ -61,23 +74,6 @@ RowIdentity RowIdentities::of_recorded(std::size_t row) const {
             split_of({seed_, Group::threshold, 0,
                       with_suffix(StreamPurpose::dataset_split, "." + name)})};
 }
-
-namespace {
-
-// Meaning of a column of /instances.
-std::string input_meaning(const std::string& name) {
-    if (name == kNoiseWeight) {
-        return "importance weight of the record for features of the accelerometer";
-    }
-    for (const Key& key : schema()) {
-        if (key.may_be_random() && key.column() == name) {
-            return fmt::format("{}: {}", key.path(), key.doc);
-        }
-    }
-    return "column of the recordings' list";
-}
-
-}  // namespace
 
 nlohmann::json dataset_json(const Results& frame, std::size_t rows, const std::string& file) {
     const bool recorded = frame.provenance_value("kind") == kRecordingsKind;

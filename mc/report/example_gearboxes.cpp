@@ -2,17 +2,13 @@
 
 #include <algorithm>
 #include <bit>
-#include <boost/math/interpolators/cardinal_cubic_b_spline.hpp>
 #include <cmath>
-#include <complex>
 #include <exception>
 #include <nlohmann/json.hpp>
-#include <numbers>
 #include <numeric>
 #include <optional>
 
 #include "analysis/report/json_values.hpp"
-#include "machine/contracts.hpp"
 #include "mc/ensemble/gearbox/gearbox_tile.hpp"
 #include "mc/ensemble/gearbox/realization_features.hpp"
 #include "mc/ensemble/gearbox/record_window.hpp"
@@ -22,57 +18,10 @@
 #include "mc/results/reliability_of_results.hpp"
 #include "signals/noise/sensor_noise.hpp"
 #include "signals/sensor/sensor_signal.hpp"
-#include "signals/spectra/fourier_transform.hpp"
 #include "signals/spectra/order_spectrum.hpp"
 #include "signals/windowing/windowing.hpp"
 
 namespace gearpod::mc {
-namespace {
-
-std::vector<std::size_t> all_of(std::size_t count) {
-    std::vector<std::size_t> indices(count);
-    std::iota(indices.begin(), indices.end(), std::size_t{0});
-    return indices;
-}
-
-// Calls use(first, last) for `count` intervals of about equal length.
-template <typename Use>
-void for_each_stretch(std::span<const double> values, std::size_t count, Use use) {
-    for (std::size_t s = 0; s < count; ++s) {
-        use(values.begin() + static_cast<std::ptrdiff_t>(s * values.size() / count),
-            values.begin() + static_cast<std::ptrdiff_t>((s + 1) * values.size() / count));
-    }
-}
-
-}  // namespace
-
-std::vector<std::size_t> extremes(std::span<const double> values, std::size_t most) {
-    EXPECTS(most >= 2);
-    if (values.size() <= most) {
-        return all_of(values.size());
-    }
-    std::vector<std::size_t> kept;
-    for_each_stretch(values, most / 2, [&](auto first, auto last) {
-        const auto [low, high] = std::minmax_element(first, last);
-        kept.push_back(static_cast<std::size_t>(std::min(low, high) - values.begin()));
-        if (low != high) {
-            kept.push_back(static_cast<std::size_t>(std::max(low, high) - values.begin()));
-        }
-    });
-    return kept;
-}
-
-std::vector<std::size_t> maxima(std::span<const double> values, std::size_t most) {
-    if (values.size() <= most) {
-        return all_of(values.size());
-    }
-    std::vector<std::size_t> kept;
-    for_each_stretch(values, most, [&](auto first, auto last) {
-        kept.push_back(static_cast<std::size_t>(std::max_element(first, last) - values.begin()));
-    });
-    return kept;
-}
-
 namespace {
 
 using Json = nlohmann::json;
@@ -80,25 +29,49 @@ using Json = nlohmann::json;
 constexpr std::size_t kMostPlottedSamples = 2000;  // plotted samples of a time signal
 constexpr std::size_t kMostLines = 500;            // plotted lines of a spectrum
 constexpr double kZoomMeshes = 2.5;  // mesh frequencies to either side of the largest line
+// Mesh periods of the signal for a spectrogram, of which the page shows windows of eight.
+constexpr int kSpectrogramMeshes = 157;
 
-Json numbers_json(std::span<const double> values, std::span<const std::size_t> indices) {
-    Json json = Json::array();
+// Ascending indices: all of them, or the largest value of each of `count` intervals of about equal
+// length, with `both` also the smallest one, so that no peak is lost.
+std::vector<std::size_t> thinned(std::span<const double> values, std::size_t count, bool both) {
+    std::vector<std::size_t> kept;
+    if (values.size() <= count * (both ? 2 : 1)) {
+        kept.resize(values.size());
+        std::iota(kept.begin(), kept.end(), std::size_t{0});
+        return kept;
+    }
+    for (std::size_t s = 0; s < count; ++s) {
+        const auto interval = values.subspan(
+            s * values.size() / count, (s + 1) * values.size() / count - s * values.size() / count);
+        auto [low, high] = std::minmax_element(interval.begin(), interval.end());
+        if (!both) {
+            low = high = std::max_element(interval.begin(), interval.end());
+        }
+        kept.push_back(static_cast<std::size_t>(&*std::min(low, high) - values.data()));
+        if (low != high) {
+            kept.push_back(static_cast<std::size_t>(&*std::max(low, high) - values.data()));
+        }
+    }
+    return kept;
+}
+
+// Values at the indices, as `y`, and place(index) of each, as `x`.
+template <typename Place>
+Json curve_json(std::span<const double> values, const std::vector<std::size_t>& indices,
+                const char* x, const char* y, Place place) {
+    Json json{{x, Json::array()}, {y, Json::array()}};
     for (const std::size_t i : indices) {
-        json.push_back(values[i]);
+        json[x].push_back(place(i));
+        json[y].push_back(values[i]);
     }
     return json;
 }
 
-// Spectral lines first to last - 1, `resolution_Hz` apart, thinned to the largest of each interval.
-Json lines_json(std::span<const double> amplitude, std::size_t first, std::size_t last,
-                double resolution_Hz) {
-    const auto lines = amplitude.subspan(first, last - first);
-    const auto kept = maxima(lines, kMostLines);
-    Json json{{"frequency_Hz", Json::array()}, {"amplitude", numbers_json(lines, kept)}};
-    for (const std::size_t i : kept) {
-        json["frequency_Hz"].push_back(static_cast<double>(first + i) * resolution_Hz);
-    }
-    return json;
+// Mesh phase and value of each sample; of many samples the extremes of each interval.
+Json time_json(std::span<const double> values, int samples_per_mesh) {
+    return curve_json(values, thinned(values, kMostPlottedSamples / 2, true), "mesh", "value",
+                      [&](std::size_t i) { return static_cast<double>(i) / samples_per_mesh; });
 }
 
 // One-sided amplitude spectrum over the whole span.
@@ -110,105 +83,10 @@ std::vector<double> amplitudes_of(const std::vector<double>& signal) {
     return amplitude;
 }
 
-// The signal at `count` evenly spaced times from the first to the last. The places between the
-// samples follow linearly from the times, the values from a cubic spline.
-std::vector<double> evenly_spaced(std::span<const double> time_s, const std::vector<double>& signal,
-                                  std::size_t count) {
-    const boost::math::interpolators::cardinal_cubic_b_spline<double> spline(
-        signal.begin(), signal.end(), 0.0, 1.0);
-    const double first = time_s.front(),
-                 step = (time_s.back() - first) / static_cast<double>(count - 1);
-    std::vector<double> even;
-    std::size_t after = 1;
-    for (std::size_t i = 0; i < count; ++i) {
-        const double at = first + step * static_cast<double>(i);
-        while (after + 1 < time_s.size() && time_s[after] < at) {
-            ++after;
-        }
-        const double inside = (at - time_s[after - 1]) / (time_s[after] - time_s[after - 1]);
-        even.push_back(spline(static_cast<double>(after - 1) + std::clamp(inside, 0.0, 1.0)));
-    }
-    return even;
-}
-
-}  // namespace
-
-nlohmann::json spectrogram_json(std::span<const double> time_s, const std::vector<double>& signal,
-                                int samples_per_mesh, double highest_Hz) {
-    constexpr std::size_t kMostBins = 120;
-    constexpr double kLowest_dB = -60.0;
-    const std::size_t mesh = static_cast<std::size_t>(samples_per_mesh),
-                      length = kSpectrogramWindow * mesh;
-    Json json{{"time_s", Json::array()},
-              {"mesh_Hz", Json::array()},
-              {"frequency_Hz", Json::array()},
-              {"level_dB", Json::array()}};
-    if (signal.size() < length) {
-        return json;
-    }
-    const std::vector<double> even = evenly_spaced(time_s, signal, signal.size());
-    const double duration = time_s.back() - time_s.front(),
-                 step_s = duration / (static_cast<double>(signal.size()) - 1.0),
-                 line_Hz = 1.0 / (step_s * static_cast<double>(length));
-    const auto lines = std::min(length / 2, static_cast<std::size_t>(highest_Hz / line_Hz));
-    const std::size_t each = std::max<std::size_t>(1, (lines + kMostBins - 1) / kMostBins);
-    signals::FourierTransform transform(static_cast<int>(length));
-    std::vector<std::complex<double>> windowed(length), spectrum(length);
-    std::vector<std::vector<double>> amplitudes;
-    double largest = 0.0;
-    for (std::size_t first = 0; first + length <= even.size(); first += mesh) {
-        for (std::size_t i = 0; i < length; ++i) {
-            const double turn = (static_cast<double>(i) + 0.5) / static_cast<double>(length);
-            windowed[i] = even[first + i] * (0.5 - 0.5 * std::cos(2.0 * std::numbers::pi * turn));
-        }
-        transform.transform(windowed, spectrum);
-        std::vector<double>& bins = amplitudes.emplace_back();
-        for (std::size_t line = 1; line + each <= lines + 1; line += each) {
-            double peak = 0.0;
-            for (std::size_t k = line; k < line + each; ++k) {
-                peak = std::max(peak, std::abs(spectrum[k]));
-            }
-            bins.push_back(peak);
-            largest = std::max(largest, peak);
-        }
-        const double middle_s = time_s.front() + step_s * (static_cast<double>(first) +
-                                                           0.5 * static_cast<double>(length));
-        json["time_s"].push_back(middle_s);
-        // Mesh period around the middle: the time of as many samples.
-        const auto at =
-            static_cast<std::size_t>(std::ranges::lower_bound(time_s, middle_s) - time_s.begin());
-        const std::size_t from = std::clamp(at, mesh / 2, time_s.size() - 1 - mesh / 2) - mesh / 2;
-        json["mesh_Hz"].push_back(static_cast<double>(2 * (mesh / 2)) / static_cast<double>(mesh) /
-                                  (time_s[from + 2 * (mesh / 2)] - time_s[from]));
-    }
-    for (std::size_t bin = 0; bin < amplitudes.front().size(); ++bin) {
-        json["frequency_Hz"].push_back(line_Hz * (1.0 + static_cast<double>(each * bin) +
-                                                  0.5 * (static_cast<double>(each) - 1.0)));
-    }
-    for (const std::vector<double>& bins : amplitudes) {
-        Json levels = Json::array();
-        for (const double amplitude : bins) {
-            const double level = largest > 0.0 && amplitude > 0.0
-                                     ? 20.0 * std::log10(amplitude / largest)
-                                     : kLowest_dB;
-            levels.push_back(0.1 * std::round(10.0 * std::max(kLowest_dB, level)));
-        }
-        json["level_dB"].push_back(std::move(levels));
-    }
-    return json;
-}
-
-nlohmann::json time_json(std::span<const double> values, int samples_per_mesh) {
-    const auto kept = extremes(values, kMostPlottedSamples);
-    Json json{{"mesh", Json::array()}, {"value", numbers_json(values, kept)}};
-    for (const std::size_t i : kept) {
-        json["mesh"].push_back(static_cast<double>(i) / samples_per_mesh);
-    }
-    return json;
-}
-
-nlohmann::json spectrum_json(const std::vector<double>& clean, const std::vector<double>& noisy,
-                             std::size_t meshes, double period_s) {
+// Spectra over the whole band and around the largest noise-free line, one-sided amplitudes over the
+// whole span, thinned to the largest line of each interval. `meshes`: lines per mesh frequency.
+Json spectrum_json(const std::vector<double>& clean, const std::vector<double>& noisy,
+                   std::size_t meshes, double period_s) {
     const double resolution_Hz = 1.0 / (static_cast<double>(meshes) * period_s);
     const std::vector<double> without = amplitudes_of(clean), with = amplitudes_of(noisy);
     const auto top = static_cast<std::size_t>(std::max_element(without.begin() + 1, without.end()) -
@@ -217,15 +95,16 @@ nlohmann::json spectrum_json(const std::vector<double>& clean, const std::vector
     const std::size_t first = top > reach ? top - reach : 1;
     const std::size_t last = std::min(without.size(), top + reach + 1);
     const auto both = [&](std::size_t from, std::size_t to) {
-        return Json{{"clean", lines_json(without, from, to, resolution_Hz)},
-                    {"noisy", lines_json(with, from, to, resolution_Hz)}};
+        const auto lines = [&](std::span<const double> all) {
+            const auto shown = all.subspan(from, to - from);
+            return curve_json(
+                shown, thinned(shown, kMostLines, false), "frequency_Hz", "amplitude",
+                [&](std::size_t i) { return static_cast<double>(from + i) * resolution_Hz; });
+        };
+        return Json{{"clean", lines(without)}, {"noisy", lines(with)}};
     };
     return {{"whole", both(1, without.size())}, {"zoom", both(first, last)}};
 }
-
-namespace {
-
-using Json = nlohmann::json;
 
 constexpr int kStiffnessPoints = 160;  // in a mesh period
 
@@ -323,15 +202,13 @@ class Examples {
         const std::span<const double> stored(row.values.data() + shape.parameters,
                                              shape.features * shape.levels);
         // Features in Python keep their stored values.
-        for (std::size_t f = 0; f < shape.features; ++f) {
-            const bool external =
-                std::ranges::any_of(plan_.features.used, [&](const features::Feature* feature) {
-                    return feature->external && feature->name == frame_.features[f].name;
-                });
-            if (external) {
-                std::copy_n(stored.begin() + static_cast<std::ptrdiff_t>(f * shape.levels),
-                            shape.levels,
-                            values.begin() + static_cast<std::ptrdiff_t>(f * shape.levels));
+        for (std::size_t v = 0; v < stored.size(); ++v) {
+            const std::string& name = frame_.features[v / shape.levels].name;
+            const auto external = [&](const features::Feature* feature) {
+                return feature->external && feature->name == name;
+            };
+            if (std::ranges::any_of(plan_.features.used, external)) {
+                values[v] = stored[v];
             }
         }
         const double period_s =
@@ -436,17 +313,18 @@ class Examples {
                 {"tooth_rms", {{"clean", clean_rms}, {"noisy", noisy_rms}}}};
     }
 
-    // Spectrogram of the sensor without noise, from the first mesh periods of the gearbox's record.
+    // Sensor without noise over the first mesh periods of the gearbox's record, for a spectrogram.
     Json spectrogram(const GearboxId& id) const {
-        const long meshes =
-            std::min(plan_.record.span.meshes(), kSpectrogramSlices + kSpectrogramWindow - 1);
-        const Simulation simulated = simulate(plan_, id, meshes);
+        const Simulation simulated =
+            simulate(plan_, id, std::min(plan_.record.span.meshes(), kSpectrogramMeshes));
         const auto column = [&](const char* name) -> const std::vector<double>& {
             return std::ranges::find(simulated.columns, name, &SignalColumn::name)->values;
         };
         constexpr double kBeyondBand = 1.25;  // of the low-pass
-        return spectrogram_json(column("time"), column("sensor"), plan_.record.samples,
-                                kBeyondBand * plan_.features.low_pass_Hz);
+        return {{"time_s", column("time")},
+                {"sensor", column("sensor")},
+                {"samples_per_mesh", plan_.record.samples},
+                {"highest_Hz", kBeyondBand * plan_.features.low_pass_Hz}};
     }
 
     Json additional_sensors(const GearboxTile& tile, double period_s) const {
@@ -551,11 +429,6 @@ Json stiffness_json(const GearboxPlan& gearbox) {
     return json;
 }
 
-Json refusal_json(const std::string& why) {
-    return {{"examples", {{"refusal", why}, {"gearboxes", Json::array()}}},
-            {"stiffness", {{"refusal", why}}}};
-}
-
 // Returns the result of `make`, or the reason why it failed.
 template <typename Make>
 Json or_refusal(Make make) {
@@ -569,15 +442,15 @@ Json or_refusal(Make make) {
 }  // namespace
 
 nlohmann::json examples_json(const Results& frame, const RowSource& rows) {
-    const std::string text = frame.provenance_value("study");
-    if (text.empty()) {
-        return refusal_json("the file contains no study");
-    }
-    const std::string name = "study of the results";
-    const StudyScene made = make_scene(name, read_study_text(text, name));
+    const std::string text = frame.provenance_value("study"), name = "study of the results";
+    const StudyScene made =
+        text.empty() ? StudyScene() : make_scene(name, read_study_text(text, name));
     if (!made) {
-        return refusal_json("this version cannot build the study in the file: " +
-                            format(made.problems));
+        const std::string why = text.empty() ? "the file contains no study"
+                                             : "this version cannot build the study in the file: " +
+                                                   format(made.problems);
+        return {{"examples", {{"refusal", why}, {"gearboxes", Json::array()}}},
+                {"stiffness", {{"refusal", why}}}};
     }
     return {{"examples", or_refusal([&] {
                  return gearboxes_json(made.scene->tile(), made.scene->ensemble(), frame, rows);

@@ -29,28 +29,10 @@ std::string why_withheld(const CampaignPlan& plan, const Campaign& campaign);
 // `shows_withheld`: reports them all the same.
 analysis::Report lives_report(const LifeMonitor& monitor, bool shows_withheld);
 
-// Returns the results of one feature and detector: {"feature", "detector", "threshold",
-// "threshold_hours", "false_alarms": {"count", "hours", "per_1000_h", "bounds", "dispersion",
-// "expected"}, "ended", "found", "share", "share_bounds", "share_by_chance",
-// "share_at_stated_rate", "net_share", "unranked" (why it has no rank), "best_of_feature",
-// "depth_50_m",
-// "effect_depth_m", "early_alarms", "early_hours",
-// "depth_50_bound_m", "depth_90_m", "depth_90_bound_m", "warning_50_h", "warning_90_h"}; null as
-// below.
+// Results of one feature and detector, and of a campaign; docs/reference/report-json.md lists the
+// keys. A value is null if it does not exist, for example if fewer than 90 % of the cracks are
+// found.
 nlohmann::json life_result_json(const MonitoredFeature& monitored);
-
-// Returns {"kind": "lives", "title", "interval_h", "record", "baseline_records",
-// "first_depth_m", "last_depth_m", "healthy_lives": {"setting", "counting"},
-// "false_alarms_per_1000_h" (stated), "failed", "interpolation": {"first_depth_m", "first",
-// "last_depth_m", "last", "load", "smallest_depth_m", "change"}, "costs":
-// {"gearboxes", "gearbox_s", "records", "record_s"}, "withheld": why_withheld(), null if the
-// results are shown, "findings": findings_json() of the report,
-// "monitored": [life_result_json() with "alarm_h" (by life that did not fail)], "ranking": [indices
-// of "monitored", best first], "trade_offs": [{"feature", "detector", "points":
-// [{"stated_per_1000_h", "per_1000_h", "share", "depth_50_m", "depth_90_m"}]}], "fans":
-// [{"feature", "healthy_05", "healthy_50", "healthy_95" (by record), "lives": [deviations]}],
-// "lives": [{"status", "end_h", "hours", "depth_m"}]}. A value is null if it does not exist, for
-// example if fewer than 90 % of the cracks are found.
 nlohmann::json lives_json(const LifeMonitor& monitor, bool shows_withheld);
 
 }  // namespace gearpod::mc

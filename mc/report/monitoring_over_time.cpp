@@ -7,6 +7,7 @@
 #include <cstdlib>
 #include <map>
 #include <nlohmann/json.hpp>
+#include <span>
 #include <sstream>
 #include <utility>
 
@@ -41,68 +42,45 @@ struct GearboxRecords {
     std::vector<std::vector<double>> values;  // by feature
 
     bool has_baseline(std::size_t records) const {
-        return rows.size() > records &&
-               std::none_of(faulty.begin(), faulty.begin() + static_cast<std::ptrdiff_t>(records),
-                            [](char one) { return one != 0; });
+        return rows.size() > records && std::ranges::count(std::span(faulty).first(records), 0) ==
+                                            static_cast<std::ptrdiff_t>(records);
     }
 };
-
-struct RecordColumns {
-    std::vector<double> time, torque;
-    std::vector<int> group;
-    std::vector<std::vector<double>> values;
-};
-
-RecordColumns columns_of(const Results& frame, const RowSource& rows, std::size_t time,
-                         const std::optional<std::size_t>& torque) {
-    const RowShape shape = row_shape(frame);
-    RecordColumns columns;
-    columns.values.resize(shape.features);
-    for_each_row(rows, [&](const ResultRow& row) {
-        columns.group.push_back(row.group);
-        columns.time.push_back(row.values[time]);
-        if (torque) {
-            columns.torque.push_back(row.values[*torque]);
-        }
-        for (std::size_t f = 0; f < shape.features; ++f) {
-            columns.values[f].push_back(row.values[shape.value_of(f, 0)]);
-        }
-    });
-    return columns;
-}
 
 // Groups recordings by gearbox. If no recording has a gearbox name, all belong to one gearbox;
 // otherwise recordings without a name are omitted.
-std::vector<GearboxRecords> gearboxes_of(const RecordColumns& columns,
-                                         const std::vector<std::string>& names) {
-    std::map<std::string, std::vector<std::size_t>> rows_of;
-    for (std::size_t row = 0; row < columns.time.size(); ++row) {
-        rows_of[row < names.size() ? names[row] : ""].push_back(row);
-    }
+std::vector<GearboxRecords> gearboxes_of(const Results& frame, const RowSource& rows,
+                                         std::size_t time,
+                                         const std::optional<std::size_t>& torque) {
+    const RowShape shape = row_shape(frame);
+    const std::vector<std::string> names = lines_of(frame.provenance_value("recorded_gearboxes"));
+    std::map<std::string, std::vector<std::pair<double, std::size_t>>> rows_of;  // time and row
+    std::vector<std::pair<int, std::vector<double>>> all;                        // group and values
+    for_each_row(rows, [&](const ResultRow& row) {
+        rows_of[all.size() < names.size() ? names[all.size()] : ""].emplace_back(row.values[time],
+                                                                                 all.size());
+        all.emplace_back(row.group, std::vector(row.values, row.values + shape.values()));
+    });
     if (rows_of.size() > 1) {
         rows_of.erase("");
     }
     std::vector<GearboxRecords> gearboxes;
-    for (auto& [name, rows] : rows_of) {
-        std::stable_sort(rows.begin(), rows.end(), [&](std::size_t a, std::size_t b) {
-            return columns.time[a] < columns.time[b];
-        });
-        GearboxRecords one{name, rows, {}, {}, {}, {}, {}};
-        const auto in_order = [&](const std::vector<double>& all) {
-            std::vector<double> values;
-            for (const std::size_t row : all.empty() ? std::vector<std::size_t>() : one.rows) {
-                values.push_back(all[row]);
+    for (auto& [name, in_order] : rows_of) {
+        std::ranges::stable_sort(in_order, {}, &std::pair<double, std::size_t>::first);
+        GearboxRecords one{name, {}, {}, {}, {}, {}, {}};
+        one.values.resize(shape.features);
+        for (const auto& [when, row] : in_order) {
+            const auto& [group, values] = all[row];
+            one.rows.push_back(row);
+            one.healthy.push_back(group == static_cast<int>(Group::threshold));
+            one.faulty.push_back(group == static_cast<int>(Group::test));
+            one.time.push_back(when);
+            if (torque) {
+                one.torque.push_back(values[*torque]);
             }
-            return values;
-        };
-        for (const std::size_t row : rows) {
-            one.healthy.push_back(columns.group[row] == static_cast<int>(Group::threshold));
-            one.faulty.push_back(columns.group[row] == static_cast<int>(Group::test));
-        }
-        one.time = in_order(columns.time);
-        one.torque = in_order(columns.torque);
-        for (const std::vector<double>& feature : columns.values) {
-            one.values.push_back(in_order(feature));
+            for (std::size_t f = 0; f < shape.features; ++f) {
+                one.values[f].push_back(values[shape.value_of(f, 0)]);
+            }
         }
         gearboxes.push_back(std::move(one));
     }
@@ -161,7 +139,7 @@ GearboxAlarms monitor_gearbox(const GearboxRecords& gearbox, const GearboxSeries
                               const analysis::SustainedRule& rule, long& healthy_sustained) {
     GearboxAlarms watched{gearbox.name, 0, 0, {}, {}, {}, {}};
     for (std::size_t i = 0; i < deviations.size(); ++i) {
-        watched.recordings += gearbox.healthy[i] == 0 && !std::isnan(deviations[i]) ? 1 : 0;
+        watched.recordings += gearbox.healthy[i] == 0 && !std::isnan(deviations[i]);
     }
     for (const std::size_t i : analysis::detector_alarms(detector, deviations, threshold).alarms) {
         if (gearbox.healthy[i] == 0) {
@@ -238,8 +216,7 @@ class RecordingMonitor {
         }
         std::vector<std::size_t> used;
         for (std::size_t f = 0; f < frame_.features.size(); ++f) {
-            const auto& use = facts_.features;
-            if (std::find(use.begin(), use.end(), frame_.features[f].name) != use.end()) {
+            if (in_study(frame_.features[f].name)) {
                 used.push_back(f);
             }
         }
@@ -252,6 +229,9 @@ class RecordingMonitor {
   private:
     std::size_t baseline() const {
         return static_cast<std::size_t>(facts_.monitoring.baseline_records);
+    }
+    bool in_study(const std::string& feature) const {
+        return std::ranges::count(facts_.features, feature) > 0;
     }
 
     std::vector<double> deviations(const GearboxRecords& gearbox,
@@ -277,8 +257,7 @@ class RecordingMonitor {
             of_gearbox.push_back(deviations(gearbox, features));
             lives.push_back(healthy_life(gearbox, of_gearbox.back()));
         }
-        const auto& use = facts_.features;
-        if (name == kFused || std::find(use.begin(), use.end(), name) != use.end()) {
+        if (name == kFused || in_study(name)) {
             monitoring_.shown.push_back(name);
             for (std::size_t g = 0; g < gearboxes_.size(); ++g) {
                 monitoring_.gearboxes[g].deviations.push_back(of_gearbox[g]);
@@ -334,61 +313,6 @@ std::string refusal_of(const std::vector<GearboxRecords>& gearboxes, int baselin
                      healthy, baseline, kFewestHealthy);
 }
 
-}  // namespace
-
-std::optional<MonitoringOverTime> monitoring_over_time(const Results& frame,
-                                                       const RowSource& rows) {
-    const auto time = frame.parameter_index("time");
-    const auto facts = measuring_facts(frame.provenance_value("measured_by_study"));
-    if (!time || !facts || frame.provenance_value("kind") != kRecordingsKind) {
-        return std::nullopt;
-    }
-    const Monitoring& requested = facts->monitoring;
-    const auto torque =
-        requested.torque_regression ? frame.parameter_index("torque") : std::nullopt;
-    MonitoringOverTime monitoring;
-    monitoring.baseline_records = requested.baseline_records;
-    monitoring.false_alarm_rate = frame.request.false_alarm_rate;
-    monitoring.confidence = frame.request.confidence;
-    // One bad recording is in as many averages as there are recordings in an average.
-    analysis::SustainedRule& sustained = monitoring.sustained;
-    while (sustained.needed() <= requested.average_records) {
-        ++sustained.records;
-    }
-    monitoring.torque_regression = torque.has_value();
-    monitoring.names = lines_of(frame.provenance_value("recordings"));
-    const std::string& unit = frame.parameters[*time].unit;
-    monitoring.time_unit = unit == "1" ? "" : unit;
-    if (requested.torque_regression && !torque) {
-        monitoring.refusal =
-            "monitoring.torque_regression needs the torque of each recording, but the manifest "
-            "has no column torque";
-        return monitoring;
-    }
-    auto gearboxes = gearboxes_of(columns_of(frame, rows, *time, torque),
-                                  lines_of(frame.provenance_value("recorded_gearboxes")));
-    if (gearboxes.size() == 1 && gearboxes.front().name.empty()) {
-        monitoring.note =
-            "no recording names its gearbox (column gearbox): all are assumed to be of one machine";
-    }
-    std::erase_if(gearboxes, [&](const GearboxRecords& one) {
-        return !one.has_baseline(static_cast<std::size_t>(requested.baseline_records));
-    });
-    for (const GearboxRecords& gearbox : gearboxes) {
-        monitoring.healthy += std::count(gearbox.healthy.begin() + requested.baseline_records,
-                                         gearbox.healthy.end(), char{1});
-    }
-    monitoring.refusal = refusal_of(gearboxes, requested.baseline_records, monitoring.healthy);
-    if (monitoring.refusal.empty()) {
-        monitoring.watched = RecordingMonitor(frame, *facts, gearboxes, monitoring).all();
-    }
-    return monitoring;
-}
-
-// Text and JSON of the monitoring over time.
-
-namespace {
-
 std::string short_name(const std::string& name) {
     return name.substr(name.rfind('/') + 1);
 }
@@ -427,18 +351,15 @@ std::string baseline_text(const MonitoringOverTime& monitoring) {
 // Rates that the healthy recordings can set.
 std::string sample_text(const MonitoringOverTime& monitoring) {
     const double smallest = analysis::smallest_rate(monitoring.healthy);
-    std::string text = fmt::format("{} healthy recordings", monitoring.healthy);
-    text += monitoring.false_alarm_rate < smallest
-                ? fmt::format(
-                      " cannot set a threshold with a false-alarm rate of {}: the smallest "
-                      "is {}, 1 in {}, which is used instead",
-                      analysis::percent_text(monitoring.false_alarm_rate),
-                      analysis::percent_text(smallest), monitoring.healthy + 1)
-                : fmt::format(
-                      " set thresholds with an expected false-alarm rate of {}; the "
-                      "smallest that they can set is {}, 1 in {}",
-                      analysis::percent_text(monitoring.false_alarm_rate),
-                      analysis::percent_text(smallest), monitoring.healthy + 1);
+    std::string text = fmt::format(
+        fmt::runtime(
+            monitoring.false_alarm_rate < smallest
+                ? "{} healthy recordings cannot set a threshold with a false-alarm rate of "
+                  "{}: the smallest is {}, 1 in {}, which is used instead"
+                : "{} healthy recordings set thresholds with an expected false-alarm rate "
+                  "of {}; the smallest that they can set is {}, 1 in {}"),
+        monitoring.healthy, analysis::percent_text(monitoring.false_alarm_rate),
+        analysis::percent_text(smallest), monitoring.healthy + 1);
     if (!monitoring.watched.empty()) {
         text += fmt::format(
             ". With a given threshold the rate lies in {} ({} confidence, independent recordings)",
@@ -495,14 +416,59 @@ nlohmann::json series_json(const MonitoringOverTime& monitoring, const GearboxSe
     for (std::size_t f = 0; f < series.deviations.size(); ++f) {
         json["deviations"][monitoring.shown[f]] = analysis::json_of(series.deviations[f]);
     }
-    json["healthy"] = nlohmann::json::array();
-    for (const char healthy : series.healthy) {
-        json["healthy"].push_back(healthy != 0);
-    }
+    json["healthy"] = std::vector<bool>(series.healthy.begin(), series.healthy.end());
     return json;
 }
 
 }  // namespace
+
+std::optional<MonitoringOverTime> monitoring_over_time(const Results& frame,
+                                                       const RowSource& rows) {
+    const auto time = frame.parameter_index("time");
+    const auto facts = measuring_facts(frame.provenance_value("measured_by_study"));
+    if (!time || !facts || frame.provenance_value("kind") != kRecordingsKind) {
+        return std::nullopt;
+    }
+    const Monitoring& requested = facts->monitoring;
+    const auto torque =
+        requested.torque_regression ? frame.parameter_index("torque") : std::nullopt;
+    MonitoringOverTime monitoring;
+    monitoring.baseline_records = requested.baseline_records;
+    monitoring.false_alarm_rate = frame.request.false_alarm_rate;
+    monitoring.confidence = frame.request.confidence;
+    // One bad recording is in as many averages as there are recordings in an average.
+    analysis::SustainedRule& sustained = monitoring.sustained;
+    while (sustained.needed() <= requested.average_records) {
+        ++sustained.records;
+    }
+    monitoring.torque_regression = torque.has_value();
+    monitoring.names = lines_of(frame.provenance_value("recordings"));
+    const std::string& unit = frame.parameters[*time].unit;
+    monitoring.time_unit = unit == "1" ? "" : unit;
+    if (requested.torque_regression && !torque) {
+        monitoring.refusal =
+            "monitoring.torque_regression needs the torque of each recording, but the manifest "
+            "has no column torque";
+        return monitoring;
+    }
+    auto gearboxes = gearboxes_of(frame, rows, *time, torque);
+    if (gearboxes.size() == 1 && gearboxes.front().name.empty()) {
+        monitoring.note =
+            "no recording names its gearbox (column gearbox): all are assumed to be of one machine";
+    }
+    std::erase_if(gearboxes, [&](const GearboxRecords& one) {
+        return !one.has_baseline(static_cast<std::size_t>(requested.baseline_records));
+    });
+    for (const GearboxRecords& gearbox : gearboxes) {
+        monitoring.healthy += std::count(gearbox.healthy.begin() + requested.baseline_records,
+                                         gearbox.healthy.end(), char{1});
+    }
+    monitoring.refusal = refusal_of(gearboxes, requested.baseline_records, monitoring.healthy);
+    if (monitoring.refusal.empty()) {
+        monitoring.watched = RecordingMonitor(frame, *facts, gearboxes, monitoring).all();
+    }
+    return monitoring;
+}
 
 analysis::Section monitoring_section(const MonitoringOverTime& monitoring,
                                      const std::vector<std::string>& features) {
@@ -530,11 +496,10 @@ analysis::Section monitoring_section(const MonitoringOverTime& monitoring,
          "later alarms", "first alarm", "sustained alarm", "lead", "worst tooth"},
         {}};
     table.labels = 2;
-    const auto named = [&](const std::vector<std::string>& names, const std::string& name) {
-        return std::find(names.begin(), names.end(), name) != names.end();
-    };
     for (const RecordingMonitorResult& one : monitoring.watched) {
-        if (!named(features, one.feature) && !named(monitoring.shown, one.feature)) {
+        if (std::ranges::count(features, one.feature) +
+                std::ranges::count(monitoring.shown, one.feature) ==
+            0) {
             continue;
         }
         for (const GearboxAlarms& gearbox : one.gearboxes) {

@@ -23,12 +23,9 @@ constexpr std::size_t kMostNamedRows = 20;
 std::string status_meaning(int status) {
     const std::string all = std::string(", ") + kStatusMeanings + ",";
     const std::string start = fmt::format(", {} ", status);
-    const std::size_t at = all.find(start);
-    if (at == std::string::npos) {
-        return fmt::format("status {}", status);
-    }
-    const std::size_t first = at + start.size();
-    return all.substr(first, all.find(',', first) - first);
+    const std::size_t at = all.find(start), first = at + start.size();
+    return at == std::string::npos ? fmt::format("status {}", status)
+                                   : all.substr(first, all.find(',', first) - first);
 }
 
 std::string rows_text(const Failures& failures) {
@@ -45,6 +42,68 @@ std::string rows_text(const Failures& failures) {
         named.push_back(fmt::format("{} more", more));
     }
     return "Rows: " + analysis::joined(named) + ".";
+}
+
+using analysis::number_text;
+
+std::string error_size(double size, const analysis::SizeUnit& unit) {
+    return std::isfinite(size) ? analysis::with_unit(size, unit, 2) : "-";
+}
+
+analysis::Table error_table(const Results& frame,
+                            const std::vector<NumericalContribution>& contributions) {
+    analysis::Table table{"numerical",
+                          "Numerical error (rms, of Pd, of a90) and statistical error (half width "
+                          "of the interval of Pd, distance of a90 from its upper bound)",
+                          {"feature", "noise", "rms", "spread of healthy gearboxes", "of Pd",
+                           "half width of Pd", "of a90", "a90 to its bound", "larger"},
+                          {}};
+    table.labels = 2;
+    for (const NumericalContribution& one : contributions) {
+        table.rows.push_back({one.feature, "x " + number_text(one.noise_level),
+                              number_text(one.rms, 2), number_text(one.spread, 2),
+                              number_text(one.pd, 2), number_text(one.pd_half_width, 2),
+                              error_size(one.a90, frame.request.size),
+                              error_size(one.a90_interval, frame.request.size),
+                              one.numerical_dominates ? "numerical" : "statistical"});
+    }
+    return table;
+}
+
+// Share of the scatter of healthy gearboxes, with its standard error.
+std::string share_text(double value, double error, double scatter) {
+    return scatter > 0.0 && std::isfinite(value)
+               ? fmt::format("{:+.3f} +-{:.3f}", value / scatter, error / scatter)
+               : "-";
+}
+
+analysis::Table correction_table(const Results& frame,
+                                 const std::vector<NumericalContribution>& contributions) {
+    analysis::Table table{
+        "correction",
+        "Error of the run's steps over the scatter of healthy gearboxes (mean, standard error) and "
+        "detection without it",
+        {"feature", "noise", "of healthy", "of faulty", "scatter x", "change of Pd",
+         "a90 corrected", "its 95 % interval"},
+        {}};
+    table.labels = 2;
+    for (const NumericalContribution& one : contributions) {
+        if (!one.correction) {
+            continue;
+        }
+        const PairedCorrection& c = *one.correction;
+        table.rows.push_back(
+            {one.feature, "x " + number_text(one.noise_level),
+             share_text(c.healthy_bias, c.healthy_error, one.spread),
+             share_text(c.faulty_bias, c.faulty_error, one.spread), number_text(c.scatter_ratio, 3),
+             number_text(one.corrected->pd_change, 2),
+             error_size(one.corrected->a90, frame.request.size),
+             std::isfinite(one.corrected->a90_lower)
+                 ? error_size(one.corrected->a90_lower, frame.request.size) + " to " +
+                       error_size(one.corrected->a90_upper, frame.request.size)
+                 : "-"});
+    }
+    return table;
 }
 
 }  // namespace
@@ -156,72 +215,6 @@ void print_failures(const RowCounts& rows, int max_meshes) {
             max_meshes);
     }
 }
-
-namespace {
-
-using analysis::number_text;
-
-std::string error_size(double size, const analysis::SizeUnit& unit) {
-    return std::isfinite(size) ? analysis::with_unit(size, unit, 2) : "-";
-}
-
-analysis::Table error_table(const Results& frame,
-                            const std::vector<NumericalContribution>& contributions) {
-    analysis::Table table{"numerical",
-                          "Numerical error (rms, of Pd, of a90) and statistical error (half width "
-                          "of the interval of Pd, distance of a90 from its upper bound)",
-                          {"feature", "noise", "rms", "spread of healthy gearboxes", "of Pd",
-                           "half width of Pd", "of a90", "a90 to its bound", "larger"},
-                          {}};
-    table.labels = 2;
-    for (const NumericalContribution& one : contributions) {
-        table.rows.push_back({one.feature, "x " + number_text(one.noise_level),
-                              number_text(one.rms, 2), number_text(one.spread, 2),
-                              number_text(one.pd, 2), number_text(one.pd_half_width, 2),
-                              error_size(one.a90, frame.request.size),
-                              error_size(one.a90_interval, frame.request.size),
-                              one.numerical_dominates ? "numerical" : "statistical"});
-    }
-    return table;
-}
-
-// Share of the scatter of healthy gearboxes, with its standard error.
-std::string share_text(double value, double error, double scatter) {
-    return scatter > 0.0 && std::isfinite(value)
-               ? fmt::format("{:+.3f} +-{:.3f}", value / scatter, error / scatter)
-               : "-";
-}
-
-analysis::Table correction_table(const Results& frame,
-                                 const std::vector<NumericalContribution>& contributions) {
-    analysis::Table table{
-        "correction",
-        "Error of the run's steps over the scatter of healthy gearboxes (mean, standard error) and "
-        "detection without it",
-        {"feature", "noise", "of healthy", "of faulty", "scatter x", "change of Pd",
-         "a90 corrected", "its 95 % interval"},
-        {}};
-    table.labels = 2;
-    for (const NumericalContribution& one : contributions) {
-        if (!one.correction) {
-            continue;
-        }
-        const PairedCorrection& c = *one.correction;
-        table.rows.push_back(
-            {one.feature, "x " + number_text(one.noise_level),
-             share_text(c.healthy_bias, c.healthy_error, one.spread),
-             share_text(c.faulty_bias, c.faulty_error, one.spread), number_text(c.scatter_ratio, 3),
-             number_text(one.corrected->pd_change, 2),
-             error_size(one.corrected->a90, frame.request.size),
-             std::isfinite(one.corrected->a90_lower)
-                 ? error_size(one.corrected->a90_lower, frame.request.size) + " to " +
-                       error_size(one.corrected->a90_upper, frame.request.size)
-                 : "-"});
-    }
-    return table;
-}
-
-}  // namespace
 
 analysis::Section numerical_section(const Results& frame,
                                     const std::vector<NumericalContribution>& contributions) {

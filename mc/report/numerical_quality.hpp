@@ -37,8 +37,7 @@ Failures failures_of(const Results& frame, const RowSource& rows);
 // Not on the terminal, where print_failures() tells them after a run.
 analysis::Section failures_section(const Results& frame, const Failures& failures);
 
-// {"gearboxes", "diverged", "not_settled", "status_meanings", "first_rows": [{"row", "status"}],
-// "no_value": [{"name", "gearboxes": by noise level}]}
+// docs/reference/report-json.md lists the keys.
 nlohmann::json failures_json(const Results& frame, const Failures& failures);
 
 // Prints the failures of a run with their reasons.

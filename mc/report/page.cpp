@@ -55,19 +55,6 @@ std::string build_page_output(const std::string& json, const std::vector<std::st
     }
 }
 
-// Files that build_page.py makes: a line with their names and sizes (JSON), then their bytes.
-std::vector<NamedFile> build_files(const nlohmann::json& report, const std::string& kind) {
-    const std::string output = build_page_output(json_text(report), {kind});
-    std::vector<NamedFile> files;
-    std::size_t begin = output.find('\n') + 1;
-    for (const auto& [name, size] : nlohmann::json::parse(output.substr(0, begin))
-                                        .get<std::vector<std::pair<std::string, std::size_t>>>()) {
-        files.push_back({name, output.substr(begin, size)});
-        begin += size;
-    }
-    return files;
-}
-
 }  // namespace
 
 std::filesystem::path schema_path() {
@@ -82,18 +69,14 @@ std::filesystem::path schema_path() {
     return {};
 }
 
-std::string report_page(const std::string& json, const std::string& figures) {
-    return build_page_output(json, figures.empty()
-                                       ? std::vector<std::string>{}
-                                       : std::vector<std::string>{"--figures", figures});
-}
-
 void write_report_page(const std::string& json, const std::string& html,
                        const std::string& figures) {
     if (html.empty() && figures.empty()) {
         return;
     }
-    const std::string page = report_page(json, figures);
+    const std::string page =
+        build_page_output(json, figures.empty() ? std::vector<std::string>{}
+                                                : std::vector<std::string>{"--figures", figures});
     if (!html.empty()) {
         write_file(html, std::as_bytes(std::span(page)));
     }
@@ -103,17 +86,22 @@ std::string report_summary(const std::string& json) {
     return build_page_output(json, {"--pdf"});
 }
 
-std::vector<NamedFile> table_files(const nlohmann::json& report) {
-    return build_files(report, "--csv");
-}
-
-std::vector<NamedFile> dataset_files(const nlohmann::json& report) {
-    return build_files(report, "--dataset");
+std::vector<NamedFile> report_files(const nlohmann::json& report, const std::string& kind) {
+    // A line with names and sizes (JSON), then the bytes.
+    const std::string output = build_page_output(json_text(report), {kind});
+    std::vector<NamedFile> files;
+    std::size_t begin = output.find('\n') + 1;
+    for (const auto& [name, size] : nlohmann::json::parse(output.substr(0, begin))
+                                        .get<std::vector<std::pair<std::string, std::size_t>>>()) {
+        files.push_back({name, output.substr(begin, size)});
+        begin += size;
+    }
+    return files;
 }
 
 std::vector<NamedFile> evidence_files(nlohmann::json report, const std::string& file) {
     report["evidence"] = {{"file", file}, {"report_by", version_text()}};
-    return build_files(report, "--evidence");
+    return report_files(report, "--evidence");
 }
 
 }  // namespace gearpod::mc

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <numbers>
+#include <numeric>
 #include <string>
 #include <utility>
 #include <vector>
@@ -13,7 +14,6 @@
 #include "analysis/report/detection_json.hpp"
 #include "analysis/report/findings/findings.hpp"
 #include "analysis/report/json_values.hpp"
-#include "analysis/report/reliability_json.hpp"
 #include "analysis/report/wording.hpp"
 #include "features/feature.hpp"
 #include "mc/files/input/terminal_text.hpp"
@@ -24,35 +24,6 @@
 
 namespace gearpod::mc {
 namespace {
-
-struct TimeRow {
-    const char* name;
-    double (*of)(const TeamTimes&);
-};
-constexpr TimeRow kTimeRows[] = {
-    {"sampling", [](const TeamTimes& t) { return t.work.sampling; }},
-    {"stiffness", [](const TeamTimes& t) { return t.work.stiffness; }},
-    {"integration", [](const TeamTimes& t) { return t.work.integration; }},
-    {"signals", [](const TeamTimes& t) { return t.work.signals; }},
-    {"noise", [](const TeamTimes& t) { return t.work.noise; }},
-    {"features", [](const TeamTimes& t) { return t.work.features; }},
-    {"waiting", [](const TeamTimes& t) { return t.waiting; }},
-    {"output", [](const TeamTimes& t) { return t.output; }}};
-
-struct Spread {
-    double least = 0.0, sum = 0.0, most = 0.0;
-};
-
-Spread spread_of(const std::vector<TeamTimes>& teams, const TimeRow& row) {
-    Spread spread{row.of(teams[0]), 0.0, 0.0};
-    for (const TeamTimes& crew : teams) {
-        const double seconds = row.of(crew);
-        spread.least = std::min(spread.least, seconds);
-        spread.most = std::max(spread.most, seconds);
-        spread.sum += seconds;
-    }
-    return spread;
-}
 
 // Notes on results that are not those of a whole study.
 analysis::Section state_section(const Results& frame, const RowCounts& counts) {
@@ -202,63 +173,6 @@ analysis::Report report_of(const Results& frame, const RowSource& rows,
     return report;
 }
 
-}  // namespace
-
-RunFindings findings_of_run(const Results& frame, const RowSource& rows,
-                            const std::optional<analysis::Reliability>& reliability) {
-    RunFindings run{.facts = run_facts(frame.provenance_value("study")),
-                    .failures = failures_of(frame, rows),
-                    .numerical = numerical_contributions(frame, rows, reliability),
-                    .other_fault = other_fault_alarms(frame, rows),
-                    .over_time = alarms_over_time(frame, rows),
-                    .monitoring = monitoring_over_time(frame, rows),
-                    .sensors = sensor_detections(frame, rows),
-                    .contact_loss = summarise_contact_loss(frame, rows)};
-    run.report = report_of(frame, rows, reliability, run);
-    return run;
-}
-
-std::string headline_text(const analysis::Report& report) {
-    std::string text;
-    for (const char* key : {"headline", "limit.other_fault", "assumptions", "shortage"}) {
-        if (const std::string statement = statement_text(report, key); !statement.empty()) {
-            analysis::add_wrapped(text, statement, 2);
-        }
-    }
-    return text;
-}
-
-void print_computing_times(const EnsembleOutcome& outcome) {
-    const int threads = outcome.threads();
-    const std::size_t ranks = outcome.teams.size();
-    fmt::print("computing time ({} rank{}, {} thread{} in total, {:.1f} s):\n", ranks,
-               ranks == 1 ? "" : "s", threads, threads == 1 ? "" : "s", outcome.wall_s);
-    fmt::print("  {:<11} {:>7} {:>12}{}\n", "", "share", "thread s",
-               ranks > 1 ? "   per rank: least, mean, most" : "");
-    const double total = std::max(1e-9, threads * outcome.wall_s);
-    const auto print_row = [&](const char* name, const Spread& spread) {
-        fmt::print("  {:<11} {:5.1f} % {:12.2f}", name, 100.0 * spread.sum / total, spread.sum);
-        if (ranks > 1) {
-            fmt::print("   {:9.2f} {:9.2f} {:9.2f}", spread.least,
-                       spread.sum / static_cast<double>(ranks), spread.most);
-        }
-        fmt::print("\n");
-    };
-    for (const TimeRow& row : kTimeRows) {
-        print_row(row.name, spread_of(outcome.teams, row));
-    }
-    const Seconds work = outcome.work();
-    if (const long records = work.superposed + work.superposition_fallbacks; records > 0) {
-        fmt::print(
-            "  (integration: {} of {} records superposed; {} integrated in full, because a\n"
-            "  tooth pair may lose contact or the fault acts during the whole span)\n",
-            work.superposed, records, work.superposition_fallbacks);
-    }
-    fmt::print("  (output: checkpoints, written in parallel by the main thread of rank 0)\n");
-}
-
-namespace {
-
 using Json = nlohmann::json;
 
 // Numerical error compared with the statistical one; null if it was not verified.
@@ -341,6 +255,70 @@ Json noise_json(const Results& frame, const std::optional<RunFacts>& facts) {
 }
 
 }  // namespace
+
+RunFindings findings_of_run(const Results& frame, const RowSource& rows,
+                            const std::optional<analysis::Reliability>& reliability) {
+    RunFindings run{.facts = run_facts(frame.provenance_value("study")),
+                    .failures = failures_of(frame, rows),
+                    .numerical = numerical_contributions(frame, rows, reliability),
+                    .other_fault = other_fault_alarms(frame, rows),
+                    .over_time = alarms_over_time(frame, rows),
+                    .monitoring = monitoring_over_time(frame, rows),
+                    .sensors = sensor_detections(frame, rows),
+                    .contact_loss = summarise_contact_loss(frame, rows)};
+    run.report = report_of(frame, rows, reliability, run);
+    return run;
+}
+
+std::string headline_text(const analysis::Report& report) {
+    std::string text;
+    for (const char* key : {"headline", "limit.other_fault", "assumptions", "shortage"}) {
+        if (const std::string statement = statement_text(report, key); !statement.empty()) {
+            analysis::add_wrapped(text, statement, 2);
+        }
+    }
+    return text;
+}
+
+void print_computing_times(const EnsembleOutcome& outcome) {
+    const int threads = outcome.threads();
+    const std::size_t ranks = outcome.teams.size();
+    fmt::print("computing time ({} rank{}, {} thread{} in total, {:.1f} s):\n", ranks,
+               ranks == 1 ? "" : "s", threads, threads == 1 ? "" : "s", outcome.wall_s);
+    fmt::print("  {:<11} {:>7} {:>12}{}\n", "", "share", "thread s",
+               ranks > 1 ? "   per rank: least, mean, most" : "");
+    const double total = std::max(1e-9, threads * outcome.wall_s);
+    const std::pair<const char*, double (*)(const TeamTimes&)> tasks[] = {
+        {"sampling", [](const TeamTimes& t) { return t.work.sampling; }},
+        {"stiffness", [](const TeamTimes& t) { return t.work.stiffness; }},
+        {"integration", [](const TeamTimes& t) { return t.work.integration; }},
+        {"signals", [](const TeamTimes& t) { return t.work.signals; }},
+        {"noise", [](const TeamTimes& t) { return t.work.noise; }},
+        {"features", [](const TeamTimes& t) { return t.work.features; }},
+        {"waiting", [](const TeamTimes& t) { return t.waiting; }},
+        {"output", [](const TeamTimes& t) { return t.output; }}};
+    for (const auto& [name, seconds_of] : tasks) {
+        std::vector<double> seconds;
+        for (const TeamTimes& team : outcome.teams) {
+            seconds.push_back(seconds_of(team));
+        }
+        const double sum = std::accumulate(seconds.begin(), seconds.end(), 0.0);
+        fmt::print("  {:<11} {:5.1f} % {:12.2f}", name, 100.0 * sum / total, sum);
+        if (ranks > 1) {
+            fmt::print("   {:9.2f} {:9.2f} {:9.2f}", std::ranges::min(seconds),
+                       sum / static_cast<double>(ranks), std::ranges::max(seconds));
+        }
+        fmt::print("\n");
+    }
+    const Seconds work = outcome.work();
+    if (const long records = work.superposed + work.superposition_fallbacks; records > 0) {
+        fmt::print(
+            "  (integration: {} of {} records superposed; {} integrated in full, because a\n"
+            "  tooth pair may lose contact or the fault acts during the whole span)\n",
+            work.superposed, records, work.superposition_fallbacks);
+    }
+    fmt::print("  (output: checkpoints, written in parallel by the main thread of rank 0)\n");
+}
 
 nlohmann::json definition_json(std::string_view name, std::string_view unit,
                                analysis::Alarm alarm) {

@@ -146,12 +146,10 @@ OneSensor all_sensors(const std::vector<OneSensor>& sensors, bool largest) {
     OneSensor all{largest ? "largest of all" : "mean of all", sensors.front().results};
     for (std::size_t f = 0; f < all.results.features.size(); ++f) {
         FeatureResult& feature = all.results.features[f];
-        std::vector<double> joint;
+        std::vector<double> joint(all.results.group.size(),
+                                  largest ? -std::numeric_limits<double>::infinity() : 0.0);
         for (const OneSensor& sensor : sensors) {
             const std::vector<double> own = deviations(sensor.results, sensor.results.features[f]);
-            for (std::size_t row = 0; row < own.size() && joint.size() < own.size(); ++row) {
-                joint.push_back(largest ? -std::numeric_limits<double>::infinity() : 0.0);
-            }
             for (std::size_t row = 0; row < own.size(); ++row) {
                 const double n = static_cast<double>(sensors.size());
                 // A missing value stays missing.
@@ -209,26 +207,24 @@ std::string size_text(const SensorDetection& sensor, const analysis::SizeUnit& u
                            : "none";
 }
 
-std::string bounds_text(const analysis::Interval& bounds, double factor, const std::string& unit) {
+std::string bounds_text(const analysis::Interval& bounds, double factor) {
     const auto text = [&](double bound, const char* open) {
         return std::isfinite(bound) ? analysis::number_text(bound / factor) : std::string(open);
     };
-    return fmt::format("{} to {}{}{}", text(bounds.lower, "below"), text(bounds.upper, "above"),
-                       unit.empty() ? "" : " ", unit);
+    return text(bounds.lower, "below") + " to " + text(bounds.upper, "above");
 }
 
 // Change of a90 with its interval, or "-" where one of the two has no curve.
 std::string a90_change_text(const analysis::Comparison& change, const analysis::SizeUnit& unit) {
-    if (!change.a90.refusal.empty()) {
-        return "-";
-    }
-    return fmt::format("{:+.3g} ({})", change.a90.difference() / unit.per_unit(),
-                       bounds_text(change.a90.bounds, unit.per_unit(), ""));
+    return !change.a90.refusal.empty()
+               ? "-"
+               : fmt::format("{:+.3g} ({})", change.a90.difference() / unit.per_unit(),
+                             bounds_text(change.a90.bounds, unit.per_unit()));
 }
 
 std::string auc_change_text(const analysis::Comparison& change) {
     return change.auc.refusal.empty() ? fmt::format("{:+.3f} ({})", change.auc.difference(),
-                                                    bounds_text(change.auc.bounds, 1.0, ""))
+                                                    bounds_text(change.auc.bounds, 1.0))
                                       : "-";
 }
 

@@ -1,8 +1,8 @@
 #include <nlohmann/json.hpp>
 
 #include "analysis/reliability.hpp"
+#include "analysis/report/detection_json.hpp"
 #include "analysis/report/findings/findings.hpp"
-#include "analysis/report/reliability_json.hpp"
 #include "analysis/report/report.hpp"
 #include "tests/test.hpp"
 

@@ -176,28 +176,6 @@ void add_warnings(Section& section, const Findings& findings) {
     }
 }
 
-}  // namespace
-
-void add_detection(Section& section, const Findings& findings, std::size_t level) {
-    if (findings.unassessable.empty()) {
-        section.state(fmt::format("headline.{}", level), headline_text(findings, level));
-    }
-    section.add(threshold_table(findings, level));
-    section.add(rate_table(findings, level));
-}
-
-Section rates_section(const Findings& findings) {
-    Section section{"rates", "", {}};
-    if (has_sizes(findings.request)) {
-        section.add(reliable_table(findings));
-    }
-    section.add(tail_table(findings));
-    add_warnings(section, findings);
-    return section;
-}
-
-namespace {
-
 std::string curve_text(const HitMissPod& pod) {
     std::string form = form_text(pod.chosen.curve.form);
     if (pod.chosen.curve.form.free_ceiling) {
@@ -422,6 +400,24 @@ std::string condition_title(const Findings& findings, const ConditionDetection& 
 }
 
 }  // namespace
+
+void add_detection(Section& section, const Findings& findings, std::size_t level) {
+    if (findings.unassessable.empty()) {
+        section.state(fmt::format("headline.{}", level), headline_text(findings, level));
+    }
+    section.add(threshold_table(findings, level));
+    section.add(rate_table(findings, level));
+}
+
+Section rates_section(const Findings& findings) {
+    Section section{"rates", "", {}};
+    if (has_sizes(findings.request)) {
+        section.add(reliable_table(findings));
+    }
+    section.add(tail_table(findings));
+    add_warnings(section, findings);
+    return section;
+}
 
 void add_curves(Section& section, const Findings& findings, std::size_t level) {
     section.add(curve_table(findings, level));

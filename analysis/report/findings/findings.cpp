@@ -66,100 +66,6 @@ std::string unassessable_text(const Findings& findings) {
     return "";
 }
 
-}  // namespace
-
-Findings::Findings(const AssessedDetection& assessed) : AssessedDetection(assessed) {
-    count_sample(*this);
-    unassessable = unassessable_text(*this);
-    for (std::size_t n = 0; n < levels(); ++n) {
-        if (reliability != nullptr && !reliability->features.empty()) {
-            smallest.push_back(smallest_fault(*reliability, n));
-            order.push_back(in_rank_order(*reliability, n));
-        } else {
-            smallest.push_back(smallest_fault(detection, n));
-            order.emplace_back(detection.size());
-            std::iota(order.back().begin(), order.back().end(), std::size_t{0});
-        }
-    }
-}
-
-std::size_t Findings::feature(const std::string& feature_name) const {
-    const auto at =
-        std::find_if(detection.begin(), detection.end(),
-                     [&](const FeatureDetection& f) { return f.feature == feature_name; });
-    return static_cast<std::size_t>(at - detection.begin());
-}
-
-std::string Findings::unit(std::size_t feature) const {
-    return feature < units.size() ? units[feature] : "";
-}
-
-std::size_t Findings::best(std::size_t level) const {
-    return smallest[level] ? feature(smallest[level]->feature) : order[level].front();
-}
-
-std::string Findings::fault_name() const {
-    return fault.starts_with("a ") ? fault.substr(2) : fault;
-}
-
-std::string Findings::noise(std::size_t level) const {
-    return subject == Subject::recordings ? ""
-                                          : "noise x " + number_text(request.noise_levels[level]);
-}
-
-std::string Findings::at_noise(std::size_t level) const {
-    return subject == Subject::recordings ? "" : " at " + noise(level);
-}
-
-std::string Findings::probability() const {
-    return fmt::format("90 % probability at {} confidence", percent());
-}
-
-std::string Findings::bound() const {
-    return "a90/" + number_text(100.0 * request.confidence);
-}
-
-std::string Findings::percent() const {
-    return percent_text(request.confidence);
-}
-
-std::string Findings::size(const SizeEstimate& estimate, const HitMissPod& pod) const {
-    return size_estimate_text(estimate, pod.smallest, pod.largest, request.size);
-}
-
-std::string Findings::alarm_if(std::size_t feature, std::size_t level, int digits) const {
-    const LevelDetection& detected = detection[feature].levels[level];
-    const std::string shown = quantity_unit(unit(feature));
-    return std::isnan(detected.threshold)
-               ? "none"
-               : fmt::format("{} {}{}{}", alarm_symbol(detection[feature].alarm),
-                             distinct_text(detected.threshold, detected.healthy_median, digits),
-                             shown.empty() ? "" : " ", shown);
-}
-
-Section level_section(const Findings& findings, std::size_t level) {
-    Section section{fmt::format("level.{}", level), capitalised(findings.noise(level)), {}};
-    add_detection(section, findings, level);
-    if (findings.has_curves()) {
-        add_curves(section, findings, level);
-        add_influences(section, findings, level);
-    }
-    return section;
-}
-
-void add_detection_sections(Report& report, const Findings& findings) {
-    if (findings.detection.empty()) {
-        return;
-    }
-    for (std::size_t n = 0; n < findings.levels(); ++n) {
-        report.add(level_section(findings, n));
-    }
-    report.add(rates_section(findings));
-    report.add(conditions_section(findings));
-}
-
-namespace {
-
 std::string source_text(const Findings& findings, const SmallestFault& found) {
     return findings.subject == Subject::recordings
                ? found.source.feature
@@ -324,6 +230,96 @@ std::string sample_limit(const Findings& findings, const SmallestFault& found) {
 }
 
 }  // namespace
+
+Findings::Findings(const AssessedDetection& assessed) : AssessedDetection(assessed) {
+    count_sample(*this);
+    unassessable = unassessable_text(*this);
+    for (std::size_t n = 0; n < levels(); ++n) {
+        if (reliability != nullptr && !reliability->features.empty()) {
+            smallest.push_back(smallest_fault(*reliability, n));
+            order.push_back(in_rank_order(*reliability, n));
+        } else {
+            smallest.push_back(smallest_fault(detection, n));
+            order.emplace_back(detection.size());
+            std::iota(order.back().begin(), order.back().end(), std::size_t{0});
+        }
+    }
+}
+
+std::size_t Findings::feature(const std::string& feature_name) const {
+    const auto at =
+        std::find_if(detection.begin(), detection.end(),
+                     [&](const FeatureDetection& f) { return f.feature == feature_name; });
+    return static_cast<std::size_t>(at - detection.begin());
+}
+
+std::string Findings::unit(std::size_t feature) const {
+    return feature < units.size() ? units[feature] : "";
+}
+
+std::size_t Findings::best(std::size_t level) const {
+    return smallest[level] ? feature(smallest[level]->feature) : order[level].front();
+}
+
+std::string Findings::fault_name() const {
+    return fault.starts_with("a ") ? fault.substr(2) : fault;
+}
+
+std::string Findings::noise(std::size_t level) const {
+    return subject == Subject::recordings ? ""
+                                          : "noise x " + number_text(request.noise_levels[level]);
+}
+
+std::string Findings::at_noise(std::size_t level) const {
+    return subject == Subject::recordings ? "" : " at " + noise(level);
+}
+
+std::string Findings::probability() const {
+    return fmt::format("90 % probability at {} confidence", percent());
+}
+
+std::string Findings::bound() const {
+    return "a90/" + number_text(100.0 * request.confidence);
+}
+
+std::string Findings::percent() const {
+    return percent_text(request.confidence);
+}
+
+std::string Findings::size(const SizeEstimate& estimate, const HitMissPod& pod) const {
+    return size_estimate_text(estimate, pod.smallest, pod.largest, request.size);
+}
+
+std::string Findings::alarm_if(std::size_t feature, std::size_t level, int digits) const {
+    const LevelDetection& detected = detection[feature].levels[level];
+    const std::string shown = quantity_unit(unit(feature));
+    return std::isnan(detected.threshold)
+               ? "none"
+               : fmt::format("{} {}{}{}", alarm_symbol(detection[feature].alarm),
+                             distinct_text(detected.threshold, detected.healthy_median, digits),
+                             shown.empty() ? "" : " ", shown);
+}
+
+Section level_section(const Findings& findings, std::size_t level) {
+    Section section{fmt::format("level.{}", level), capitalised(findings.noise(level)), {}};
+    add_detection(section, findings, level);
+    if (findings.has_curves()) {
+        add_curves(section, findings, level);
+        add_influences(section, findings, level);
+    }
+    return section;
+}
+
+void add_detection_sections(Report& report, const Findings& findings) {
+    if (findings.detection.empty()) {
+        return;
+    }
+    for (std::size_t n = 0; n < findings.levels(); ++n) {
+        report.add(level_section(findings, n));
+    }
+    report.add(rates_section(findings));
+    report.add(conditions_section(findings));
+}
 
 std::string headline_text(const Findings& findings, std::size_t level) {
     if (!findings.unassessable.empty()) {

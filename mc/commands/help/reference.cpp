@@ -75,6 +75,39 @@ std::string words(const CLI::App& app) {
     return text.empty() ? text : text.substr(1);
 }
 
+using OrderedJson = nlohmann::ordered_json;
+
+OrderedJson option_json(const CLI::Option& option) {
+    return {{"name", option.get_name(option.get_positional(), true)},
+            {"positional", option.get_positional()},
+            {"required", option.get_required()},
+            {"type", takes_value(option) ? option.get_type_name() : std::string()},
+            {"several", option.get_items_expected_max() > 1},
+            {"meaning", option.get_description()}};
+}
+
+OrderedJson command_json(const CLI::App& command) {
+    OrderedJson all = OrderedJson::array();
+    for (const CLI::Option* option : options(command)) {
+        all.push_back(option_json(*option));
+    }
+    return {{"name", command.get_name()},
+            {"meaning", command.get_description()},
+            {"options", std::move(all)}};
+}
+
+OrderedJson feature_json(const features::Feature& feature) {
+    const char* compared[] = {"nothing", "change", "baseline", "change"};
+    return {{"name", feature.name},
+            {"title", feature.title},
+            {"unit", feature.unit},
+            {"alarm", analysis::alarm_name(feature.alarm)},
+            {"basic", feature.basic()},
+            {"from_sensor", feature.from_sensor},
+            {"compared", compared[static_cast<int>(feature.baseline_use)]},
+            {"definition", feature.doc}};
+}
+
 }  // namespace
 
 std::string man_page(const CLI::App& app, const std::string& version) {
@@ -142,59 +175,12 @@ std::string bash_completion(const CLI::App& app) {
            "complete -o filenames -F _gearpod gearpod ./gearpod\n";
 }
 
-namespace {
-
-using OrderedJson = nlohmann::ordered_json;
-
-OrderedJson option_json(const CLI::Option& option) {
-    const bool takes_value = option.get_items_expected_max() > 0;
-    OrderedJson json = OrderedJson::object();
-    json["name"] = option.get_name(option.get_positional(), true);
-    json["positional"] = option.get_positional();
-    json["required"] = option.get_required();
-    json["type"] = takes_value ? option.get_type_name() : std::string();
-    json["several"] = option.get_items_expected_max() > 1;
-    json["meaning"] = option.get_description();
-    return json;
-}
-
-OrderedJson command_json(const CLI::App& command) {
-    OrderedJson options = OrderedJson::array();
-    for (const CLI::Option* option : command.get_options(
-             [](const CLI::Option* shown) { return !shown->get_group().empty(); })) {
-        options.push_back(option_json(*option));
-    }
-    OrderedJson json = OrderedJson::object();
-    json["name"] = command.get_name();
-    json["meaning"] = command.get_description();
-    json["options"] = std::move(options);
-    return json;
-}
-
-OrderedJson feature_json(const features::Feature& feature) {
-    OrderedJson json = OrderedJson::object();
-    json["name"] = std::string(feature.name);
-    json["title"] = std::string(feature.title);
-    json["unit"] = std::string(feature.unit);
-    json["alarm"] = analysis::alarm_name(feature.alarm);
-    json["basic"] = feature.basic();
-    json["from_sensor"] = feature.from_sensor;
-    json["compared"] = feature.baseline_use == features::BaselineUse::nothing    ? "nothing"
-                       : feature.baseline_use == features::BaselineUse::baseline ? "baseline"
-                                                                                 : "change";
-    json["definition"] = std::string(feature.doc);
-    return json;
-}
-
-}  // namespace
-
 std::string reference_json(const CLI::App& app, const std::string& version) {
     OrderedJson json = OrderedJson::object();
     json["program"] = app.get_description();
     json["version"] = version;
     json["commands"] = OrderedJson::array();
-    for (const CLI::App* command :
-         app.get_subcommands([](const CLI::App* shown) { return !shown->get_group().empty(); })) {
+    for (const CLI::App* command : commands(app)) {
         json["commands"].push_back(command_json(*command));
     }
     json["exit_codes"] = {

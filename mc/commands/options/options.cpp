@@ -6,23 +6,17 @@
 #include <algorithm>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "mc/files/input/spelling.hpp"
 #include "mc/files/input/terminal_text.hpp"
+#include "mc/files/signal_error.hpp"
 #include "mc/study/schema/schema.hpp"
 
 namespace gearpod::mc {
-
-CLI::Validator number_check(NumberForm form, NumberRange range) {
-    const std::string bounds = range_text(range);
-    return CLI::Validator([form, range = std::move(range)](
-                              std::string& text) { return number_problem(text, form, range); },
-                          bounds);
-}
-
 namespace {
 
 bool is_option_word(const std::string& word) {
@@ -48,114 +42,12 @@ bool accepts(const CLI::Option& option, const std::string& word) {
         values, [&](const std::string& value) { return check_problem(option, value).empty(); });
 }
 
-// Words after an option that takes several values: indices first to end - 1.
-struct ValueRun {
-    std::size_t option, first, end;
-};
-
-struct Arguments {
-    std::vector<ValueRun> runs;
-    bool has_free_word = false;  // a word that is no option and no value of one
-};
-
-Arguments arguments_of(const CLI::App& command, const std::vector<std::string>& words) {
-    Arguments found;
-    for (std::size_t at = 0; at < words.size(); ++at) {
-        if (words[at] == "--") {
-            found.has_free_word = found.has_free_word || at + 1 < words.size();
-            break;
-        }
-        if (!is_option_word(words[at])) {
-            found.has_free_word = true;
-            continue;
-        }
-        const CLI::Option* option = command.get_option_no_throw(words[at]);
-        if (option == nullptr || option->get_items_expected_max() == 0) {
-            continue;  // unknown, a flag, or --name=value
-        }
-        if (!takes_several(*option)) {
-            ++at;
-            continue;
-        }
-        ValueRun run{at, at + 1, at + 2};
-        while (run.end < words.size() && !is_option_word(words[run.end]) &&
-               accepts(*option, words[run.end])) {
-            ++run.end;
-        }
-        run.end = std::min(run.end, words.size());
-        at = run.end - 1;
-        found.runs.push_back(run);
-    }
-    return found;
-}
-
 bool needs_file_name(const CLI::App& command) {
     const auto options = command.get_options();
     return std::ranges::any_of(options, [](const CLI::Option* option) {
         return option->get_positional() && option->get_required();
     });
 }
-
-// Leaves the last word of a run to the command: of the last run that ends with an existing file,
-// otherwise of the last run with two words.
-void leave_file_name(const std::vector<std::string>& words, std::vector<ValueRun>& runs) {
-    ValueRun* chosen = nullptr;
-    bool exists = false;
-    for (ValueRun& run : runs) {
-        std::error_code none;
-        const bool file = run.end > run.first && std::filesystem::exists(words[run.end - 1], none);
-        if (run.end - run.first >= 2 && (file || !exists)) {
-            chosen = &run;
-            exists = file;
-        }
-    }
-    if (chosen != nullptr) {
-        --chosen->end;
-    }
-}
-
-}  // namespace
-
-std::string check_problem(const CLI::Option& option, const std::string& value) {
-    // Checks are numbered; get_validator() throws beyond the last one.
-    for (int i = 0;; ++i) {
-        const CLI::Validator* check = nullptr;
-        try {
-            check = const_cast<CLI::Option&>(option).get_validator(i);
-        } catch (const CLI::OptionNotFound&) {
-            return "";
-        }
-        if (std::string why = (*check)(value); !why.empty()) {
-            return why;
-        }
-    }
-}
-
-std::vector<std::string> separate_values(const CLI::App& command,
-                                         const std::vector<std::string>& words) {
-    Arguments found = arguments_of(command, words);
-    if (!found.has_free_word && needs_file_name(command)) {
-        leave_file_name(words, found.runs);
-    }
-    std::vector<std::string> out;
-    std::size_t at = 0;
-    for (const ValueRun& run : found.runs) {
-        out.insert(out.end(), words.begin() + static_cast<std::ptrdiff_t>(at),
-                   words.begin() + static_cast<std::ptrdiff_t>(std::min(run.first, words.size())));
-        for (std::size_t value = run.first; value < run.end; ++value) {
-            if (value > run.first) {
-                out.push_back(words[run.option]);
-            }
-            out.push_back(words[value]);
-        }
-        at = run.end;
-    }
-    out.insert(out.end(), words.begin() + static_cast<std::ptrdiff_t>(std::min(at, words.size())),
-               words.end());
-    return out;
-}
-
-namespace {
 
 // Column in which the descriptions of options and commands start.
 constexpr std::size_t kDescriptionColumn = 30;
@@ -260,95 +152,6 @@ void add_whole_key(CLI::App& command, const std::string& name, const char* doc,
         ->check(number_check(NumberForm::whole, {key.range.low, key.range.high}));
 }
 
-}  // namespace
-
-int parse(CLI::App& app, int argc, char** argv, const int& code) {
-    const auto help = std::make_shared<WrappedHelp>();
-    app.formatter(help);
-    for (CLI::App* command : app.get_subcommands({})) {
-        command->formatter(help);
-    }
-    const std::vector<std::string> words = separated_arguments(app, argc, argv);
-    std::vector<const char*> pointers;
-    for (const std::string& word : words) {
-        pointers.push_back(word.c_str());
-    }
-    try {
-        app.parse(static_cast<int>(pointers.size()), pointers.data());
-    } catch (const CLI::ParseError& error) {
-        const bool failed = error.get_exit_code() != 0;
-        const std::string all = failed ? argument_problems(app) : "";
-        if (all.empty()) {
-            return app.exit(error) == 0 ? kDone : kBadInput;
-        }
-        app.exit(CLI::ValidationError(all));
-        return kBadInput;
-    }
-    return code;
-}
-
-CLI::Option* require_file_name(CLI::Option* option) {
-    return option->check([](const std::string& name) {
-        return name.empty() ? std::string("the file name is empty; give a name, or omit the option")
-                            : std::string();
-    });
-}
-
-void add_study_keys(CLI::App& command, StudyOptions& options) {
-    command
-        .add_option(
-            "--set", options.overrides,
-            "change a key of the study, e.g. ensemble.seed=7; a distribution as in [random], "
-            "e.g. 'sensor.gain={distribution=\"uniform\", low=1, high=2}'")
-        ->type_name("SECTION.KEY=VALUE")
-        ->allow_extra_args(false);
-}
-
-CLI::Option* add_study(CLI::App& command, StudyOptions& options) {
-    add_study_keys(command, options);
-    return command.add_option("study", options.path, "study file (TOML)")->required();
-}
-
-void add_ensemble(CLI::App& command, const char* instances, StudyOptions& options) {
-    add_whole_key(command, "instances", instances, options);
-    add_whole_key(command, "seed", "seed of all random numbers", options);
-}
-
-void add_json(CLI::App& command, std::string& file) {
-    require_file_name(
-        command.add_option("--json", file, "write JSON to a file, or - for standard output"));
-}
-
-void add_page(CLI::App& command, std::string& file) {
-    require_file_name(command.add_option("--html", file, "write a page with figures to a file"));
-}
-
-void add_results(CLI::App& command, RunOptions& run, const char* resume, const char* force) {
-    require_file_name(
-        command.add_option("--out", run.out, "results file (default: the study's name with .h5)"));
-    command.add_flag("--resume", run.resume, resume);
-    command.add_flag("--force", run.force, force);
-    command
-        .add_option("--time-limit", run.time_limit,
-                    "save a checkpoint and exit with code 4 before this time ends")
-        ->type_name("HH:MM:SS");
-}
-
-void add_force(CLI::App& command, bool& force) {
-    command.add_flag("--force", force, "replace existing files that are no outputs of this kind");
-}
-
-void add_progress(CLI::App& command, RunOptions& run) {
-    command
-        .add_option("--progress", run.progress,
-                    "json: print progress to stderr, one JSON object per line")
-        ->type_name("json");
-}
-
-// Options of the commands that read recordings.
-
-namespace {
-
 void add_signal_reading(CLI::App& command, SignalColumns& columns) {
     command.add_option("--sensor-unit", columns.sensor_unit.unit,
                        "unit of the acceleration, for example g; takes precedence over the file's "
@@ -377,6 +180,165 @@ void add_signal_reading(CLI::App& command, SignalColumns& columns) {
 }
 
 }  // namespace
+
+CLI::Validator number_check(NumberForm form, NumberRange range) {
+    const std::string bounds = range_text(range);
+    return CLI::Validator([form, range = std::move(range)](
+                              std::string& text) { return number_problem(text, form, range); },
+                          bounds);
+}
+
+std::string check_problem(const CLI::Option& option, const std::string& value) {
+    // Checks are numbered; get_validator() throws beyond the last one.
+    for (int i = 0;; ++i) {
+        const CLI::Validator* check = nullptr;
+        try {
+            check = const_cast<CLI::Option&>(option).get_validator(i);
+        } catch (const CLI::OptionNotFound&) {
+            return "";
+        }
+        if (std::string why = (*check)(value); !why.empty()) {
+            return why;
+        }
+    }
+}
+
+std::vector<std::string> separate_values(const CLI::App& command,
+                                         const std::vector<std::string>& words) {
+    std::vector<std::string> out;
+    bool has_free_word = false;  // a word that is no option and no value of one
+    // Name of an option in `out` before a value that may be the command's file name: the last value
+    // of several that is an existing file, otherwise the last one.
+    std::optional<std::size_t> superfluous;
+    bool exists = false;
+    for (std::size_t at = 0; at < words.size(); ++at) {
+        out.push_back(words[at]);
+        if (words[at] == "--") {
+            has_free_word = has_free_word || at + 1 < words.size();
+            out.insert(out.end(), words.begin() + static_cast<std::ptrdiff_t>(at) + 1, words.end());
+            break;
+        }
+        const std::string& name = words[at];
+        if (!is_option_word(name)) {
+            has_free_word = true;
+            continue;
+        }
+        const CLI::Option* option = command.get_option_no_throw(name);
+        if (option == nullptr || option->get_items_expected_max() == 0 || at + 1 == words.size()) {
+            continue;  // unknown, a flag, --name=value, or without its value
+        }
+        out.push_back(words[++at]);
+        const std::size_t first = at;
+        while (takes_several(*option) && at + 1 < words.size() && !is_option_word(words[at + 1]) &&
+               accepts(*option, words[at + 1])) {
+            out.insert(out.end(), {name, words[++at]});
+        }
+        std::error_code none;
+        const bool file = at > first && std::filesystem::exists(words[at], none);
+        if (at > first && (file || !exists)) {
+            superfluous = out.size() - 2;
+            exists = file;
+        }
+    }
+    if (superfluous && !has_free_word && needs_file_name(command)) {
+        out.erase(out.begin() + static_cast<std::ptrdiff_t>(*superfluous));
+    }
+    return out;
+}
+
+int parse(CLI::App& app, int argc, char** argv, const int& code) {
+    const auto help = std::make_shared<WrappedHelp>();
+    app.formatter(help);
+    for (CLI::App* command : app.get_subcommands({})) {
+        command->formatter(help);
+    }
+    const std::vector<std::string> words = separated_arguments(app, argc, argv);
+    std::vector<const char*> pointers;
+    for (const std::string& word : words) {
+        pointers.push_back(word.c_str());
+    }
+    try {
+        app.parse(static_cast<int>(pointers.size()), pointers.data());
+    } catch (const CLI::ParseError& error) {
+        const bool failed = error.get_exit_code() != 0;
+        const std::string all = failed ? argument_problems(app) : "";
+        if (all.empty()) {
+            return app.exit(error) == 0 ? kDone : kBadInput;
+        }
+        app.exit(CLI::ValidationError(all));
+        return kBadInput;
+    }
+    return code;
+}
+
+CLI::Option* add_file(CLI::App& command, const std::string& name, std::string& file,
+                      const std::string& description) {
+    return command.add_option(name, file, description)->check([](const std::string& given) {
+        return given.empty()
+                   ? std::string("the file name is empty; give a name, or omit the option")
+                   : std::string();
+    });
+}
+
+void add_study_keys(CLI::App& command, StudyOptions& options) {
+    command
+        .add_option(
+            "--set", options.overrides,
+            "change a key of the study, e.g. ensemble.seed=7; a distribution as in [random], "
+            "e.g. 'sensor.gain={distribution=\"uniform\", low=1, high=2}'")
+        ->type_name("SECTION.KEY=VALUE")
+        ->allow_extra_args(false);
+}
+
+CLI::Option* add_study(CLI::App& command, StudyOptions& options) {
+    add_study_keys(command, options);
+    return command.add_option("study", options.path, "study file (TOML)")->required();
+}
+
+void add_ensemble(CLI::App& command, const char* instances, StudyOptions& options) {
+    add_whole_key(command, "instances", instances, options);
+    add_whole_key(command, "seed", "seed of all random numbers", options);
+}
+
+void add_json(CLI::App& command, std::string& file) {
+    add_file(command, "--json", file, "write JSON to a file, or - for standard output");
+}
+
+void add_page(CLI::App& command, std::string& file) {
+    add_file(command, "--html", file, "write a page with figures to a file");
+}
+
+void add_results(CLI::App& command, RunOptions& run, const char* resume, const char* force) {
+    add_file(command, "--out", run.out, "results file (default: the study's name with .h5)");
+    command.add_flag("--resume", run.resume, resume);
+    command.add_flag("--force", run.force, force);
+    command
+        .add_option("--time-limit", run.time_limit,
+                    "save a checkpoint and exit with code 4 before this time ends")
+        ->type_name("HH:MM:SS");
+}
+
+void add_force(CLI::App& command, bool& force) {
+    command.add_flag("--force", force, "replace existing files that are no outputs of this kind");
+}
+
+void add_progress(CLI::App& command, RunOptions& run) {
+    command
+        .add_option("--progress", run.progress,
+                    "json: print progress to stderr, one JSON object per line")
+        ->type_name("json");
+}
+
+RecordingList list_of(const std::string& manifest, const std::vector<std::string>& files,
+                      Problems& problems) {
+    try {
+        return manifest.empty() ? recordings_of(files, problems)
+                                : read_manifest(manifest, problems);
+    } catch (const SignalError& error) {
+        problems.push_back({printable(error.what()), 0, "", "", ""});
+        return {};
+    }
+}
 
 void add_columns(CLI::App& command, SignalColumns& columns) {
     command.add_option(

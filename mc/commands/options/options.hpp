@@ -1,17 +1,23 @@
 // Options with numbers, which all commands read by the rules of mc/files/input/number_text.hpp.
 #pragma once
 
+#include <fmt/core.h>
+
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <exception>
 #include <limits>
 #include <memory>
 #include <optional>
 #include <string>
 #include <type_traits>
+#include <utility>
 #include <vector>
 
 #include "mc/files/input/number_text.hpp"
+#include "mc/files/input/problems.hpp"
 #include "mc/library/run/run_options.hpp"
+#include "mc/recordings/measure_recordings.hpp"
 #include "mc/recordings/recording_columns.hpp"
 
 namespace gearpod::mc {
@@ -73,8 +79,31 @@ std::vector<std::string> separate_values(const CLI::App& command,
 // kBadInput if the arguments are wrong.
 int parse(CLI::App& app, int argc, char** argv, const int& code);
 
-// Rejects an empty file name for an option that names an output file.
-CLI::Option* require_file_name(CLI::Option* option);
+// Adds a command that runs with its options, which live as long as it does.
+template <class Options>
+std::pair<CLI::App&, Options&> add_command(CLI::App& app, int& code, const std::string& name,
+                                           const std::string& description,
+                                           int (*run)(const Options&)) {
+    const auto options = std::make_shared<Options>();
+    CLI::App& command = *app.add_subcommand(name, description);
+    command.callback([options, run, &code] { code = run(*options); });
+    return {command, *options};
+}
+
+// Runs a command. Prints what it throws, which is then bad input.
+template <auto run, class Options>
+int reporting(const Options& options) {
+    try {
+        return run(options);
+    } catch (const std::exception& error) {
+        fmt::print(stderr, "{}\n", exception_text(error));
+        return kBadInput;
+    }
+}
+
+// Adds an option that names an output file and rejects an empty name.
+CLI::Option* add_file(CLI::App& command, const std::string& name, std::string& file,
+                      const std::string& description);
 
 // Adds --set SECTION.KEY=VALUE. add_study() also adds the study file as a positional argument.
 void add_study_keys(CLI::App& command, StudyOptions& options);
@@ -93,6 +122,10 @@ void add_progress(CLI::App& command, RunOptions& run);
 
 // Adds --force to a command whose outputs otherwise replace files of their own kind only.
 void add_force(CLI::App& command, bool& force);
+
+// Recordings of a manifest, or without one those of signal files or name patterns.
+RecordingList list_of(const std::string& manifest, const std::vector<std::string>& files,
+                      Problems& problems);
 
 // Adds options for the columns, units and sampling of recordings.
 void add_columns(CLI::App& command, SignalColumns& columns);

@@ -14,29 +14,6 @@ namespace {
 // Columns in which paragraphs and the values of entries start.
 constexpr std::size_t kTextColumn = 2, kValueColumn = 28;
 
-}  // namespace
-
-void print_heading(const std::string& text) {
-    fmt::print("\n{}\n", text);
-}
-
-void print_entry(const std::string& name, const std::string& value) {
-    fmt::print("  {:<25} {}\n", name, wrapped_text(value, kValueColumn));
-}
-
-void print_paragraph(const std::string& text) {
-    fmt::print("  {}\n", wrapped_text(text, kTextColumn));
-}
-
-void print_section(const DescriptionSection& section) {
-    print_heading(section.heading);
-    for (const auto& [name, text] : section.entries) {
-        name.empty() ? print_paragraph(text) : print_entry(name, text);
-    }
-}
-
-namespace {
-
 constexpr std::size_t kWidth = 80;
 
 // Elements between the first and last character of an array or inline table.
@@ -97,6 +74,25 @@ std::string wrapped_line(std::string_view line) {
 }
 
 }  // namespace
+
+void print_heading(const std::string& text) {
+    fmt::print("\n{}\n", text);
+}
+
+void print_entry(const std::string& name, const std::string& value) {
+    fmt::print("  {:<25} {}\n", name, wrapped_text(value, kValueColumn));
+}
+
+void print_paragraph(const std::string& text) {
+    fmt::print("  {}\n", wrapped_text(text, kTextColumn));
+}
+
+void print_section(const DescriptionSection& section) {
+    print_heading(section.heading);
+    for (const auto& [name, text] : section.entries) {
+        name.empty() ? print_paragraph(text) : print_entry(name, text);
+    }
+}
 
 std::string wrapped_study(std::string_view toml) {
     std::string text;

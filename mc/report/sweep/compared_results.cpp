@@ -1,9 +1,11 @@
 #include "mc/report/sweep/compared_results.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 
 #include "mc/ensemble/ranks.hpp"
 #include "mc/ensemble/results_check.hpp"
@@ -92,33 +94,20 @@ std::vector<std::string> differing_inputs(const ComparedSide& a, const ComparedS
     return lines;
 }
 
-std::vector<double> feature_column(const FeatureResult& feature,
-                                   const std::vector<std::size_t>& rows, std::size_t level,
-                                   std::size_t levels) {
+// value(row) of each row.
+template <typename Value>
+std::vector<double> column_of(const std::vector<std::size_t>& rows, Value value) {
     std::vector<double> out;
     for (const std::size_t row : rows) {
-        out.push_back(feature.values[row * levels + level]);
+        out.push_back(value(row));
     }
     return out;
-}
-
-std::vector<double> size_column(const Results& frame, const std::vector<std::size_t>& rows) {
-    std::vector<double> out;
-    for (const std::size_t row : rows) {
-        out.push_back(compared_size(frame, row));
-    }
-    return out;
-}
-
-const FeatureResult* find_result(const Results& frame, const std::string& name) {
-    return find_in(frame.features, name, &FeatureResult::name);
 }
 
 // Compares values; NaN equals NaN, because a gearbox may fail in both files.
 bool same_values(const std::vector<double>& a, const std::vector<double>& b) {
-    return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](double x, double y) {
-        return x == y || (std::isnan(x) && std::isnan(y));
-    });
+    return std::ranges::equal(
+        a, b, [](double x, double y) { return x == y || (std::isnan(x) && std::isnan(y)); });
 }
 
 void add_features(analysis::ComparedFile& file, const ComparedSide& a, const ComparedSide& b,
@@ -133,24 +122,27 @@ void add_features(analysis::ComparedFile& file, const ComparedSide& a, const Com
             }
         }
     }
-    const auto sizes_a = size_column(a.frame, rows.test_a),
-               sizes_b = size_column(b.frame, rows.test_b);
+    const auto sizes_a =
+                   column_of(rows.test_a, [&](auto row) { return compared_size(a.frame, row); }),
+               sizes_b =
+                   column_of(rows.test_b, [&](auto row) { return compared_size(b.frame, row); });
     for (const FeatureResult& feature : a.frame.features) {
-        const FeatureResult* other = find_result(b.frame, feature.name);
+        const FeatureResult* other = find_in(b.frame.features, feature.name, &FeatureResult::name);
         for (std::size_t n = 0; other != nullptr && n < levels_a.size(); ++n) {
-            const auto at = std::find(levels_b.begin(), levels_b.end(), levels_a[n]);
+            const auto at = std::ranges::find(levels_b, levels_a[n]);
             if (at == levels_b.end() || !selection.holds(feature.name, levels_a[n])) {
                 continue;
             }
             const auto m = static_cast<std::size_t>(at - levels_b.begin());
-            const auto column_a = [&](const auto& of) {
-                return feature_column(feature, of, n, levels_a.size());
+            const auto of_a = [&](std::size_t row) {
+                return feature.values[row * levels_a.size() + n];
             };
-            const auto column_b = [&](const auto& of) {
-                return feature_column(*other, of, m, levels_b.size());
+            const auto of_b = [&](std::size_t row) {
+                return other->values[row * levels_b.size() + m];
             };
-            const auto healthy_a = column_a(rows.threshold_a), test_a = column_a(rows.test_a);
-            const auto healthy_b = column_b(rows.threshold_b), test_b = column_b(rows.test_b);
+            const auto healthy_a = column_of(rows.threshold_a, of_a),
+                       healthy_b = column_of(rows.threshold_b, of_b),
+                       test_a = column_of(rows.test_a, of_a), test_b = column_of(rows.test_b, of_b);
             file.features.push_back(
                 {feature.name, levels_a[n],
                  request.paired && same_values(healthy_a, healthy_b) && same_values(test_a, test_b),
@@ -160,14 +152,15 @@ void add_features(analysis::ComparedFile& file, const ComparedSide& a, const Com
         }
     }
     const auto missing = [&](const ComparedSide& has, const ComparedSide& lacks) {
-        std::string names;
+        std::vector<std::string> names;
         for (const FeatureResult& feature : has.frame.features) {
-            if (find_result(lacks.frame, feature.name) == nullptr) {
-                names += (names.empty() ? "" : ", ") + feature.name;
+            if (std::ranges::count(lacks.frame.features, feature.name, &FeatureResult::name) == 0) {
+                names.push_back(feature.name);
             }
         }
         if (!names.empty()) {
-            file.left_out.push_back(fmt::format("{} (only in {})", names, has.path));
+            file.left_out.push_back(
+                fmt::format("{} (only in {})", fmt::join(names, ", "), has.path));
         }
     };
     missing(a, b);
@@ -212,17 +205,13 @@ std::string mismatch(const ComparedSide& a, const ComparedSide& b) {
             "detection.false_alarm_rate\n",
             b.path, two.false_alarm_rate, a.path, one.false_alarm_rate);
     }
-    const auto common = [](const auto& first, const auto& second, auto same) {
-        return std::any_of(first.begin(), first.end(), [&](const auto& x) {
-            return std::any_of(second.begin(), second.end(),
-                               [&](const auto& y) { return same(x, y); });
-        });
+    const auto common = [](const auto& first, const auto& second, auto name) {
+        return std::ranges::find_first_of(first, second, {}, name, name) != first.end();
     };
-    if (!common(a.frame.features, b.frame.features,
-                [](const auto& x, const auto& y) { return x.name == y.name; })) {
+    if (!common(a.frame.features, b.frame.features, &FeatureResult::name)) {
         text += fmt::format("{}: has no feature in common with {}\n", b.path, a.path);
     }
-    if (!common(a.frame.noise_levels, b.frame.noise_levels, std::equal_to<>())) {
+    if (!common(a.frame.noise_levels, b.frame.noise_levels, std::identity())) {
         text += fmt::format("{}: has no noise level in common with {}\n", b.path, a.path);
     }
     return text;

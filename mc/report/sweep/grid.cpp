@@ -4,9 +4,9 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <cctype>
 #include <cstddef>
 #include <map>
+#include <nlohmann/json.hpp>
 #include <regex>
 
 #include "mc/files/input/document.hpp"
@@ -19,11 +19,8 @@ namespace gearpod::mc {
 namespace {
 
 std::string toml_string(const std::string& text) {
-    std::string out = "\"";
-    for (const char c : text) {
-        out += c == '"' || c == '\\' ? fmt::format("\\{}", c) : std::string(1, c);
-    }
-    return out + "\"";
+    static const std::regex special("[\"\\\\]");
+    return "\"" + std::regex_replace(text, special, "\\$&") + "\"";
 }
 
 std::string toml_text(const Value& value) {
@@ -70,13 +67,8 @@ std::string plain_text(const std::string& toml) {
 
 // Replaces characters that are not portable in file names.
 std::string file_name(const std::string& text) {
-    std::string name;
-    for (const char c : text) {
-        const bool plain = std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_' ||
-                           c == '=' || c == '.' || c == '+' || c == '-';
-        name += plain ? std::string(1, c) : (c == '"' || c == ' ') ? "" : "-";
-    }
-    return name;
+    static const std::regex left_out("[\" ]"), other("[^A-Za-z0-9_=.+-]");
+    return std::regex_replace(std::regex_replace(text, left_out, ""), other, "-");
 }
 
 // Names a point. Inexact and long names end in a hash of the overrides.
@@ -139,6 +131,14 @@ std::string point_text(const std::vector<VariedKey>& keys, const SweepPoint& poi
             fmt::format("{}{} = {}", k > 0 ? ", " : "", short_key(keys[k].key), point.labels[k]);
     }
     return text;
+}
+
+nlohmann::json values_json(const std::vector<VariedKey>& keys, const SweepPoint& point) {
+    nlohmann::json json = nlohmann::json::object();
+    for (std::size_t k = 0; k < keys.size(); ++k) {
+        json[keys[k].key] = point.values[k];
+    }
+    return json;
 }
 
 std::vector<std::string> key_columns(const std::vector<VariedKey>& keys) {

@@ -1,6 +1,7 @@
 // Points of a sweep: one study for each combination of the values of some keys.
 #pragma once
 
+#include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <vector>
 
@@ -53,6 +54,8 @@ std::vector<std::string> key_columns(const std::vector<VariedKey>& keys);
 // than at the best one by more than scatter; `within`: names of those where it is not.
 std::string within_scatter_text(const std::string& begin, const char* beyond, std::size_t count,
                                 const std::vector<std::string>& within);
+// Values of a point by key.
+nlohmann::json values_json(const std::vector<VariedKey>& keys, const SweepPoint& point);
 // Section with what all points have in common, and their results files.
 analysis::Section files_section(const std::vector<VariedKey>& keys,
                                 const std::vector<PointResults>& points);

@@ -1,5 +1,3 @@
-#include "mc/report/sweep/lives_summary.hpp"
-
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -14,6 +12,7 @@
 #include "mc/files/input/terminal_text.hpp"
 #include "mc/lives/campaign.hpp"
 #include "mc/report/lives_report.hpp"
+#include "mc/report/sweep/summaries.hpp"
 #include "mc/results/result_rows.hpp"
 
 namespace gearpod::mc {
@@ -42,9 +41,9 @@ LivesPoint summarise_life_point(const SweepPoint& point, const std::string& resu
     const Results frame = read_frame(results);
     const FileRows rows(results, frame);
     LivesPoint summary;
-    summary.plan = check_lives(results, frame, rows);
     summary.point = point;
     summary.results = results;
+    summary.plan = check_lives(results, frame, rows);
     const Campaign campaign = campaign_of(summary.plan, frame, rows);
     summary.cracked = campaign.cracked.size();
     for (const GearboxLife& life : campaign.cracked) {
@@ -132,10 +131,7 @@ double p_of_equal_shares(const LivesPoint& a, const MonitoredFeature& at_a, cons
     analysis::PairedCounts counts;
     for (std::size_t i = 0; i < std::min(first.size(), second.size()); ++i) {
         if (first[i] >= 0 && second[i] >= 0) {
-            long analysis::PairedCounts::*const which[] = {
-                &analysis::PairedCounts::neither, &analysis::PairedCounts::only_b,
-                &analysis::PairedCounts::only_a, &analysis::PairedCounts::both};
-            ++(counts.*which[2 * first[i] + second[i]]);
+            counts.add(first[i], second[i]);
         }
     }
     return analysis::mcnemar_p_value(counts);
@@ -330,36 +326,33 @@ analysis::Report lives_sweep_report(const LivesSweep& sweep) {
 
 nlohmann::json lives_sweep_json(const LivesSweep& sweep) {
     using Json = nlohmann::json;
-    Json json{{"kind", "lives-sweep"},
-              {"title", sweep.title},
-              {"varied", analysis::json_of(sweep.keys)},
-              {"order", Json::array()},
-              {"findings", analysis::findings_json(lives_sweep_report(sweep))},
-              {"points", Json::array()}};
+    Json order = Json::array(), points = Json::array();
     for (const MonitoredFeature& one : sweep.order) {
-        json["order"].push_back({{"feature", one.feature}, {"detector", one.detector}});
+        order.push_back({{"feature", one.feature}, {"detector", one.detector}});
     }
     for (const LivesPoint& point : sweep.points) {
-        Json one{{"results", point.results},
-                 {"values", Json::object()},
-                 {"lives", point.cracked},
-                 {"failed", point.failed},
-                 {"confidence", point.plan.ensemble.request.confidence},
-                 {"false_alarms_per_1000_h", point.plan.false_alarms_per_1000_h},
-                 {"last_depth_m", point.plan.last_m},
-                 {"record", printable(point.record)},
-                 {"interpolation", analysis::fields_json(point.interpolation)},
-                 {"monitored", Json::array()},
-                 {"ranking", point.ranking}};
-        for (std::size_t k = 0; k < sweep.keys.size(); ++k) {
-            one["values"][sweep.keys[k].key] = point.point.values[k];
-        }
+        Json results = Json::array();
         for (const MonitoredFeature& monitored : point.monitored) {
-            one["monitored"].push_back(life_result_json(monitored));
+            results.push_back(life_result_json(monitored));
         }
-        json["points"].push_back(std::move(one));
+        points.push_back({{"results", point.results},
+                          {"values", values_json(sweep.keys, point.point)},
+                          {"lives", point.cracked},
+                          {"failed", point.failed},
+                          {"confidence", point.plan.ensemble.request.confidence},
+                          {"false_alarms_per_1000_h", point.plan.false_alarms_per_1000_h},
+                          {"last_depth_m", point.plan.last_m},
+                          {"record", printable(point.record)},
+                          {"interpolation", analysis::fields_json(point.interpolation)},
+                          {"monitored", results},
+                          {"ranking", point.ranking}});
     }
-    return json;
+    return {{"kind", "lives-sweep"},
+            {"title", sweep.title},
+            {"varied", analysis::json_of(sweep.keys)},
+            {"order", order},
+            {"findings", analysis::findings_json(lives_sweep_report(sweep))},
+            {"points", points}};
 }
 
 }  // namespace gearpod::mc

@@ -1,5 +1,3 @@
-#include "mc/report/sweep/run_summary.hpp"
-
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -10,19 +8,21 @@
 #include <set>
 
 #include "analysis/report/false_alarm_text.hpp"
+#include "analysis/report/json_values.hpp"
 #include "analysis/report/wording.hpp"
 #include "machine/no_value.hpp"
 #include "mc/ensemble/results_check.hpp"
 #include "mc/files/input/find_in.hpp"
 #include "mc/report/numerical_quality.hpp"
 #include "mc/report/sweep/compared_results.hpp"
+#include "mc/report/sweep/summaries.hpp"
 #include "mc/results/reliability_of_results.hpp"
 #include "mc/results/result_rows.hpp"
 
 namespace gearpod::mc {
 namespace {
 
-using OrderedJson = nlohmann::ordered_json;
+using Json = nlohmann::json;
 using Where = analysis::SizeEstimate::Where;
 
 void add_levels(const Results& frame, const analysis::Reliability& reliability,
@@ -47,16 +47,15 @@ PointSummary summarise(const SweepPoint& point, const std::string& results, int 
     check_results(results, frame, rows);
     frame.detection = detect_all(frame, rows);
     const RowCounts counts = count_rows(rows, frame.request.threshold_records);
-    PointSummary summary;
-    summary.point = point;
-    summary.results = results;
-    summary.gearboxes = counts.all;
-    summary.failed = counts.failed();
-    summary.size = frame.request.size;
-    summary.false_alarm_rate = frame.request.false_alarm_rate;
-    summary.confidence = frame.request.confidence;
-    summary.shortage = analysis::sample_shortage(frame.detection, frame.request, subject_of(frame));
-    summary.reference = reference_level(frame.noise_levels);
+    PointSummary summary{{point, results},
+                         counts.all,
+                         counts.failed(),
+                         frame.request,
+                         sample_shortage(frame.detection, frame.request, subject_of(frame)),
+                         reference_level(frame.noise_levels),
+                         {},
+                         {},
+                         {}};
     for (const analysis::SizeGroup& group : frame.request.groups) {
         if (group.high > 0.0) {
             summary.sizes.push_back(group.high);
@@ -132,7 +131,7 @@ SweepDifferences find_differences(const RunSweep& sweep) {
     const double level = best.levels[best.reference].noise_level;
     const double pairs = 0.5 * static_cast<double>(known.size() * (known.size() - 1));
     analysis::ComparisonRequest request;
-    request.confidence = 1.0 - (1.0 - best.confidence) / std::max(1.0, pairs);
+    request.confidence = 1.0 - (1.0 - best.request.confidence) / std::max(1.0, pairs);
     request.resamples = all.resamples =
         std::max(kLeastResamples, static_cast<int>(std::ceil(4.0 / (1.0 - request.confidence))));
     const ComparedSide first = read_compared(best.results);
@@ -152,111 +151,63 @@ SweepDifferences find_differences(const RunSweep& sweep) {
     return all;
 }
 
-// Size in the unit shown; null where it is not reached.
-OrderedJson size_json(const FeatureSummary& feature, const analysis::SizeEstimate& estimate,
-                      const analysis::SizeUnit& unit) {
-    return feature.has_curve && estimate.where == Where::reached
-               ? OrderedJson(estimate.size / unit.per_unit())
-               : OrderedJson(nullptr);
-}
-
-OrderedJson feature_json(const FeatureSummary& f, const analysis::SizeUnit& unit) {
-    return {{"feature", f.feature},
-            {"noise_level", f.noise_level},
-            {"auc", f.auc.auc},
-            {"auc_lower", f.auc.bounds.lower},
-            {"auc_upper", f.auc.bounds.upper},
-            {"a50", size_json(f, f.a50.estimate, unit)},
-            {"a90", size_json(f, f.a90.estimate, unit)},
-            {"a90_lower", size_json(f, f.a90.lower, unit)},
-            {"a90_bound", size_json(f, f.a90.upper, unit)},
-            {"pd", f.pd}};
-}
-
-OrderedJson point_json(const RunSweep& sweep, std::size_t p) {
+Json point_json(const RunSweep& sweep, std::size_t p) {
     const PointSummary& point = sweep.points[p];
-    const std::string unit = point.size.shown_unit();
-    OrderedJson one{{"results", point.results}};
-    for (std::size_t k = 0; k < sweep.keys.size(); ++k) {
-        one["values"][sweep.keys[k].key] = point.point.values[k];
-    }
-    one["gearboxes"] = point.gearboxes;
-    one["failed"] = point.failed;
-    one["false_alarm_rate"] = point.false_alarm_rate;
-    one["confidence"] = point.confidence;
-    one["shortage"] = point.shortage.empty() ? OrderedJson(nullptr) : OrderedJson(point.shortage);
-    one["size_name"] = point.size.name;
-    one["size_unit"] = unit.empty() ? "1" : unit;
-    one["sizes"] = OrderedJson::array();
+    const std::string unit = point.size().shown_unit();
+    const auto shown = [&](double size) {
+        return analysis::number(size / point.size().per_unit());
+    };
+    Json sizes = Json::array(), smallest = sizes, features = sizes, difference = nullptr;
     for (const double size : point.sizes) {
-        one["sizes"].push_back(size / point.size.per_unit());
+        sizes.push_back(shown(size));
     }
-    one["shown_level"] = point.levels.empty()
-                             ? OrderedJson(nullptr)
-                             : OrderedJson(point.levels[point.reference].noise_level);
-    one["smallest_fault"] = OrderedJson::array();
     for (const LevelSummary& level : point.levels) {
-        OrderedJson at{{"noise_level", level.noise_level},
-                       {"has_threshold", level.has_threshold},
-                       {"size", nullptr}};
+        smallest.push_back({{"noise_level", level.noise_level},
+                            {"has_threshold", level.has_threshold},
+                            {"size", nullptr}});
         if (level.smallest) {
-            at["size"] = level.smallest->size / point.size.per_unit();
-            at["feature"] = level.smallest->feature;
-            at["from_curve"] = level.smallest->from_curve;
+            smallest.back().update({{"size", shown(level.smallest->size)},
+                                    {"feature", level.smallest->feature},
+                                    {"from_curve", level.smallest->from_curve}});
         }
-        one["smallest_fault"].push_back(std::move(at));
     }
-    one["features"] = OrderedJson::array();
     for (const FeatureSummary& f : point.features) {
-        one["features"].push_back(feature_json(f, point.size));
-    }
-    one["a90_difference"] = nullptr;
-    if (p < sweep.differences.a90.size() && sweep.differences.a90[p].refusal.empty()) {
-        const analysis::NumberDifference& d = sweep.differences.a90[p];
-        const auto shown = [&](double value) {
-            return std::isfinite(value) ? OrderedJson(value / point.size.per_unit())
-                                        : OrderedJson(nullptr);
+        const auto size = [&](const analysis::SizeEstimate& estimate) {
+            return f.has_curve && estimate.where == Where::reached ? shown(estimate.size)
+                                                                   : Json(nullptr);
         };
-        one["a90_difference"] = {{"difference", shown(d.difference())},
-                                 {"lower", shown(d.bounds.lower)},
-                                 {"upper", shown(d.bounds.upper)}};
+        features.push_back({{"feature", f.feature},
+                            {"noise_level", f.noise_level},
+                            {"auc", f.auc.auc},
+                            {"auc_lower", f.auc.bounds.lower},
+                            {"auc_upper", f.auc.bounds.upper},
+                            {"a50", size(f.a50.estimate)},
+                            {"a90", size(f.a90.estimate)},
+                            {"a90_lower", size(f.a90.lower)},
+                            {"a90_bound", size(f.a90.upper)},
+                            {"pd", f.pd}});
     }
-    return one;
+    if (const analysis::NumberDifference* d = sweep.differences.known(p)) {
+        difference = {{"difference", shown(d->difference())},
+                      {"lower", shown(d->bounds.lower)},
+                      {"upper", shown(d->bounds.upper)}};
+    }
+    return {{"results", point.results},
+            {"values", values_json(sweep.keys, point.point)},
+            {"gearboxes", point.gearboxes},
+            {"failed", point.failed},
+            {"false_alarm_rate", point.request.false_alarm_rate},
+            {"confidence", point.request.confidence},
+            {"shortage", analysis::text_or_null(point.shortage)},
+            {"size_name", point.size().name},
+            {"size_unit", unit.empty() ? "1" : unit},
+            {"sizes", sizes},
+            {"shown_level", point.levels.empty() ? Json(nullptr)
+                                                 : Json(point.levels[point.reference].noise_level)},
+            {"smallest_fault", smallest},
+            {"features", features},
+            {"a90_difference", difference}};
 }
-
-}  // namespace
-
-RunSweep summarise_runs(const std::string& title, const std::vector<VariedKey>& keys,
-                        const std::vector<SweepPoint>& points,
-                        const std::vector<std::string>& results, int threads) {
-    RunSweep sweep{title, keys, {}, {}, {}};
-    for (std::size_t p = 0; p < points.size(); ++p) {
-        sweep.points.push_back(summarise(points[p], results[p], threads));
-    }
-    sweep.order = feature_order(sweep.points);
-    sweep.differences = find_differences(sweep);
-    return sweep;
-}
-
-nlohmann::ordered_json sweep_json(const RunSweep& sweep) {
-    OrderedJson json{{"kind", "sweep"},
-                     {"title", sweep.title},
-                     {"varied", OrderedJson::array()},
-                     {"order", sweep.order},
-                     {"findings", OrderedJson(analysis::findings_json(sweep_report(sweep)))},
-                     {"points", OrderedJson::array()}};
-    for (const VariedKey& key : sweep.keys) {
-        json["varied"].push_back({{"key", key.key}, {"values", key.values}});
-    }
-    for (std::size_t p = 0; p < sweep.points.size(); ++p) {
-        json["points"].push_back(point_json(sweep, p));
-    }
-    return json;
-}
-
-// Findings of a sweep of `run` in words.
-
-namespace {
 
 using analysis::feature_text;
 using analysis::number_text;
@@ -299,7 +250,7 @@ std::string a90_text(const FeatureSummary* f, const analysis::SizeUnit& unit) {
 
 std::string smallest_text(const PointSummary& point, const LevelSummary* level) {
     return level == nullptr  ? "-"
-           : level->smallest ? analysis::with_unit(level->smallest->size, point.size) +
+           : level->smallest ? analysis::with_unit(level->smallest->size, point.size()) +
                                    (level->smallest->from_curve ? "" : "*")
            : level->has_threshold ? "none"
                                   : "no threshold";
@@ -327,16 +278,16 @@ std::string difference_text(const RunSweep& sweep, std::size_t p) {
     if (sweep.differences.best == p) {
         return "smallest";
     }
-    if (p >= sweep.differences.a90.size() || !sweep.differences.a90[p].refusal.empty()) {
+    const analysis::NumberDifference* d = sweep.differences.known(p);
+    if (d == nullptr) {
         return "-";
     }
-    const analysis::NumberDifference& d = sweep.differences.a90[p];
-    const analysis::SizeUnit& unit = sweep.points[p].size;
+    const analysis::SizeUnit& unit = sweep.points[p].size();
     const auto bound = [&](double value) {
         return std::isfinite(value) ? signed_text(value, unit) : "open";
     };
-    return fmt::format("{} [{}, {}]", signed_text(d.difference(), unit), bound(d.bounds.lower),
-                       bound(d.bounds.upper));
+    return fmt::format("{} [{}, {}]", signed_text(d->difference(), unit), bound(d->bounds.lower),
+                       bound(d->bounds.upper));
 }
 
 std::string headline_text(const RunSweep& sweep) {
@@ -347,16 +298,17 @@ std::string headline_text(const RunSweep& sweep) {
     std::vector<const PointSummary*> found;
     std::size_t unknown = 0;
     for (const PointSummary& point : sweep.points) {
-        const LevelSummary* level = shown_level(point);
-        if (level != nullptr && level->smallest) {
-            found.push_back(&point);
+        if (const LevelSummary* level = shown_level(point)) {
+            if (level->smallest) {
+                found.push_back(&point);
+            }
+            unknown += !level->has_threshold;
         }
-        unknown += level != nullptr && !level->has_threshold;
     }
     const std::size_t all = sweep.points.size(), missing = all - found.size() - unknown;
-    const std::string begin =
-        fmt::format("Smallest fault found with 90 % probability at {} confidence, noise x {}: ",
-                    percent_text(sweep.points.front().confidence), number_text(shown->noise_level));
+    const std::string begin = fmt::format(
+        "Smallest fault found with 90 % probability at {} confidence, noise x {}: ",
+        percent_text(sweep.points.front().request.confidence), number_text(shown->noise_level));
     if (found.empty()) {
         return begin + (unknown == 0
                             ? fmt::format("none in any of {}.", studies_text(all))
@@ -367,7 +319,7 @@ std::string headline_text(const RunSweep& sweep) {
         found, {}, [](const PointSummary* point) { return shown_level(*point)->smallest->size; });
     const auto at = [&](const PointSummary& point) {
         return fmt::format("{} by {} at {}",
-                           analysis::with_unit(shown_level(point)->smallest->size, point.size),
+                           analysis::with_unit(shown_level(point)->smallest->size, point.size()),
                            feature_text(shown_level(point)->smallest->feature),
                            point_text(sweep.keys, point.point));
     };
@@ -390,19 +342,18 @@ std::string differences_text(const RunSweep& sweep) {
     std::vector<std::string> within;
     std::size_t larger = 0;
     for (std::size_t p = 0; p < all.a90.size(); ++p) {
-        if (p == *all.best || !all.a90[p].refusal.empty()) {
-            continue;
-        }
-        if (all.a90[p].bounds.lower > 0.0) {
+        const analysis::NumberDifference* d = p == *all.best ? nullptr : all.known(p);
+        if (d != nullptr && d->bounds.lower > 0.0) {
             ++larger;
-        } else {
+        } else if (d != nullptr) {
             within.push_back(point_text(sweep.keys, sweep.points[p].point));
         }
     }
     const FeatureSummary* feature = find_feature(best, all.feature, shown_level(best)->noise_level);
-    const std::string begin = fmt::format(
-        "By {} a90 is smallest at {}, {} {}.", feature_text(all.feature),
-        point_text(sweep.keys, best.point), a90_text(feature, best.size), best.size.shown_unit());
+    const std::string begin =
+        fmt::format("By {} a90 is smallest at {}, {} {}.", feature_text(all.feature),
+                    point_text(sweep.keys, best.point), a90_text(feature, best.size()),
+                    best.size().shown_unit());
     if (larger + within.size() == 0) {
         return begin + " No other point has an a90 to compare.";
     }
@@ -413,7 +364,7 @@ std::string differences_text(const RunSweep& sweep) {
                all.resamples,
                all.paired ? "the gearboxes that the points have in common"
                           : "gearboxes, which differ between some points",
-               percent_text(best.confidence));
+               percent_text(best.request.confidence));
 }
 
 Table points_table(const RunSweep& sweep, const std::set<double>& levels) {
@@ -426,7 +377,7 @@ Table points_table(const RunSweep& sweep, const std::set<double>& levels) {
     }
     const std::string at = shown == nullptr ? "" : ", noise x " + number_text(shown->noise_level);
     table.columns.push_back("by" + at);
-    table.columns.push_back(analysis::in_unit("its a90", first.size));
+    table.columns.push_back(analysis::in_unit("its a90", first.size()));
     table.columns.emplace_back("its area under the ROC");
     if (sweep.differences.best) {
         table.columns.push_back(
@@ -443,7 +394,7 @@ Table points_table(const RunSweep& sweep, const std::set<double>& levels) {
         const FeatureSummary* feature =
             best.empty() ? nullptr : find_feature(point, best, shown_level(point)->noise_level);
         row.push_back(best.empty() ? "-" : best);
-        row.push_back(a90_text(feature, point.size));
+        row.push_back(a90_text(feature, point.size()));
         row.push_back(
             feature == nullptr ? "-" : analysis::area_text(feature->auc.auc, feature->auc.bounds));
         if (sweep.differences.best) {
@@ -483,14 +434,14 @@ Section features_section(const RunSweep& sweep) {
     const PointSummary& first = sweep.points.front();
     Table table{"features", "a90 and area under the ROC", key_columns(sweep.keys), {}, true};
     table.columns.insert(table.columns.end(),
-                         {"feature", analysis::in_unit("a90", first.size), "area under the ROC"});
+                         {"feature", analysis::in_unit("a90", first.size()), "area under the ROC"});
     for (const PointSummary& point : sweep.points) {
         for (const std::string& name : sweep.order) {
             const LevelSummary* level = shown_level(point);
             if (const auto* feature =
                     level == nullptr ? nullptr : find_feature(point, name, level->noise_level)) {
                 std::vector<std::string> row = point.point.labels;
-                row.insert(row.end(), {name, a90_text(feature, point.size),
+                row.insert(row.end(), {name, a90_text(feature, point.size()),
                                        analysis::area_text(feature->auc.auc, feature->auc.bounds)});
                 table.rows.push_back(std::move(row));
             }
@@ -501,6 +452,31 @@ Section features_section(const RunSweep& sweep) {
 }
 
 }  // namespace
+
+RunSweep summarise_runs(const std::string& title, const std::vector<VariedKey>& keys,
+                        const std::vector<SweepPoint>& points,
+                        const std::vector<std::string>& results, int threads) {
+    RunSweep sweep{title, keys, {}, {}, {}};
+    for (std::size_t p = 0; p < points.size(); ++p) {
+        sweep.points.push_back(summarise(points[p], results[p], threads));
+    }
+    sweep.order = feature_order(sweep.points);
+    sweep.differences = find_differences(sweep);
+    return sweep;
+}
+
+nlohmann::json sweep_json(const RunSweep& sweep) {
+    Json points = Json::array();
+    for (std::size_t p = 0; p < sweep.points.size(); ++p) {
+        points.push_back(point_json(sweep, p));
+    }
+    return {{"kind", "sweep"},
+            {"title", sweep.title},
+            {"varied", analysis::json_of(sweep.keys)},
+            {"order", sweep.order},
+            {"findings", findings_json(sweep_report(sweep))},
+            {"points", points}};
+}
 
 analysis::Report sweep_report(const RunSweep& sweep) {
     analysis::Report report;

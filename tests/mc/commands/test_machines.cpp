@@ -2,7 +2,7 @@
 // text is that of one process.
 #include <nlohmann/json.hpp>
 
-#include "analysis/report/reliability_json.hpp"
+#include "analysis/report/detection_json.hpp"
 #include "mc/library/run/reliability_on_machines.hpp"
 #include "mc/results/reliability_of_results.hpp"
 #include "tests/mc/program.hpp"

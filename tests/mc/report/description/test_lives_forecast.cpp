@@ -1,6 +1,6 @@
 // Checks the cost forecast of `describe` for lives.
 #include "mc/lives/campaign.hpp"
-#include "mc/report/description/describe_lives.hpp"
+#include "mc/report/description/describe.hpp"
 #include "mc/results/results_file.hpp"
 #include "tests/mc/lives/life_example.hpp"
 #include "tests/test.hpp"

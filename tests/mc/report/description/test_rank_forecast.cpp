@@ -1,7 +1,7 @@
 // Checks `describe --ranks`: arithmetic on given measurements, and forecast file sizes against
 // files.
 #include "mc/plan/sampling.hpp"
-#include "mc/report/description/describe_forecast.hpp"
+#include "mc/report/description/describe.hpp"
 #include "mc/results/checkpoint.hpp"
 #include "tests/mc/program.hpp"
 #include "tests/mc/study_file.hpp"

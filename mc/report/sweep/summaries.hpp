@@ -1,4 +1,5 @@
-// Summary of `run` results over the points of a sweep.
+// Summaries of the results of `run` and of `lives` over the points of a sweep;
+// docs/reference/report-json.md lists the keys of their JSON.
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>
@@ -9,6 +10,7 @@
 #include "analysis/comparison/comparison.hpp"
 #include "analysis/reliability.hpp"
 #include "analysis/report/report.hpp"
+#include "mc/lives/life_monitor.hpp"
 #include "mc/report/sweep/grid.hpp"
 
 namespace gearpod::mc {
@@ -33,13 +35,14 @@ struct LevelSummary {
 
 struct PointSummary : PointResults {
     std::size_t gearboxes = 0, failed = 0;
-    analysis::SizeUnit size;
-    double false_alarm_rate = 0.0, confidence = 0.0;
+    analysis::DetectionRequest request;
     std::string shortage;       // warning of too few healthy gearboxes; "" if they suffice
     std::size_t reference = 0;  // index of the noise level that is shown first
     std::vector<double> sizes;  // tested sizes above 0
     std::vector<LevelSummary> levels;
     std::vector<FeatureSummary> features;
+
+    const analysis::SizeUnit& size() const { return request.size; }
 };
 
 // Differences of a90 between the point where it is smallest and the others, gearbox by gearbox
@@ -50,6 +53,11 @@ struct SweepDifferences {
     bool paired = true;                           // the points have the same gearboxes
     int resamples = 0;                            // bootstrap samples of each difference
     std::vector<analysis::NumberDifference> a90;  // by point, minus the best point's
+
+    // Difference of a point; null without one.
+    const analysis::NumberDifference* known(std::size_t point) const {
+        return point < a90.size() && a90[point].refusal.empty() ? &a90[point] : nullptr;
+    }
 };
 
 struct RunSweep {
@@ -70,7 +78,41 @@ RunSweep summarise_runs(const std::string& title, const std::vector<VariedKey>& 
 // Sections: the headline with the table of all points, and details.
 analysis::Report sweep_report(const RunSweep& sweep);
 
-// docs/reference/report-json.md lists the keys.
-nlohmann::ordered_json sweep_json(const RunSweep& sweep);
+nlohmann::json sweep_json(const RunSweep& sweep);
+
+struct LivesPoint : PointResults {
+    CampaignPlan plan;
+    std::size_t cracked = 0;
+    // One entry for each gearbox with a crack: 1 if the tooth fails within the records, 0 if not,
+    // -1 if its features have no values.
+    std::vector<int> tooth_failed;
+    long failed = 0;
+    std::string record;  // description of a record
+    InterpolationErrors interpolation;
+    std::vector<MonitoredFeature> monitored;
+    std::vector<std::size_t> ranking;  // result of LifeMonitor::ranking(); empty if withheld
+};
+
+struct LivesSweep {
+    std::string title;  // of the study
+    std::vector<VariedKey> keys;
+    std::vector<LivesPoint> points;
+    // Results of every feature, with the detector that is best over all points: that which finds
+    // most cracks net of chance; with equal shares, the one that finds the smallest cracks. The
+    // best feature first; empty if none has a rank at any point.
+    std::vector<MonitoredFeature> order;
+};
+
+// Summarises the results files of `lives`, one for each point. Throws std::runtime_error if one is
+// not such a file, or damaged.
+LivesSweep summarise_lives(const std::string& title, const std::vector<VariedKey>& keys,
+                           const std::vector<SweepPoint>& points,
+                           const std::vector<std::string>& results);
+
+// Sections: the headline with the table of all points for the best feature and detector, and
+// details.
+analysis::Report lives_sweep_report(const LivesSweep& sweep);
+
+nlohmann::json lives_sweep_json(const LivesSweep& sweep);
 
 }  // namespace gearpod::mc

@@ -1,10 +1,47 @@
-// Forecast of a run with many MPI ranks, from the forecast of one process.
+// Parts of `describe` that compute: the effects that a study calls for, lives, and forecasts of
+// time, memory and disk.
 #pragma once
 
+#include <string>
+
+#include "mc/lives/life_tile.hpp"
 #include "mc/numerics/forecast/forecast.hpp"
 #include "mc/plan/planner.hpp"
 
 namespace gearpod::mc {
+
+// Prints one entry for each optional effect: its computing time, and whether it changes a feature
+// by more than numerics.tolerance, or 1 % without it. Uses the study's own solver setting, short
+// records where every mesh period is integrated, and about `seconds` of processor time. May throw
+// machine::Cancelled and SceneError. `span`, `mesh_frequency_Hz`: those of any plan of the study.
+void print_effect_changes(const Planner& planner, const signals::SpanLayout& span,
+                          double mesh_frequency_Hz, double seconds);
+
+// Prints random inputs of a gearbox and of each of its records; nothing for a study without lives.
+void print_life(const StudyLives& lives);
+
+// Forecast of a study's `lives` for this machine and one process, before any gearbox is integrated.
+// The integration time follows from the time of one mesh period and the number of mesh periods that
+// the damping requires (solution_choice.hpp). The time of a record is measured with artificial
+// signals.
+struct LivesForecast {
+    int threads = 0;
+    double gearbox_s = 0.0;  // processor time to integrate a gearbox, mean over all
+    double record_s = 0.0;   // processor time of a record
+    long gearboxes = 0, records = 0;
+    double pilots_s = 0.0;       // choice of the integrated torques and speeds, on one thread
+    double processor_s = 0.0;    // of all threads, without the set-up
+    double integration_s = 0.0;  // wall-clock time until the last thread finishes its last batch
+    double setup_s = 0.0;
+    double memory_bytes = 0.0;  // tiles of all threads, and the memory already in use
+    double file_bytes = 0.0;    // results file; the checkpoint is as large until the run ends
+
+    double total_s() const { return setup_s + pilots_s + integration_s; }
+};
+
+// `pilot_loads`: InterpolationChoice::loads.
+LivesForecast forecast_lives(const LifeTiles& tiles, int threads, double setup_s,
+                             int pilot_loads = 0);
 
 // Processor time of rank 0's main thread for a batch of another rank: messages, packing and the
 // checkpoint. Measured by tests/bench/bench_ranks (docs/developer/ensemble.md).
@@ -31,8 +68,6 @@ struct RankForecast {
 RankForecast forecast_ranks(const RunCost& calibration, const BatchPlan& plan,
                             const RowShape& shape, const AnalysisTrial& analysis,
                             const RunForecast& alone, int ranks);
-
-// Prints the forecast of a run's time and memory for `describe`.
 
 // Computes some gearboxes and their analysis, for a few seconds at most. Prints the estimated time
 // and memory of a run in this process, and in `ranks` such processes unless that is 0.
