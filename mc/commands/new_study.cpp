@@ -11,8 +11,7 @@
 #include "mc/library/run/command_files.hpp"
 #include "mc/plan/mesh_loads.hpp"
 #include "mc/report/page.hpp"
-#include "mc/study/new/planetary.hpp"
-#include "mc/study/new/rexs_study.hpp"
+#include "mc/study/new/datasheet.hpp"
 
 namespace gearpod::mc {
 namespace {

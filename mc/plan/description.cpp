@@ -13,7 +13,7 @@
 #include "mc/plan/ensemble_plan.hpp"
 #include "mc/plan/mesh_loads.hpp"
 #include "mc/plan/scene.hpp"
-#include "mc/study/false_alarm_target.hpp"
+#include "mc/study/assumptions.hpp"
 #include "mc/study/fluctuations.hpp"
 #include "mc/study/gears.hpp"
 #include "mc/study/housing.hpp"

@@ -10,7 +10,6 @@
 #include "mc/plan/scene_error.hpp"
 #include "mc/plan/sensor_plan.hpp"
 #include "mc/study/assumptions.hpp"
-#include "mc/study/false_alarm_target.hpp"
 #include "mc/study/faults/fault_kind.hpp"
 #include "mc/study/fluctuations.hpp"
 #include "mc/study/gears.hpp"

@@ -1,7 +1,7 @@
 #include "mc/plan/study_facts.hpp"
 
 #include "mc/plan/record_plan.hpp"
-#include "mc/study/false_alarm_target.hpp"
+#include "mc/study/assumptions.hpp"
 #include "mc/study/noise.hpp"
 #include "mc/study/other_sources.hpp"
 

@@ -50,8 +50,8 @@ CrackGrowth single(double q1, double q2, double L_c, double l1, double l2, doubl
 
 TEST_CASE("the crack's surface has the limits of Yang's equations 61 to 66") {
     const double L = 0.018;
-    const CrackSurface partial{1e-3, 0, 0.012, 0.5e-3, 2e-3, 0.8, 1.5, 0, 0, L};
-    const CrackSurface full{2e-3, 1e-3, L, 0.5e-3, 2e-3, 0.8, 1.5, 4, 2, L};
+    const CrackSurface partial{1e-3, 0, 0.012, 0.5e-3, 2e-3, 0.8, 1.5, L};
+    const CrackSurface full{2e-3, 1e-3, L, 0.5e-3, 2e-3, 0.8, 1.5, L};
     CHECK(partial.crack(0).depth_m == 1e-3);
     CHECK(partial.crack(1).depth_m == 0);
     CHECK(partial.z_at(1) == Approx(0.012));

@@ -15,7 +15,6 @@
 #include "analysis/detection/detection_table.hpp"
 #include "features/feature.hpp"
 #include "mc/study/distributions/distribution.hpp"
-#include "mc/study/schema/key_json.hpp"
 #include "mc/study/schema/schema.hpp"
 
 namespace gearpod::mc {

@@ -11,8 +11,7 @@
 #include "machine/no_value.hpp"
 #include "mc/files/input/document.hpp"
 #include "mc/files/input/spelling.hpp"
-#include "mc/study/distributions/continuous_distributions.hpp"
-#include "mc/study/distributions/discrete_distributions.hpp"
+#include "mc/study/distributions/laws.hpp"
 #include "mc/study/distributions/range.hpp"
 
 namespace gearpod::mc {
@@ -149,14 +148,8 @@ class FieldReader {
     }
 
     bool check_number(const Entry& entry, const Value& value, const Range& range) {
-        std::string what;
-        if (value.kind != Value::Kind::number && value.kind != Value::Kind::integer) {
-            what = fmt::format("must be a number, but is {}", value.shown());
-        } else if (!std::isfinite(value.number)) {
-            what = fmt::format("must be a finite number, but is {}", value.number);
-        } else if (!computable(value.number)) {
-            what = fmt::format("{} {}", value.number, kNotComputable);
-        } else if (!range.contains(value.number)) {
+        std::string what = number_problem(value);
+        if (what.empty() && !range.contains(value.number)) {
             what = fmt::format("must be {}, but is {}", range.text(), value.number);
         }
         return what.empty() || add(entry.position, entry.name, std::move(what), "");

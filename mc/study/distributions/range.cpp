@@ -35,4 +35,14 @@ std::string Range::hint() const {
     return range.empty() ? "" : "give a value " + range;
 }
 
+std::string number_problem(const Value& value, const std::string& unit) {
+    if (value.kind != Value::Kind::number && value.kind != Value::Kind::integer) {
+        return fmt::format("must be a number{}, but is {}", unit, value.shown());
+    }
+    if (!std::isfinite(value.number)) {
+        return fmt::format("must be a finite number, but is {}", value.number);
+    }
+    return computable(value.number) ? "" : fmt::format("{} {}", value.number, kNotComputable);
+}
+
 }  // namespace gearpod::mc

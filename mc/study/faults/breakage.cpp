@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include "mc/study/faults/fault_kind.hpp"
-#include "mc/study/faults/limits.hpp"
 #include "mc/study/keys/schema_line.hpp"
 
 namespace gearpod::mc {

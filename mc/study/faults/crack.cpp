@@ -7,7 +7,7 @@
 #include <string_view>
 #include <utility>
 
-#include "mc/study/faults/limits.hpp"
+#include "mc/study/faults/fault_kind.hpp"
 #include "mc/study/gears.hpp"
 #include "stiffness/faults/spatial_crack.hpp"
 #include "stiffness/faults/tooth_crack.hpp"

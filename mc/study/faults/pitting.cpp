@@ -7,7 +7,6 @@
 
 #include "gears/mesh_geometry.hpp"
 #include "mc/study/faults/fault_kind.hpp"
-#include "mc/study/faults/limits.hpp"
 #include "mc/study/gears.hpp"
 #include "mc/study/keys/schema_line.hpp"
 

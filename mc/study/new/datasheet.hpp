@@ -1,7 +1,8 @@
-// Datasheet values common to planetary stages and gear pairs.
+// Datasheets of planetary stages and gear pairs, and the studies that are made from them.
 #pragma once
 
 #include <map>
+#include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
 #include <vector>
@@ -86,5 +87,22 @@ InputLoad load_of(const StageDatasheet& data);
 // Face width, rounded to whole millimetres from 10 mm if it follows by rule. Any number if the
 // module is invalid.
 double face_width_mm(const StageDatasheet& data);
+
+// Makes the study of a datasheet by the rules of rules.hpp. It passes every check of `describe`;
+// otherwise the result has one problem for each reason and no text. Problems name values as their
+// source does. `command` goes into the study's first comment.
+NewStudy new_planetary(const PlanetaryDatasheet& data, const std::string& command,
+                       const DatasheetSource& source = planetary_options());
+
+// Makes the study of a datasheet by the rules of rules.hpp, as new_planetary() does.
+NewStudy new_pair(const PairDatasheet& data, const std::string& command,
+                  const DatasheetSource& source);
+
+// Reads the model with analysis/python/gearpod/rexs.py and makes the study of a planetary stage, or
+// of a cylindrical one as a gear pair. The study's first comment and the notices list what the
+// model lacks and what the study does not take. Contradictions within the model are problems, with
+// both values. `options`: stage, load_case, input, planets and values of StageDatasheet that are
+// given in addition; loads replace the model's.
+NewStudy new_from_rexs(const std::string& path, nlohmann::json options, const std::string& command);
 
 }  // namespace gearpod::mc

@@ -1,15 +1,11 @@
-#include "mc/study/new/pair.hpp"
-
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <iterator>
 #include <tuple>
 #include <utility>
 
-#include "mc/numerics/study_scene.hpp"
 #include "mc/study/faults/crack.hpp"
 #include "mc/study/gears.hpp"
+#include "mc/study/new/datasheet.hpp"
 #include "mc/study/new/rules.hpp"
 #include "mc/study/new/study_text.hpp"
 
@@ -35,12 +31,7 @@ struct PairText {
 };
 PairText pair_teeth(const PairDatasheet& data) {
     PairText text;
-    text.general = "[gearbox]\nkind = \"fixed-shaft\"\n" + module_lines(data);
-    for (const auto& [key, value] : {std::pair{"addendum_coefficient", data.addendum},
-                                     std::pair{"centre_distance_mm", data.centre_distance_mm}}) {
-        text.general += value ? fmt::format("{} = {}\n", key, *value) : "";
-    }
-    text.general += body_lines(data, face_width_mm(data)) + "tooth_profile = \"fillet\"\n";
+    text.general = "[gearbox]\nkind = \"fixed-shaft\"\n" + teeth_lines(data, face_width_mm(data));
     text.members["pinion"] = gear_lines(data.pinion, data.pinion_shift, data.pinion_tip_mm);
     text.members["gear"] = gear_lines(data.gear, data.gear_shift, data.gear_tip_mm);
     return text;
@@ -131,15 +122,7 @@ std::string pair_text(const PairDatasheet& data, const DerivedPair& d, const Inp
            fmt::format("title = \"Gear pair {}/{}: crack of a pinion tooth\"\n\n", data.pinion,
                        data.gear) +
            gearbox_section(data, d) + "\n[operation]\n" +
-           (data.torque_N_m ? given_line("torque_N_m", load.torque_N_m)
-                            : line("torque_N_m", load.torque_N_m)) +
-           (data.speed_rpm ? given_line("pinion_speed_rpm", load.speed_rpm)
-                           : line("pinion_speed_rpm", load.speed_rpm)) +
-           "\n[effects]\n" + line("motion", "\"translational-torsional\"", "") +
-           line("foundation", "\"elastic-ring\"",
-                "agrees with finite elements (docs/validation/mesh-stiffness-level.md)") +
-           line("contact_onset", "\"extended\"", "tip corners touch before and after the path") +
-           line("mesh_damping", "\"ratio\"", "") + line("path", "\"none\"", "") +
+           load_lines(data, load, "pinion_speed_rpm") + effects_section("none") +
            "\n[fault]                                     # another gear or kind: gearpod describe "
            "--keys fault\nkind = \"crack\"\nmember = \"pinion\"\ndepth_mm = 0\nangle_deg = 45\n" +
            sensor_section(d.mesh_frequency_Hz, line("position", "\"pinion\"", "")) +
@@ -157,17 +140,10 @@ std::string pair_text(const PairDatasheet& data, const DerivedPair& d, const Inp
 
 NewStudy new_pair(const PairDatasheet& data, const std::string& command,
                   const DatasheetSource& source) {
-    Problems problems = load_problems(data, source, "driving gear");
-    const StudyReading teeth = read_study_text(minimal_pair(data), source.file);
-    std::ranges::move(as_named_by(source, teeth.problems), std::back_inserter(problems));
-    if (!teeth.study || !problems.empty()) {
-        return {"", std::move(problems)};
-    }
-    const InputLoad load = load_of(data);
-    const std::string text = pair_text(data, derive_pair(*teeth.study, data, load), load, command);
-    problems =
-        as_named_by(source, make_scene(source.file, read_study_text(text, source.file)).problems);
-    return problems.empty() ? NewStudy{text, {}} : NewStudy{"", std::move(problems)};
+    return checked_study(data, source, "driving gear", minimal_pair(data),
+                         [&](const Study& teeth, const InputLoad& load) {
+                             return pair_text(data, derive_pair(teeth, data, load), load, command);
+                         });
 }
 
 }  // namespace gearpod::mc

@@ -1,18 +1,15 @@
-#include "mc/study/new/planetary.hpp"
+#include "gears/planetary.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <iterator>
 #include <map>
 #include <string>
 #include <tuple>
 #include <utility>
 
-#include "gears/planetary.hpp"
-#include "mc/numerics/study_scene.hpp"
 #include "mc/study/faults/crack.hpp"
 #include "mc/study/gears.hpp"
 #include "mc/study/new/datasheet.hpp"
@@ -20,6 +17,7 @@
 #include "mc/study/new/study_text.hpp"
 
 namespace gearpod::mc {
+namespace {
 
 // Datasheet completed with the ring's tooth number and the face width.
 struct NominalGears {
@@ -46,13 +44,6 @@ struct GearboxText {
     std::string general;
     MemberTables members{"sun", "planet", "ring", "carrier"};
 };
-GearboxText gearbox_teeth(const NominalGears& gears);
-
-// Returns the complete study. `command`: command line, quoted in its first comment.
-std::string planetary_text(const NominalGears& gears, const DerivedGearbox& derived,
-                           const InputLoad& load, const std::string& command);
-
-namespace {
 
 void add_bodies(const DerivedGearbox& d, MemberTables& members) {
     members["sun"] +=
@@ -124,18 +115,7 @@ std::string accuracy(const NominalGears& g, const DerivedGearbox& d) {
 std::string operation(const NominalGears& g, const InputLoad& load) {
     return "\n[operation]\nfixed = \"ring\"\n" + line("input", "\"" + g.data.input + "\"", "") +
            line("torque_on", "\"" + g.data.input + "\"", "") +
-           (g.data.torque_N_m ? given_line("torque_N_m", load.torque_N_m)
-                              : line("torque_N_m", load.torque_N_m)) +
-           (g.data.speed_rpm ? given_line(g.data.input + "_speed_rpm", load.speed_rpm)
-                             : line(g.data.input + "_speed_rpm", load.speed_rpm));
-}
-
-std::string effects() {
-    return "\n[effects]\n" + line("motion", "\"translational-torsional\"", "") +
-           line("foundation", "\"elastic-ring\"",
-                "agrees with finite elements (docs/validation/mesh-stiffness-level.md)") +
-           line("contact_onset", "\"extended\"", "tip corners touch before and after the path") +
-           line("mesh_damping", "\"ratio\"", "") + line("path", "\"hamming\"", "");
+           load_lines(g.data, load, g.data.input + "_speed_rpm");
 }
 
 constexpr const char* kFault =
@@ -159,18 +139,11 @@ std::string random(const DerivedGearbox& d, const InputLoad& load) {
            varied_depth(d.deepest_crack_m);
 }
 
-}  // namespace
-
 GearboxText gearbox_teeth(const NominalGears& g) {
     const PlanetaryDatasheet& data = g.data;
     GearboxText text;
     text.general = fmt::format("[gearbox]\nkind = \"planetary\"\nplanets = {}\n", data.planets) +
-                   module_lines(data);
-    for (const auto& [key, value] : {std::pair{"addendum_coefficient", data.addendum},
-                                     std::pair{"centre_distance_mm", data.centre_distance_mm}}) {
-        text.general += value ? fmt::format("{} = {}\n", key, *value) : "";
-    }
-    text.general += body_lines(data, g.face_width_mm) + "tooth_profile = \"fillet\"\n";
+                   teeth_lines(data, g.face_width_mm);
     for (const auto& [member, teeth, shift, tip_mm] :
          {std::tuple{"sun", data.sun, data.sun_shift, data.sun_tip_mm},
           std::tuple{"planet", data.planet, data.planet_shift, data.planet_tip_mm},
@@ -180,6 +153,7 @@ GearboxText gearbox_teeth(const NominalGears& g) {
     return text;
 }
 
+// Returns the complete study. `command`: command line, quoted in its first comment.
 std::string planetary_text(const NominalGears& g, const DerivedGearbox& d, const InputLoad& load,
                            const std::string& command) {
     const PlanetaryDatasheet& data = g.data;
@@ -192,13 +166,11 @@ std::string planetary_text(const NominalGears& g, const DerivedGearbox& d, const
     add_bodies(d, members);
     const std::string support = add_bearings(g, d, members);
     return study_header(data, gearbox, command) + title + general + accuracy(g, d) + support +
-           members.text() + operation(g, load) + effects() + kFault +
+           members.text() + operation(g, load) + effects_section("hamming") + kFault +
            sensor_section(d.mesh_frequency_Hz,
                           line("path_exponent", 0.1, "Liang (2016), section 5.1")) +
            random(d, load) + output_sections();
 }
-
-namespace {
 
 // Tooth number of the ring for standard gears. The tooth numbers are not checked yet.
 int default_ring_teeth(const PlanetaryDatasheet& data) {
@@ -262,18 +234,10 @@ NewStudy new_planetary(const PlanetaryDatasheet& data, const std::string& comman
                        const DatasheetSource& source) {
     const NominalGears gears{data, data.ring ? *data.ring : default_ring_teeth(data),
                              face_width_mm(data)};
-    Problems problems = load_problems(data, source, data.input);
-    const StudyReading teeth = read_study_text(minimal_study(gears), source.file);
-    std::ranges::move(as_named_by(source, teeth.problems), std::back_inserter(problems));
-    if (!teeth.study || !problems.empty()) {
-        return {"", problems};
-    }
-    const InputLoad load = load_of(data);
-    const std::string text = planetary_text(gears, derive(*teeth.study, data, load), load, command);
-    // Reading finds values out of range; building the scene finds all other problems.
-    problems =
-        as_named_by(source, make_scene(source.file, read_study_text(text, source.file)).problems);
-    return problems.empty() ? NewStudy{text, {}} : NewStudy{"", std::move(problems)};
+    return checked_study(data, source, data.input, minimal_study(gears),
+                         [&](const Study& teeth, const InputLoad& load) {
+                             return planetary_text(gears, derive(teeth, data, load), load, command);
+                         });
 }
 
 }  // namespace gearpod::mc

@@ -1,5 +1,3 @@
-#include "mc/study/new/rexs_study.hpp"
-
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -11,8 +9,7 @@
 
 #include "mc/files/input/terminal_text.hpp"
 #include "mc/files/python_process.hpp"
-#include "mc/study/new/pair.hpp"
-#include "mc/study/new/planetary.hpp"
+#include "mc/study/new/datasheet.hpp"
 #include "python_sources.hpp"
 
 namespace gearpod::mc {

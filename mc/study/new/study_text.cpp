@@ -5,8 +5,10 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <iterator>
 
 #include "mc/files/input/terminal_text.hpp"
+#include "mc/numerics/study_scene.hpp"
 
 namespace gearpod::mc {
 
@@ -69,22 +71,24 @@ std::string study_header(const StageDatasheet& data, const std::string& gearbox,
                       data.origin);
 }
 
-std::string module_lines(const StageDatasheet& data) {
-    const std::string module = data.helix_deg != 0.0
-                                   ? given_line("normal_module_mm", data.module_mm) +
-                                         given_line("helix_angle_deg", data.helix_deg)
-                                   : given_line("module_mm", data.module_mm);
-    return module + given_line("pressure_angle_deg", data.pressure_angle_deg);
-}
-
-std::string body_lines(const StageDatasheet& data, double face_width_mm) {
+std::string teeth_lines(const StageDatasheet& data, double face_width_mm) {
     constexpr double kSteel_Pa = 2.06e11, kSteelPoisson = 0.3;
-    return (data.face_width_mm ? given_line("face_width_mm", face_width_mm)
+    std::string text = data.helix_deg != 0.0 ? given_line("normal_module_mm", data.module_mm) +
+                                                   given_line("helix_angle_deg", data.helix_deg)
+                                             : given_line("module_mm", data.module_mm);
+    text += given_line("pressure_angle_deg", data.pressure_angle_deg);
+    for (const auto& [key, value] : {std::pair{"addendum_coefficient", data.addendum},
+                                     std::pair{"centre_distance_mm", data.centre_distance_mm}}) {
+        text += value ? fmt::format("{} = {}\n", key, *value) : "";
+    }
+    return text +
+           (data.face_width_mm ? given_line("face_width_mm", face_width_mm)
                                : line("face_width_mm", face_width_mm,
                                       "four circular pitches (Shigley: three to five)")) +
            line("young_modulus_Pa", data.young_modulus_Pa.value_or(kSteel_Pa),
                 data.young_modulus_Pa ? "given" : "steel") +
-           line("poisson_ratio", data.poisson_ratio.value_or(kSteelPoisson));
+           line("poisson_ratio", data.poisson_ratio.value_or(kSteelPoisson)) +
+           "tooth_profile = \"fillet\"\n";
 }
 
 std::string gear_lines(int teeth, const std::optional<double>& shift,
@@ -106,6 +110,23 @@ Background background(const SensorRates& rates) {
         return {"noise_density_m_s2_per_sqrt_Hz", kDensity};
     }
     return {"noise_m_s2", kDensity * std::sqrt(0.5 * rates.sampling)};
+}
+
+std::string load_lines(const StageDatasheet& data, const InputLoad& load,
+                       const std::string& speed_key) {
+    const auto shown = [](bool given, const std::string& key, double value) {
+        return given ? given_line(key, value) : line(key, value);
+    };
+    return shown(data.torque_N_m.has_value(), "torque_N_m", load.torque_N_m) +
+           shown(data.speed_rpm.has_value(), speed_key, load.speed_rpm);
+}
+
+std::string effects_section(const std::string& path) {
+    return "\n[effects]\n" + line("motion", "\"translational-torsional\"", "") +
+           line("foundation", "\"elastic-ring\"",
+                "agrees with finite elements (docs/validation/mesh-stiffness-level.md)") +
+           line("contact_onset", "\"extended\"", "tip corners touch before and after the path") +
+           line("mesh_damping", "\"ratio\"", "") + line("path", "\"" + path + "\"", "");
 }
 
 std::string sensor_section(double mesh_frequency_Hz, const std::string& place) {
@@ -159,6 +180,23 @@ std::string output_sections() {
            "\n[detection]\nfalse_alarm_rate = 0.05\nconfidence = 0.95\n"
            "\n[ensemble]                                  # more gearboxes narrow the intervals\n"
            "instances = 128\nthreshold_instances = 96\nseed = 1\n";
+}
+
+NewStudy checked_study(
+    const StageDatasheet& data, const DatasheetSource& source, const std::string& driver,
+    const std::string& teeth,
+    const std::function<std::string(const Study& teeth, const InputLoad& load)>& text_of) {
+    Problems problems = load_problems(data, source, driver);
+    const StudyReading reading = read_study_text(teeth, source.file);
+    std::ranges::move(as_named_by(source, reading.problems), std::back_inserter(problems));
+    if (!reading.study || !problems.empty()) {
+        return {"", std::move(problems)};
+    }
+    const std::string text = text_of(*reading.study, load_of(data));
+    // Reading finds values out of range; building the scene finds all other problems.
+    problems =
+        as_named_by(source, make_scene(source.file, read_study_text(text, source.file)).problems);
+    return problems.empty() ? NewStudy{text, {}} : NewStudy{"", std::move(problems)};
 }
 
 }  // namespace gearpod::mc

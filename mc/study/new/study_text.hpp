@@ -1,6 +1,7 @@
 // Lines and sections of a study's text that planetary gearboxes and gear pairs share.
 #pragma once
 
+#include <functional>
 #include <initializer_list>
 #include <optional>
 #include <string>
@@ -8,6 +9,7 @@
 #include <vector>
 
 #include "mc/study/new/datasheet.hpp"
+#include "mc/study/study.hpp"
 
 namespace gearpod::mc {
 
@@ -37,9 +39,8 @@ class MemberTables {
 std::string study_header(const StageDatasheet& data, const std::string& gearbox,
                          const std::string& command);
 
-// Module, helix and pressure angle; then material and face width.
-std::string module_lines(const StageDatasheet& data);
-std::string body_lines(const StageDatasheet& data, double face_width_mm);
+// Module, helix, pressure angle, addendum, centre distance, material, face width and tooth profile.
+std::string teeth_lines(const StageDatasheet& data, double face_width_mm);
 
 // Teeth of a gear, and its profile shift and tip diameter where they are given.
 std::string gear_lines(int teeth, const std::optional<double>& shift,
@@ -63,6 +64,13 @@ struct Background {
 };
 Background background(const SensorRates& rates);
 
+// Torque and speed of the driving member.
+std::string load_lines(const StageDatasheet& data, const InputLoad& load,
+                       const std::string& speed_key);
+
+// Section [effects].
+std::string effects_section(const std::string& path);
+
 // Section [sensor]. `place`: the keys of the sensor's position and path.
 std::string sensor_section(double mesh_frequency_Hz, const std::string& place);
 
@@ -76,5 +84,12 @@ std::string varied_depth(double deepest_m);
 
 // Sections [features], [detection] and [ensemble].
 std::string output_sections();
+
+// Makes a study and checks it. `teeth`: minimal study whose reading checks the teeth. `text_of`:
+// the study by its gears and the load of the `driver`.
+NewStudy checked_study(
+    const StageDatasheet& data, const DatasheetSource& source, const std::string& driver,
+    const std::string& teeth,
+    const std::function<std::string(const Study& teeth, const InputLoad& load)>& text_of);
 
 }  // namespace gearpod::mc

@@ -133,44 +133,46 @@ void check_feature(StudyDraft& draft, const std::string& name) {
     }
 }
 
-void check_features(StudyDraft& draft) {
-    const std::vector<std::string> use = draft.study.features.use;
-    for (auto name = use.begin(); name != use.end(); ++name) {
-        if (std::find(use.begin(), name, *name) != name) {
-            draft.reject("features.use", fmt::format("names \"{}\" twice", *name),
-                         "remove one of them");
+// Calls `check` for each name of a list; rejects names that occur twice.
+template <class Check>
+void check_names(StudyDraft& draft, const char* key, const std::vector<std::string>& names,
+                 const char* remedy, const Check& check) {
+    for (auto name = names.begin(); name != names.end(); ++name) {
+        if (std::find(names.begin(), name, *name) != name) {
+            draft.reject(key, fmt::format("names \"{}\" twice", *name), remedy);
         } else {
-            check_feature(draft, *name);
+            check(*name);
         }
     }
+}
+
+void check_features(StudyDraft& draft) {
+    check_names(draft, "features.use", draft.study.features.use, "remove one of them",
+                [&](const std::string& name) { check_feature(draft, name); });
 }
 
 void check_detectors(StudyDraft& draft) {
-    const std::vector<std::string> named = draft.study.monitoring.detectors;
-    for (auto text = named.begin(); text != named.end(); ++text) {
-        if (!analysis::parse_detector(*text)) {
-            draft.reject("monitoring.detectors", fmt::format("\"{}\" is not a detector", *text),
-                         "use " + analysis::detector_forms());
-        } else if (std::find(named.begin(), text, *text) != text) {
-            draft.reject("monitoring.detectors", fmt::format("names \"{}\" twice", *text),
-                         "name it once");
-        }
-    }
+    constexpr const char* kKey = "monitoring.detectors";
+    check_names(draft, kKey, draft.study.monitoring.detectors, "name it once",
+                [&](const std::string& text) {
+                    if (!analysis::parse_detector(text)) {
+                        draft.reject(kKey, fmt::format("\"{}\" is not a detector", text),
+                                     "use " + analysis::detector_forms());
+                    }
+                });
 }
 
 void check_uncertain_inputs(StudyDraft& draft) {
-    const std::vector<std::string> named = draft.study.detection.uncertain_inputs;
-    for (auto key = named.begin(); key != named.end(); ++key) {
-        const auto drawn = std::ranges::find(draft.study.random, *key, &RandomInput::key);
-        if (drawn == draft.study.random.end() || drawn->kind == InputKind::fault_size) {
-            draft.reject("detection.uncertain_inputs",
-                         fmt::format("\"{}\" is not a random input of the gearboxes", *key),
-                         "name keys of [random] other than the fault's");
-        } else if (std::find(named.begin(), key, *key) != key) {
-            draft.reject("detection.uncertain_inputs", fmt::format("names \"{}\" twice", *key),
-                         "name it once");
-        }
-    }
+    constexpr const char* kKey = "detection.uncertain_inputs";
+    check_names(draft, kKey, draft.study.detection.uncertain_inputs, "name it once",
+                [&](const std::string& key) {
+                    const RandomInput* drawn = draft.study.find_random(key);
+                    if (drawn == nullptr || drawn->kind == InputKind::fault_size) {
+                        draft.reject(
+                            kKey, fmt::format("\"{}\" is not a random input of the gearboxes", key),
+                            "name keys of [random] other than the fault's");
+                    }
+                });
 }
 
 // Rejects numbers of records that cannot be divided equally among the kinds of importance-sampled
@@ -199,42 +201,24 @@ void check_record_keys(StudyDraft& draft) {
 
 // Rejects unknown properties of an assembly, and properties that no gearbox of the study has.
 void check_baseline_redraws(StudyDraft& draft) {
+    constexpr const char* kKey = "features.baseline_redraws";
     const Study& study = draft.study;
-    const std::vector<std::string> named = study.features.baseline_redraws;
-    for (auto one = named.begin(); one != named.end(); ++one) {
-        const auto reject = [&](const std::string& what, const std::string& remedy) {
-            draft.reject("features.baseline_redraws", what, remedy);
-        };
-        const bool pins = *one == "pins";
-        if (!pins && *one != "teeth") {
-            reject(fmt::format("unknown property \"{}\"", *one), suggest(*one, {"pins", "teeth"}));
-        } else if (std::find(named.begin(), one, *one) != one) {
-            reject(fmt::format("names \"{}\" twice", *one), "name it once");
-        } else if (!(pins ? has_random_planets(study) : has_tooth_errors(study))) {
-            reject(pins ? "\"pins\", but no pin has a random position"
-                        : "\"teeth\", but all teeth are alike",
-                   pins ? "give gearbox.pin_tangential_rms_um or pin_radial_rms_um, or remove it"
-                        : "give gearbox.tooth_quality, or remove it");
-        }
-    }
+    check_names(draft, kKey, study.features.baseline_redraws, "name it once",
+                [&](const std::string& name) {
+                    const bool pins = name == "pins";
+                    if (!pins && name != "teeth") {
+                        draft.reject(kKey, fmt::format("unknown property \"{}\"", name),
+                                     suggest(name, {"pins", "teeth"}));
+                    } else if (pins && !has_random_planets(study)) {
+                        draft.reject(kKey, "\"pins\", but no pin has a random position",
+                                     "give gearbox.pin_tangential_rms_um or pin_radial_rms_um, or "
+                                     "remove it");
+                    } else if (!pins && !has_tooth_errors(study)) {
+                        draft.reject(kKey, "\"teeth\", but all teeth are alike",
+                                     "give gearbox.tooth_quality, or remove it");
+                    }
+                });
 }
-
-}  // namespace
-
-void check_consistency(StudyDraft& draft) {
-    check_importance_sampling(draft);
-    check_operation(draft);
-    check_path(draft);
-    check_fixed_shaft_motion(draft);
-    check_sampling(draft);
-    check_features(draft);
-    check_detectors(draft);
-    check_uncertain_inputs(draft);
-    check_record_keys(draft);
-    check_baseline_redraws(draft);
-}
-
-namespace {
 
 void check_gravity(StudyDraft& draft) {
     const Study& s = draft.study;
@@ -251,7 +235,17 @@ void check_gravity(StudyDraft& draft) {
 
 }  // namespace
 
-void check_fluctuations(StudyDraft& draft) {
+void check_consistency(StudyDraft& draft) {
+    check_importance_sampling(draft);
+    check_operation(draft);
+    check_path(draft);
+    check_fixed_shaft_motion(draft);
+    check_sampling(draft);
+    check_features(draft);
+    check_detectors(draft);
+    check_uncertain_inputs(draft);
+    check_record_keys(draft);
+    check_baseline_redraws(draft);
     check_gravity(draft);
 }
 

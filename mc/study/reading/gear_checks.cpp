@@ -7,7 +7,7 @@
 
 #include "gears/mesh_geometry.hpp"
 #include "gears/planetary.hpp"
-#include "mc/study/faults/limits.hpp"
+#include "mc/study/faults/fault_kind.hpp"
 #include "mc/study/gears.hpp"
 #include "mc/study/reading/parts.hpp"
 #include "mc/study/schema/schema.hpp"

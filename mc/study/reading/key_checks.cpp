@@ -1,5 +1,3 @@
-#include "mc/study/reading/key_checks.hpp"
-
 #include <fmt/format.h>
 
 #include <algorithm>

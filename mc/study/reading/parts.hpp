@@ -41,9 +41,6 @@ void check_sampling(StudyDraft& draft);
 // consistency_checks.cpp: remaining checks that involve several keys.
 void check_consistency(StudyDraft& draft);
 
-// consistency_checks.cpp: checks the variable excitation.
-void check_fluctuations(StudyDraft& draft);
-
 // numerics_checks.cpp: checks the numerics, after the excitation.
 void check_numerics(StudyDraft& draft);
 
@@ -52,10 +49,15 @@ void check_numerics(StudyDraft& draft);
 void check_faulty_member(StudyDraft& draft);
 void check_fault(StudyDraft& draft);
 
-// life_checks.cpp: checks the crack of a life, its depths and the number of records.
+// fault_checks.cpp: checks the crack of a life, its depths and the number of records.
 void check_life(StudyDraft& draft);
 
 // random_inputs.cpp: checks the distributions of values that vary from record to record.
 void check_records(StudyDraft& draft);
+
+// Rejects an unknown key of a section; `prefix` is "random." in [random]. The key that was probably
+// meant is marked as bad, so that it is not reported as missing.
+void reject_unknown_key(StudyDraft& draft, const std::string& prefix, const std::string& section,
+                        const Entry& entry);
 
 }  // namespace gearpod::mc

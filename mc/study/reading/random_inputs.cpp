@@ -7,8 +7,7 @@
 #include "mc/files/signal_file.hpp"
 #include "mc/study/copula.hpp"
 #include "mc/study/distributions/range.hpp"
-#include "mc/study/elements/file_column.hpp"
-#include "mc/study/reading/key_checks.hpp"
+#include "mc/study/elements/list_element.hpp"
 #include "mc/study/reading/parts.hpp"
 #include "mc/study/schema/schema.hpp"
 

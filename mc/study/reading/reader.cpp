@@ -10,9 +10,8 @@
 #include "mc/files/input/document.hpp"
 #include "mc/files/input/spelling.hpp"
 #include "mc/files/input/terminal_text.hpp"
-#include "mc/study/false_alarm_target.hpp"
+#include "mc/study/assumptions.hpp"
 #include "mc/study/fluctuations.hpp"
-#include "mc/study/reading/key_checks.hpp"
 #include "mc/study/reading/parts.hpp"
 #include "mc/study/schema/former_keys.hpp"
 #include "mc/study/schema/schema.hpp"
@@ -238,7 +237,6 @@ StudyReading read_document(const Value& document, bool runs_python, Problems pro
     fill_false_alarm_rate(draft);
     check_gears(draft);
     check_consistency(draft);
-    check_fluctuations(draft);
     check_numerics(draft);
     check_fault(draft);
     check_records(draft);

@@ -1,11 +1,9 @@
 #include <fmt/format.h>
 
-#include <cmath>
-
 #include "mc/files/input/spelling.hpp"
 #include "mc/files/signal_file.hpp"
 #include "mc/study/distributions/range.hpp"
-#include "mc/study/elements/file_column.hpp"
+#include "mc/study/elements/list_element.hpp"
 #include "mc/study/reading/parts.hpp"
 #include "mc/study/reading/python_list.hpp"
 #include "mc/study/schema/former_keys.hpp"
@@ -135,24 +133,13 @@ class ValueReader {
 
   private:
     bool finite(const Value& value) {
-        if (value.kind != Value::Kind::number && value.kind != Value::Kind::integer) {
-            reject(
-                fmt::format("must be a number{}, but is {}",
-                            key_.unit.suffix.empty() ? "" : fmt::format(" in {}", key_.unit.name),
-                            value.shown()),
-                key_.range.hint());
-            return false;
+        std::string what = number_problem(
+            value, key_.unit.suffix.empty() ? "" : fmt::format(" in {}", key_.unit.name));
+        const bool good = what.empty();
+        if (!good) {
+            reject(std::move(what), key_.range.hint());
         }
-        if (!std::isfinite(value.number)) {
-            reject(fmt::format("must be a finite number, but is {}", value.number),
-                   key_.range.hint());
-            return false;
-        }
-        if (!computable(value.number)) {
-            reject(fmt::format("{} {}", value.number, kNotComputable), key_.range.hint());
-            return false;
-        }
-        return true;
+        return good;
     }
 
     bool in_range(double number) { return check_range(draft_, at_, key_, number); }

@@ -77,8 +77,9 @@ GearboxKind kind_of(Member member) {
     return member == Member::pinion || member == Member::gear ? GearboxKind::fixed_shaft
                                                               : GearboxKind::planetary;
 }
-GearboxKind kind_of(MeshKind mesh) {
-    return mesh == MeshKind::pinion_gear ? GearboxKind::fixed_shaft : GearboxKind::planetary;
+// Only meshes of planetary gearboxes have keys.
+GearboxKind kind_of(MeshKind) {
+    return GearboxKind::planetary;
 }
 
 // Adds the keys of a description, one for each owner.
@@ -153,14 +154,14 @@ const Key kSupportKeys[] = {
 // Keys that follow those of mesh damping.
 const MeshKey kMeshKeys[] = {
     {"stiffness_N_m", kPlanetMeshes, of_meshes<&M::stiffness_N_m>(), kNPerM, kPositive, mesh<constant_stiffness>, kShared, "constant stiffness of these meshes"},
-    {"low_stiffness_N_m", kPlanetMeshes, of_meshes<&M::low_stiffness_N_m>(), kNPerM, kPositive, mesh<square_wave>, kShared, "stiffness of these meshes with the smaller number of tooth pairs in contact"},
-    {"high_stiffness_N_m", kPlanetMeshes, of_meshes<&M::high_stiffness_N_m>(), kNPerM, kPositive, mesh<square_wave>, kShared, "stiffness of these meshes with the larger number of tooth pairs in contact"},
-    {"contact_ratio", kPlanetMeshes, of_meshes<&M::contact_ratio>(), kNone, closed_range(1, 2), mesh<square_wave>, kShared, "contact ratio of these meshes: mesh periods for which a tooth pair is in contact"},
+    {"low_stiffness_N_m", kPlanetMeshes, of_meshes<&M::low_stiffness_N_m>(), kNPerM, kPositive, mesh<needed_for<"gearbox.tooth_profile", "square-wave">>, kShared, "stiffness of these meshes with the smaller number of tooth pairs in contact"},
+    {"high_stiffness_N_m", kPlanetMeshes, of_meshes<&M::high_stiffness_N_m>(), kNPerM, kPositive, mesh<needed_for<"gearbox.tooth_profile", "square-wave">>, kShared, "stiffness of these meshes with the larger number of tooth pairs in contact"},
+    {"contact_ratio", kPlanetMeshes, of_meshes<&M::contact_ratio>(), kNone, closed_range(1, 2), mesh<needed_for<"gearbox.tooth_profile", "square-wave">>, kShared, "contact ratio of these meshes: mesh periods for which a tooth pair is in contact"},
     {"error_um", kPlanetMeshes, of_meshes<&M::error_m>(), kUm, kNotNegative, mesh<may>, kShared, "static transmission error of these meshes: amplitudes of mesh harmonics 1, 2, ..."},
     {"error_phase_deg", kRingMesh, of_meshes<&M::error_phase_rad>(), kDeg, kAny, mesh<may>, kShared, "phases of error_um, those of the sun meshes being 0; 0 by default"},
 };
 const Key kQualityKeys[] = {
-    {"gearbox", "backlash_mm", number<&G::backlash_m>, kMm, kPositive, backlash, kRandom, "backlash 2b along the line of action"},
+    {"gearbox", "backlash_mm", number<&G::backlash_m>, kMm, kPositive, needed_for<"effects.separation", "two-sided">, kRandom, "backlash 2b along the line of action"},
     {"gearbox", "tooth_quality", number<&E::tooth_quality>, kNone, kGrade, tooth_quality, kRandom, "ISO 1328 grade of all gears; 90 % of the random gears keep each of its tolerances: pitch, cumulative pitch, runout and profile"},
 };
 const MemberKey kToothKeys[] = {

@@ -1,14 +1,14 @@
-#include "mc/study/schema/key_json.hpp"
-
 #include <fmt/format.h>
 
 #include <cmath>
 #include <cstdint>
+#include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
 #include <variant>
 #include <vector>
 
+#include "mc/study/schema/schema.hpp"
 #include "mc/study/study.hpp"
 
 namespace gearpod::mc {

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "mc/study/false_alarm_target.hpp"
+#include "mc/study/assumptions.hpp"
 #include "mc/study/faults/fault_kind.hpp"
 #include "mc/study/gears.hpp"
 #include "mc/study/noise.hpp"
@@ -161,11 +161,6 @@ Presence constant_stiffness(const Study& s) {
                 kProfile);
 }
 
-Presence square_wave(const Study& s) {
-    return with(is(s, StiffnessSource::square_wave), "gearbox.tooth_profile is \"square-wave\"",
-                "only for gearbox.tooth_profile = \"square-wave\"", kProfile);
-}
-
 Presence foundation(const Study& s) {
     return required_if(s.effects.foundation != Foundation::none && !stiffness_given(s),
                        "effects.foundation is not \"none\"", {"effects.foundation"});
@@ -175,12 +170,6 @@ Presence ring_foundation(const Study& s) {
     // Sainsot's formula is fitted to external gears only.
     return required_if(s.effects.foundation == Foundation::elastic_ring && !stiffness_given(s),
                        "effects.foundation is \"elastic-ring\"", {"effects.foundation"});
-}
-
-Presence backlash(const Study& s) {
-    return with(s.effects.separation == Separation::two_sided,
-                "effects.separation is \"two-sided\"",
-                "only for effects.separation = \"two-sided\"", "effects.separation");
 }
 
 Presence tooth_quality(const Study& s) {
@@ -266,6 +255,13 @@ Presence without_response(const Study& s) {
     constexpr std::string_view kResponse = "sensor.response_Hz";
     return only_if(!gives(s, kResponse), "a measured response contains the modes", {kResponse},
                    acceleration_detail(s));
+}
+
+Presence belonging_to_choice(const Study& s, std::string_view choice, std::string_view value) {
+    const std::size_t dot = choice.find('.');
+    return with(choice_text(s, choice.substr(0, dot), choice.substr(dot + 1)) == value,
+                fmt::format("{} is \"{}\"", choice, value),
+                fmt::format("only for {} = \"{}\"", choice, value), choice);
 }
 
 bool gives(const Study& s, std::string_view path) {

@@ -26,6 +26,13 @@ Presence needed_with(const Study& s) {
                         {Need::required, std::string(kOther.text) + " is given", {kOther.text}});
 }
 
+// Key that one value of a choice needs: required with it, else forbidden.
+Presence belonging_to_choice(const Study&, std::string_view choice, std::string_view value);
+template <KeyText kChoice, KeyText kValue>
+Presence needed_for(const Study& s) {
+    return belonging_to_choice(s, kChoice.text, kValue.text);
+}
+
 // Key of one kind of gearbox only; for that kind `rule` decides.
 Presence of_kind(const Study&, GearboxKind kind, const PresenceRule& rule);
 template <Presence (*Rule)(const Study&)>
@@ -46,14 +53,12 @@ Presence shifted_teeth(const Study&);  // only if the gears are known
 Presence tooth_body(const Study&);     // unless the stiffness is given
 Presence tooth_model(const Study&);    // forbidden if the stiffness is given
 Presence constant_stiffness(const Study&);  // only for the profile "constant"
-Presence square_wave(const Study&);         // only for the profile "square-wave"
 Presence foundation(const Study&);          // required if gear bodies are elastic
 Presence ring_foundation(const Study&);     // required if rings are elastic
 // Rim and web of a member's gear blank: each one requires the other; forbidden where gear bodies
 // are rigid.
 Presence rim(const Study&, Member member);
 Presence web(const Study&, Member member);
-Presence backlash(const Study&);       // only for two-sided separation
 Presence tooth_quality(const Study&);  // only if the gears are known
 Presence bearings_move(const Study&);  // only where planets move on their bearings
 

@@ -1,6 +1,5 @@
 // Keys of [sensor], [features], [detection], [monitoring], [life], [numerics] and [ensemble].
 #include "lockstep/integrators/facts.hpp"
-#include "mc/study/elements/other_sources.hpp"
 #include "mc/study/elements/sensors.hpp"
 #include "mc/study/keys/schema_line.hpp"
 #include "mc/study/schema/presence.hpp"

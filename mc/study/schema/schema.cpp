@@ -126,6 +126,22 @@ bool begins_word(std::string_view text, std::string_view word) {
     return word.empty();
 }
 
+// Further forms of [random]: word that finds them, text, and meaning.
+struct RandomForm {
+    const char *name, *form, *meaning;
+};
+constexpr RandomForm kRandomForms[] = {
+    {"per", "SECTION.KEY = { ..., per = \"record\" }",
+     "a new random value for every record of a gearbox, baseline records included; in lives for "
+     "operation.torque_N_m, a speed, sensor.gain or sensor.noise_m_s2. per = \"assembly\" gives "
+     "the "
+     "baseline records another value than the test record. By default there is one value for each "
+     "gearbox"},
+    {"correlations",
+     "correlations = [{ between = [\"SECTION.KEY\", \"SECTION.KEY\"], rank = R }, ...]",
+     "rank correlation (Spearman's, between -1 and 1) of two random inputs, by a Gaussian copula, "
+     "which keeps their distributions; 0 for pairs that are not given"}};
+
 }  // namespace
 
 std::string schema_help(std::string_view word) {
@@ -145,40 +161,20 @@ std::string schema_help(std::string_view word) {
         }
         text += body.empty() ? "" : fmt::format("[{}]\n{}", table.name, body);
     }
-    bool random = false;
-    for (const DistributionHelp& distribution : distribution_help()) {
-        constexpr const char* kSection = "random";
-        if (!begins_word(kSection, word) && !begins_word(distribution.name, word) &&
-            !begins_word(distribution.parameters, word)) {
-            continue;
+    std::string random;
+    for (const DistributionHelp& one : distribution_help()) {
+        if (begins_word("random", word) || begins_word(one.name, word) ||
+            begins_word(one.parameters, word)) {
+            random += fmt::format("  SECTION.KEY = {{ distribution = \"{}\", ... }}\n", one.name) +
+                      wrapped("with " + one.parameters, 6);
         }
-        text += random ? "" : "[random]\n";
-        random = true;
-        text +=
-            fmt::format("  SECTION.KEY = {{ distribution = \"{}\", ... }}\n", distribution.name) +
-            wrapped("with " + distribution.parameters, 6);
     }
-    if (begins_word("random", word) || begins_word("per", word)) {
-        text += std::string(random ? "" : "[random]\n") +
-                "  SECTION.KEY = { ..., per = \"record\" }\n" +
-                wrapped(
-                    "a new random value for every record of a gearbox, baseline records included; "
-                    "in lives for operation.torque_N_m, a speed, sensor.gain or sensor.noise_m_s2. "
-                    "per = \"assembly\" gives the baseline records another value than the test "
-                    "record. By default there is one value for each gearbox",
-                    6);
-        random = true;
+    for (const auto& [name, form, meaning] : kRandomForms) {
+        if (begins_word("random", word) || begins_word(name, word)) {
+            random += fmt::format("  {}\n", form) + wrapped(meaning, 6);
+        }
     }
-    if (begins_word("random", word) || begins_word("correlations", word)) {
-        text +=
-            std::string(random ? "" : "[random]\n") +
-            "  correlations = [{ between = [\"SECTION.KEY\", \"SECTION.KEY\"], rank = R }, ...]\n" +
-            wrapped(
-                "rank correlation (Spearman's, between -1 and 1) of two random inputs, by a "
-                "Gaussian copula, which keeps their distributions; 0 for pairs that are not given",
-                6);
-    }
-    return text;
+    return text + (random.empty() ? "" : "[random]\n" + random);
 }
 
 }  // namespace gearpod::mc

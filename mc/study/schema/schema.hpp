@@ -1,6 +1,7 @@
 // Tables of keys that make up the schema.
 #pragma once
 
+#include <nlohmann/json_fwd.hpp>
 #include <span>
 #include <string>
 #include <string_view>
@@ -47,5 +48,9 @@ std::string_view choice_text(const Study& study, std::string_view section, std::
 // Reference of the keys for help, at most 80 columns wide: type, range and meaning. Lists the keys
 // where a word of section, name or meaning begins with `word`, ignoring case; "" if there is none.
 std::string schema_help(std::string_view word = "");
+
+// JSON of a key, from which editors and the documentation take its description: section, name,
+// unit, type, default, condition, range and meaning.
+nlohmann::ordered_json key_json(const Key& key);
 
 }  // namespace gearpod::mc

@@ -1,5 +1,5 @@
 // Checks targets of false alarms in time, and their conversion to the rate of a record.
-#include "mc/study/false_alarm_target.hpp"
+#include "mc/study/assumptions.hpp"
 #include "mc/study/schema/schema.hpp"
 #include "mc/study/study.hpp"
 #include "tests/mc/study_example.hpp"

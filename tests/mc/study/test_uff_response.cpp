@@ -2,7 +2,7 @@
 // uneven, units, and what is refused.
 #include "mc/files/input/problems.hpp"
 #include "mc/files/signal_file.hpp"
-#include "mc/study/elements/file_column.hpp"
+#include "mc/study/elements/list_element.hpp"
 #include "mc/study/study.hpp"
 #include "tests/mc/ensemble/gearbox/small_runs.hpp"
 #include "tests/mc/recording_bytes.hpp"

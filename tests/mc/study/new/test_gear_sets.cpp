@@ -6,7 +6,7 @@
 
 #include "dynamics/effects/mesh_law.hpp"
 #include "mc/numerics/study_scene.hpp"
-#include "mc/study/new/planetary.hpp"
+#include "mc/study/new/datasheet.hpp"
 #include "tests/mc/program.hpp"
 #include "tests/mc/study/new/gear_sets.hpp"
 

@@ -1,6 +1,6 @@
 // Checks gearpod new planetary: a study from a datasheet.
 #include "mc/study/gears.hpp"
-#include "mc/study/new/planetary.hpp"
+#include "mc/study/new/datasheet.hpp"
 #include "mc/study/study.hpp"
 #include "tests/mc/program.hpp"
 

@@ -1,7 +1,7 @@
 // Checks profile shifts and centre distance of `new planetary` and of study files in every
 // combination.
 #include "mc/study/gears.hpp"
-#include "mc/study/new/planetary.hpp"
+#include "mc/study/new/datasheet.hpp"
 #include "mc/study/study.hpp"
 #include "tests/test.hpp"
 
