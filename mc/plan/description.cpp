@@ -75,8 +75,7 @@ std::string sizes(double amplitude, const std::string& rate, double rms, double 
 
 class Describer {
   public:
-    Describer(const Study& study, const GearboxPlan& gearbox, double decay_meshes)
-        : study_(study), gearbox_(gearbox), decay_meshes_(decay_meshes) {}
+    Describer(const Study& study, const GearboxPlan& gearbox) : study_(study), gearbox_(gearbox) {}
 
     std::vector<DescriptionSection> sections() && {
         begin("gearbox");
@@ -730,9 +729,6 @@ class Describer {
         if (const std::string without = undamped(); !without.empty()) {
             add("damping", "{}", "0 for " + without);
         }
-        add_if(!std::isfinite(decay_meshes_), "",
-               "warning: the vibration is undamped, so no gearbox converges to the periodic "
-               "steady state");
         add_if(!has_tooth_errors(study_), "tooth errors", "all teeth of a gear are identical");
         add_if(study_.gearbox.kind == GearboxKind::planetary && !has_unequal_planets(study_),
                "unequal planets", "exact pin positions, equal bearings and masses");
@@ -765,7 +761,6 @@ class Describer {
 
     const Study& study_;
     const GearboxPlan& gearbox_;
-    const double decay_meshes_;
     std::vector<DescriptionSection> sections_;
 };
 
@@ -810,9 +805,8 @@ DescriptionSection false_alarm_description(const Study& study) {
     return section;
 }
 
-std::vector<DescriptionSection> description_of(const Study& study, const GearboxPlan& gearbox,
-                                               double decay_meshes) {
-    return Describer(study, gearbox, decay_meshes).sections();
+std::vector<DescriptionSection> description_of(const Study& study, const GearboxPlan& gearbox) {
+    return Describer(study, gearbox).sections();
 }
 
 }  // namespace gearpod::mc

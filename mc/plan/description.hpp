@@ -19,9 +19,7 @@ struct DescriptionSection {
     std::string heading;
     std::vector<DescriptionEntry> entries;
 };
-// `decay_meshes`: Stepping::decay_meshes.
-std::vector<DescriptionSection> description_of(const Study& study, const GearboxPlan& gearbox,
-                                               double decay_meshes);
+std::vector<DescriptionSection> description_of(const Study& study, const GearboxPlan& gearbox);
 
 // States whether the number of healthy gearboxes suffices for the false-alarm rate. This needs no
 // plan.

@@ -54,8 +54,7 @@ int max_meshes(const SolveSettings& settings, double decay_meshes) {
     const double decay = -2.0 * decay_meshes * std::log(settings.convergence_tolerance);
     return settings.numerics.max_meshes > 0
                ? settings.numerics.max_meshes
-               : static_cast<int>(std::isfinite(decay) ? std::clamp(decay, kFewest, kMost)
-                                                       : kFewest);
+               : static_cast<int>(std::clamp(decay, kFewest, kMost));
 }
 
 // Mesh periods in which the slowest mode of the sensor's low-pass filter decays to 1/e.

@@ -54,7 +54,13 @@ class StepNeeds {
         }
         const dynamics::GearboxInputs& nominal = gearboxes_[0];
         check_equal_masses();
-        decay_meshes_ = 1.0 / (lockstep::slowest_decay_1_s(system(nominal)) * period(nominal));
+        const double decay_1_s =
+            lockstep::slowest_decay_1_s(system(nominal), dynamics::rigid_rotation(layout_));
+        if (decay_1_s == 0.0) {
+            throw SceneError("gearbox", "a vibration without damping has no steady state",
+                             "add damping to the meshes, or to all bearings and couplings");
+        }
+        decay_meshes_ = 1.0 / (decay_1_s * period(nominal));
         usual_explicit_ = stable_steps(lockstep::kUsualExplicit);
     }
 
