@@ -10,6 +10,7 @@
 #include <numeric>
 #include <random>
 
+#include "analysis/pod/calibrated_bounds.hpp"
 #include "analysis/statistics/interval.hpp"
 #include "analysis/statistics/link.hpp"
 
@@ -103,6 +104,9 @@ SmoothResponse::SmoothResponse(const ResponseRows& rows, double threshold, Alarm
     const double side = alarm_sign(alarm);
     fit(rows, side);
     check(rows);
+    if (refusal_.empty()) {
+        refusal_ = too_few_tables(kTables, confidence);
+    }
     if (refusal_.empty()) {
         add_bounds(rows, threshold, side, confidence);
     }

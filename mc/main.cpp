@@ -4,11 +4,13 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <cerrno>
 #include <csignal>
 #include <cstdio>
 #include <exception>
 #include <string>
 #include <string_view>
+#include <system_error>
 #include <vector>
 
 #include "analysis/report/report.hpp"
@@ -40,6 +42,26 @@ bool is_command(CLI::App& app, const std::string& name) {
     fmt::print(stderr, "{}: unknown command; {}the commands are {}\n", name,
                meant.starts_with("did you mean") ? meant + " " : "", fmt::join(names, ", "));
     return false;
+}
+
+// Writes a message as far as possible. What cannot be written, as on a full disk, is lost.
+ssize_t write_message(void*, const char* text, std::size_t size) {
+    std::size_t written = 0;
+    for (ssize_t count = 1; written < size && count > 0;) {
+        count = ::write(STDERR_FILENO, text + written, size - written);
+        written += static_cast<std::size_t>(std::max<ssize_t>(0, count));
+    }
+    return static_cast<ssize_t>(size);
+}
+
+// Makes writing to stderr succeed always: fmt throws if it fails, also while a message is printed
+// about another error. A closed pipe is an error of the write, too, and no end by a signal.
+void lose_unwritable_messages() {
+    std::signal(SIGPIPE, SIG_IGN);
+    if (FILE* messages = ::fopencookie(nullptr, "w", {nullptr, write_message, nullptr, nullptr})) {
+        std::setvbuf(messages, nullptr, _IONBF, 0);
+        stderr = messages;
+    }
 }
 
 // Sets the width of reports to the width of the terminal.
@@ -110,6 +132,7 @@ int run_program(int argc, char** argv) {
 
 int main(int argc, char** argv) {
     fix_memory_limits();
+    lose_unwritable_messages();
     if (!check_arguments(argc, argv)) {
         return kBadInput;
     }
@@ -122,11 +145,15 @@ int main(int argc, char** argv) {
         fit_terminal();
         const int code = run_program(argc, argv);
         if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0) {
-            fmt::print(stderr, "gearpod: standard output cannot be written\n");
-            return kBadInput;
+            throw std::system_error(errno, std::generic_category(),
+                                    "standard output cannot be written");
         }
         return code;
     } catch (const std::exception& error) {
+        const auto* const output = dynamic_cast<const std::system_error*>(&error);
+        if (output != nullptr && output->code() == std::errc::broken_pipe) {
+            return kBadInput;  // whoever read the output, such as `head`, wanted no more of it
+        }
         // Name the command and its first argument, because the command did not handle the error.
         std::string call = "gearpod";
         for (int i = 1; i < std::min(argc, 3); ++i) {

@@ -1,5 +1,7 @@
 #include "analysis/pod/response_bounds.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <boost/math/tools/toms748_solve.hpp>
 #include <cmath>
@@ -389,6 +391,15 @@ SimulatedLimits::SimulatedLimits(const ResponseRows& rows, bool by_specimen,
             }
         }
     }
+}
+
+std::string too_few_tables(int tables, double confidence) {
+    return tables * (1.0 - confidence) > 1.0 - 1e-9
+               ? ""
+               : fmt::format(
+                     "{} simulated tables give no calibrated bounds at {:g} % confidence; "
+                     "lower it, or choose an asymptotic convention",
+                     tables, 100.0 * confidence);
 }
 
 double SimulatedLimits::at(double size, double u, int bound) const {

@@ -3,6 +3,7 @@
 
 #include <functional>
 #include <memory>
+#include <string>
 #include <vector>
 
 #include "analysis/pod/pod_curve.hpp"
@@ -86,6 +87,9 @@ class SimulatedLimits {
     double x_[kSizes] = {};
     double limit_[2][kSizes][kDistances] = {};
 };
+
+// Reason why so many simulated tables give no bounds at a confidence, "" if they do.
+std::string too_few_tables(int tables, double confidence);
 
 // Bounds of a POD curve from a line through responses that cover their confidence in small tables.
 // A bound of the POD at a size is exceeded by the true POD with probability 1 - confidence. Where

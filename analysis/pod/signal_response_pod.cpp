@@ -221,6 +221,12 @@ SignalResponsePod signal_response_pod(std::span<const double> sizes,
     const double smallest = *distinct.begin(), largest = *distinct.rbegin();
     if (request.method == LineMethod::maximum_likelihood) {
         calibrate(pod, *best, rows, request);
+        if (pod.limits) {
+            pod.refusal = too_few_tables(pod.limits->tables(), request.confidence);
+        }
+        if (!pod.refusal.empty()) {
+            return pod;
+        }
     }
     pod.supported = spanned(pod, pod.candidates, *best, request);
     const auto bounds = bounds_of(pod, pod.candidates, pod.supported, request.threshold, request);

@@ -127,7 +127,7 @@ def _comparison(report, page):
     about = "; ".join(_state(report, f, n) for f in report.order(n))
     svg = to_svg(figure, f"Probability of detection of every feature at "
                  f"{noise(report.levels[n])}", about, page.names)
-    bound = f"a90/{number(100 * report.confidence)}"
+    bound = f"a90/{number(100 * report.confidence, 6)}"
     how = ("Each curve is fitted to the hits and misses of single gearboxes; marks are observed "
            "detection rates. Shaded, for the three best ranked: bounds, each one-sided at "
            f"{percent(report.confidence)}. {REJECTED} {bound} is the size at which the lower "

@@ -101,7 +101,7 @@ std::string size_text(const SizeEstimate& estimate, const FittedCurve& curve,
 }
 
 std::string bound_name(const InspectionRequest& request) {
-    return "a90/" + number_text(100.0 * request.confidence);
+    return "a90/" + number_text(100.0 * request.confidence, 6);
 }
 
 Section inspection_headline(const InspectionRequest& request, const InspectionResult& result,

@@ -86,7 +86,7 @@ std::string p_text(double p) {
 }
 
 std::string percent_text(double share) {
-    return number_text(100.0 * share) + " %";
+    return distinct_text(100.0 * share, 100.0, 3) + " %";
 }
 
 std::string joined(const std::vector<std::string>& texts) {

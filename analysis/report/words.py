@@ -71,7 +71,7 @@ def rate_with_bounds(value, lower, upper):
 
 
 def percent(value):
-    return f"{number(100 * value)}\u00a0%"
+    return f"{number(100 * value, 6 if 0.9995 <= value < 1 else 3)}\u00a0%"
 
 
 def count(value):

@@ -106,9 +106,10 @@ int run_lives_on_leader(const LivesOptions& options, const LifeTiles& tiles,
                                                .progress = progress,
                                                .interruption = &interruption,
                                                .checkpoint_s = campaign.ensemble.checkpoint_s});
-    progress.finish();
     std::string trouble = outcome.failure;
-    if (trouble.empty() && outcome.interruption.empty()) {
+    const bool complete = trouble.empty() && outcome.interruption.empty();
+    progress.finish(complete);
+    if (complete) {
         interruption.disable_cancellation();
         try {
             Results frame = lives_frame(campaign);

@@ -6,6 +6,7 @@
 #include "mc/commands/commands.hpp"
 #include "mc/commands/options/options.hpp"
 #include "mc/commands/output_folder.hpp"
+#include "mc/files/input/terminal_text.hpp"
 #include "mc/library/run/command_files.hpp"
 #include "mc/library/stiffness_modes.hpp"
 #include "mc/plan/description.hpp"
@@ -68,6 +69,12 @@ int stiffness_command(const StiffnessOptions& options) {
         return kBadInput;
     }
     const GearboxPlan& gearbox = scene->gearbox();
+    if (options.te && gearbox.fault().plan().given()) {
+        fmt::print(stderr,
+                   "{}: note: transmission errors are those of healthy teeth; only the stiffness "
+                   "(without --te) shows the fault\n",
+                   printable(options.study.path));
+    }
     if (options.csv.empty()) {
         options.te ? print_te(gearbox) : print_summary(gearbox);
         return kDone;

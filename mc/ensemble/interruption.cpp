@@ -2,16 +2,23 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <charconv>
 #include <csignal>
 #include <ctime>
 #include <string_view>
+#include <utility>
 
 namespace gearpod::mc {
 namespace {
 
-constexpr std::array kSignals{SIGINT, SIGTERM, SIGUSR1};
+constexpr std::array<std::pair<int, const char*>, 6> kSignals{{{SIGINT, "SIGINT"},
+                                                               {SIGTERM, "SIGTERM"},
+                                                               {SIGUSR1, "SIGUSR1"},
+                                                               {SIGUSR2, "SIGUSR2"},
+                                                               {SIGXCPU, "SIGXCPU"},
+                                                               {SIGHUP, "SIGHUP"}}};
 
 volatile std::sig_atomic_t caught = 0;
 // Time of the first signal on the steady clock, in nanoseconds. Signal handlers may only write
@@ -28,7 +35,7 @@ long long steady_ns() {
 
 extern "C" void note_signal(int number) {
     const bool again = caught != 0 && steady_ns() - caught_ns >= kSameRequest.count();
-    if (again && number != SIGUSR1) {
+    if (again && (number == SIGINT || number == SIGTERM)) {
         std::signal(number, SIG_DFL);
         std::raise(number);
         return;
@@ -40,11 +47,16 @@ extern "C" void note_signal(int number) {
 }
 
 const char* name_of(int number) {
-    return number == SIGINT ? "SIGINT" : number == SIGTERM ? "SIGTERM" : "SIGUSR1";
+    return std::ranges::find(kSignals, number, &std::pair<int, const char*>::first)->second;
 }
 
+// Leaves SIGHUP ignored, as `nohup` has it.
 void handle(int number, void (*handler)(int)) {
     struct sigaction action {};
+    sigaction(number, nullptr, &action);
+    if (number == SIGHUP && action.sa_handler == SIG_IGN) {
+        return;
+    }
     action.sa_handler = handler;
     action.sa_flags = SA_RESTART;
     sigemptyset(&action.sa_mask);
@@ -58,14 +70,14 @@ Interruption::Interruption(std::optional<std::chrono::seconds> limit)
       start_(std::chrono::steady_clock::now()),
       end_(limit ? start_ + *limit : std::chrono::steady_clock::time_point::max()) {
     caught = 0;
-    for (const int number : kSignals) {
+    for (const auto& [number, name] : kSignals) {
         handle(number, note_signal);
     }
     handle(SIGXFSZ, SIG_IGN);
 }
 
 Interruption::~Interruption() {
-    for (const int number : kSignals) {
+    for (const auto& [number, name] : kSignals) {
         handle(number, SIG_DFL);
     }
 }

@@ -10,8 +10,8 @@
 
 namespace gearpod::mc {
 
-// Handles SIGINT, SIGTERM and SIGUSR1 (a batch queue's warning) during its lifetime: the first
-// signal asks the run to end and save. A second SIGINT or SIGTERM ends the program at once, unless
+// Handles SIGINT, SIGTERM and a batch queue's warnings (SIGUSR1, SIGUSR2, SIGXCPU, SIGHUP unless it
+// is ignored) during its lifetime: the first signal asks the run to end and save. A second SIGINT or SIGTERM ends the program at once, unless
 // it follows the first within kSameRequest. `timeout` and batch queues send a signal to a program
 // and then to its process group. Computations are cancelled (CancellationSource) one second after
 // the first signal, or at the time limit. SIGXFSZ is ignored, so that writing beyond a limit on the

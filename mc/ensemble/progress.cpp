@@ -88,11 +88,12 @@ void Progress::show_json(double elapsed, double rate, long left, bool finished) 
     std::fflush(stderr);
 }
 
-void Progress::finish() {
+void Progress::finish(bool complete) {
     if (form_ == Form::json) {
         const double elapsed =
             std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
-        show_json(elapsed, static_cast<double>(done_ - before_) / std::max(1e-9, elapsed), 0, true);
+        show_json(elapsed, static_cast<double>(done_ - before_) / std::max(1e-9, elapsed),
+                  complete ? 0 : total_ - done_, complete);
     }
     if (!quiet_ && terminal_) {
         fmt::print(stderr, "\n");

@@ -2,7 +2,7 @@
 // programs there is JSON, one object per line, every five seconds and at the end:
 //   {"done": number, "of": total number, "counted": "gearboxes" or other items,
 //    "seconds": since the start, "per_second": number, "left_s": forecast or null,
-//    "watched": text or null, "finished": true in the last line}
+//    "watched": text or null, "finished": true in the last line of complete work}
 #pragma once
 
 #include <chrono>
@@ -26,8 +26,8 @@ class Progress {
     // Sets the detection rate to show.
     void watch(std::string rate);
 
-    // Ends the line of the progress bar.
-    void finish();
+    // Ends the line of the progress bar. `complete`: nothing was interrupted.
+    void finish(bool complete = true);
 
   private:
     void show(std::chrono::steady_clock::time_point now);

@@ -417,6 +417,9 @@ ResolvedNumerics resolve_numerics(const Planner& planner, const Numerics& numeri
         resolved.numerics = resolved.choice->setting.numerics;
         resolved.numerics.tolerance = numerics.tolerance;
         resolved.numerics.scatter_tolerance = numerics.scatter_tolerance;
+        if (numerics.lanes == full_lanes(numerics.precision)) {
+            resolved.numerics.lanes = full_lanes(resolved.numerics.precision);
+        }
     }
     return resolved;
 }

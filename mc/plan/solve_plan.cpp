@@ -258,26 +258,30 @@ lockstep::Integrator integrator_of(const Study& study, const StepNeeds& needs) {
     return chosen;
 }
 
-// Throws SceneError if an additional sensor has a sampling rate of its own that does not resolve
-// the mesh frequency.
+// Throws SceneError if the encoders, or an additional sensor with a sampling rate of its own, do
+// not resolve the mesh frequency.
 void check_own_rates(const Study& study, double mesh_frequency_Hz) {
+    const auto check = [&](const char* key, const std::string& name, double rate_Hz) {
+        if (rate_Hz < 2.0 * mesh_frequency_Hz) {
+            throw SceneError(key,
+                             fmt::format("{}{} Hz is below twice the mesh frequency ({:.4g} Hz)",
+                                         name, rate_Hz, mesh_frequency_Hz),
+                             fmt::format("use at least {:.4g} Hz", 2.0 * mesh_frequency_Hz));
+        }
+    };
     for (const AdditionalSensor& sensor : study.sensor.additional) {
-        if (sensor.sampling_Hz && *sensor.sampling_Hz < 2.0 * mesh_frequency_Hz) {
-            throw SceneError(
-                "sensor.additional",
-                fmt::format("sensor \"{}\": sampling_Hz = {} Hz is below twice the mesh frequency "
-                            "({:.4g} Hz)",
-                            sensor.name, *sensor.sampling_Hz, mesh_frequency_Hz),
-                fmt::format("use at least {:.4g} Hz", 2.0 * mesh_frequency_Hz));
+        if (sensor.sampling_Hz) {
+            check("sensor.additional", fmt::format("sensor \"{}\": sampling_Hz = ", sensor.name),
+                  *sensor.sampling_Hz);
         }
     }
+    check("sensor.encoder_sampling_Hz", "", study.sensor.encoder_sampling_Hz);
 }
 
 Sampling choose_sampling(const Study& study, double mesh_frequency_Hz) {
     const bool sensor = !study.effects.quasi_static();
     const char* const key = sensor ? "sensor.sampling_Hz" : "sensor.encoder_sampling_Hz";
     const double rate = sensor ? study.sensor.sampling_Hz : study.sensor.encoder_sampling_Hz;
-    check_own_rates(study, mesh_frequency_Hz);
     Sampling result;
     // Fourier transforms of a whole planet turn stay fast.
     result.samples = signals::smooth_length(samples_at_least(rate, mesh_frequency_Hz, key));
@@ -288,6 +292,7 @@ Sampling choose_sampling(const Study& study, double mesh_frequency_Hz) {
                         result.samples, sensor ? "window" : "average", mesh_frequency_Hz),
             fmt::format("use at least {:.4g} Hz", kFewestSamples * mesh_frequency_Hz));
     }
+    check_own_rates(study, mesh_frequency_Hz);
     result.te_samples = std::min(samples_at_least(study.sensor.encoder_sampling_Hz,
                                                   mesh_frequency_Hz, "sensor.encoder_sampling_Hz"),
                                  result.samples);

@@ -184,6 +184,12 @@ class Package(unittest.TestCase):
         h5py.File(other, "w").close()
         with self.assertRaisesRegex(ValueError, "not a results file"):
             gearpod.open(other)
+        # HDF5 crashes on a text of 2^51 bytes, in a child process.
+        damaged = bytearray(self.results.path.read_bytes())
+        damaged[damaged.find(b"gearpod results") - 2] = 8
+        other.write_bytes(damaged)
+        with self.assertRaisesRegex(ValueError, "other.h5: is damaged"):
+            gearpod.open(other)
         with self.assertRaises(OSError):
             gearpod.open(other.with_name("nothing.h5"))
 

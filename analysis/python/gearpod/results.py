@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 import os
 import pathlib
+import signal
 import sys
 import tempfile
 import warnings
@@ -85,6 +86,8 @@ class Results:
 
     def __init__(self, path: PathLike) -> None:
         self.path = pathlib.Path(path)
+        if not _survives_reading(self.path):
+            raise ValueError(f"{self.path}: is damaged: the HDF5 library crashes on it")
         with h5py.File(self.path, "r") as file:
             self.attributes: Dict[str, str] = {
                 name: _text(value) for name, value in file.attrs.items()}
@@ -301,6 +304,25 @@ class Results:
         with h5py.File(self.path, "r") as file:
             values: Array = file[folder][name][()]
         return values
+
+
+def _survives_reading(path: pathlib.Path) -> bool:
+    """Reads all of a file in a child process: HDF5 may crash on a damaged one, or never finish."""
+    def read(name: str, item: Any) -> None:
+        dict(item.attrs)
+        if isinstance(item, h5py.Dataset) and not name.startswith("signals/"):
+            item[()]
+
+    child = os.fork()
+    if child == 0:
+        try:
+            signal.alarm(20 + path.stat().st_size // 10_000_000)
+            with h5py.File(path, "r") as file:
+                read("/", file)
+                file.visititems(read)
+        finally:
+            os._exit(0)  # the caller gets the same exception
+    return os.waitstatus_to_exitcode(os.waitpid(child, 0)[1]) == 0
 
 
 def _text(value: Union[bytes, str, Any]) -> str:

@@ -197,7 +197,8 @@ Table curve_table(const Findings& findings, std::size_t n) {
             ? fmt::format("Probability of detection against {}{}: sizes with POD 50 % and 90 "
                           "%, and the latter's upper bound, one-sided at {} (likelihood "
                           "ratio); AUC with DeLong's interval at {}",
-                          unit.name, findings.at_noise(n), findings.percent(), findings.percent())
+                          input_name(unit.name, unit.unit), findings.at_noise(n),
+                          findings.percent(), findings.percent())
             : fmt::format("Area under the ROC, healthy against faulty, with DeLong's "
                           "interval at {}",
                           findings.percent()),

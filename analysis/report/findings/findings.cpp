@@ -279,7 +279,7 @@ std::string Findings::probability() const {
 }
 
 std::string Findings::bound() const {
-    return "a90/" + number_text(100.0 * request.confidence);
+    return "a90/" + number_text(100.0 * request.confidence, 6);
 }
 
 std::string Findings::percent() const {

@@ -19,7 +19,7 @@ class Inspection(Findings):
             self.pod = {**self.pod, **self.pod["smooth"], "refusal": None, "model": "a monotone curve",
                         "bound": "from tables simulated from the curve"}
         self.value = data["value"]["name"]
-        self.bound = f"a90/{number(100 * data['confidence'])}"
+        self.bound = f"a90/{number(100 * data['confidence'], 6)}"
 
     def title(self):
         return f"{self.value} over {self.sizes.name}"

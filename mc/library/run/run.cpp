@@ -78,7 +78,7 @@ class Run {
                                                      .watch = &watch_,
                                                      .checkpoint_s = ensemble_.checkpoint_s,
                                                      .checkpointed = [&] { snapshot(); }});
-        progress.finish();
+        progress.finish(outcome.failure.empty() && outcome.interruption.empty());
         return conclude(outcome, interruption);
     }
 

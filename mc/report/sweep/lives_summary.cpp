@@ -137,7 +137,7 @@ double p_of_equal_shares(const LivesPoint& a, const MonitoredFeature& at_a, cons
     return analysis::mcnemar_p_value(counts);
 }
 
-// Points with a share found by the best feature and detector, with that result.
+// Points with a share found by the best feature and detector, with a rank or not, and that result.
 struct KnownShare {
     const LivesPoint* point;
     const MonitoredFeature* result;
@@ -148,7 +148,7 @@ std::vector<KnownShare> known_shares(const LivesSweep& sweep) {
     std::vector<KnownShare> known;
     for (const LivesPoint& point : sweep.points) {
         const MonitoredFeature* here = find_life_result(point, sweep.order.front());
-        if (here != nullptr && here->unranked.empty() && !std::isnan(here->performance.share)) {
+        if (here != nullptr && !std::isnan(here->performance.share)) {
             known.push_back({&point, here});
         }
     }
@@ -158,6 +158,14 @@ std::vector<KnownShare> known_shares(const LivesSweep& sweep) {
 std::string best_text(const LivesSweep& sweep) {
     const MonitoredFeature& best = sweep.order.front();
     return fmt::format("{} by {}", analysis::feature_text(best.feature), best.detector);
+}
+
+// "; it has no rank at 1 of 3 points", "" for no points.
+std::string exempt_points_text(const char* exception, std::ptrdiff_t points,
+                               const LivesSweep& sweep) {
+    return points == 0
+               ? ""
+               : fmt::format("; {} at {} of {} points", exception, points, sweep.points.size());
 }
 
 std::string lives_headline_text(const LivesSweep& sweep) {
@@ -180,7 +188,8 @@ std::string lives_headline_text(const LivesSweep& sweep) {
     text += low->share() < high->share()
                 ? fmt::format(" at {}, {} at {}", point_text(sweep.keys, high->point->point),
                               at(*low), point_text(sweep.keys, low->point->point))
-                : " at every point";
+            : known.size() == sweep.points.size() ? " at every point"
+                                                  : " at every point with a known share";
     std::vector<KnownShare> warned = known;
     std::erase_if(warned, [](const KnownShare& one) {
         return std::isnan(one.result->performance.warning_50);
@@ -196,6 +205,10 @@ std::string lives_headline_text(const LivesSweep& sweep) {
                                 point_text(sweep.keys, most->point->point));
         }
     }
+    const auto unranked = [](const KnownShare& one) { return !one.result->unranked.empty(); };
+    text += exempt_points_text("it has no rank", std::ranges::count_if(known, unranked), sweep);
+    text += exempt_points_text("no share is known", std::ssize(sweep.points) - std::ssize(known),
+                               sweep);
     return text + ".";
 }
 

@@ -257,7 +257,7 @@ TEST_CASE("A feature without a value is reported with its reason, and no number 
     // Two samples per mesh from the encoders resolve none of its harmonics.
     write_csv(file, hostile([](double at) { return 1e-5 * std::sin(0.1 * at); }));
     const auto slow = features_of(file, kSmall +
-                                            " --set sensor.encoder_sampling_Hz=50 --set "
+                                            " --set sensor.encoder_sampling_Hz=70 --set "
                                             "'features.use=[\"te_rms\"]'");
     INFO(slow.dump(2));
     CHECK(slow["features"].contains("te_rms"));

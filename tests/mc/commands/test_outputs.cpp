@@ -217,6 +217,27 @@ TEST_CASE("Outputs on a full disk are bad output, not failed gearboxes") {
     }
 }
 
+TEST_CASE("Messages and tables that cannot be written neither abort a run nor end by a signal") {
+    const Workplace place;
+    const std::string out = place.folder.file("full.h5"), text = place.folder.file("none.txt");
+    // 8 healthy gearboxes are too few for the false-alarm rate, which gives a warning.
+    const std::string run =
+        "run " + place.study + " --force --set ensemble.threshold_instances=8 --out " + out;
+    const auto code = [](const std::string& command, const std::string& redirection) {
+        return shell(std::string(GEARPOD_PROGRAM) + " " + command + redirection).code;
+    };
+    for (const char* quiet : {" --instances 2", " --instances 2 --quiet"}) {
+        CHECK(code(run + quiet, " 2>/dev/full >/dev/null") == 0);
+        CHECK(fs::remove(out));
+    }
+    CHECK(code("check nosuch.toml", " 2>/dev/full") == 2);
+    CHECK(code("report " + place.results, " >/dev/full") == 2);
+    const std::string head = "{ " + std::string(GEARPOD_PROGRAM) + " report " + place.results +
+                             "; echo $? >" + text + "; } | true";
+    CHECK(shell(head).output.empty());
+    CHECK((bytes_of(text) == "2\n" || bytes_of(text) == "0\n"));
+}
+
 TEST_CASE("Names of conditions that a results file cannot hold are refused before measuring") {
     const Workplace place;
     const std::string manifest = place.folder.file("m.csv"), out = place.folder.file("f.h5");

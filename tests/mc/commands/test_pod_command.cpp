@@ -55,6 +55,16 @@ TEST_CASE("pod ends at a confidence of one half, where bounds are the estimates"
     }
 }
 
+TEST_CASE("pod refuses a confidence that its simulated tables cannot show, and prints others") {
+    const std::string table =
+        "pod " + kTables + "inspections_responses.csv --response A --threshold 6";
+    CHECK(require_success(table + " --confidence 0.999").mentions("a90/99.9"));
+    CHECK(require_success(table + " --confidence 0.9999")
+              .mentions("tables give no calibrated bounds at 99.99 % confidence"));
+    CHECK(require_success(table + " --confidence 0.9999 --convention handbook")
+              .mentions("a90/99.99"));
+}
+
 TEST_CASE("pod takes several columns as repeats, a byte order mark and decimal commas") {
     const Folder folder;
     const auto plain = pod_of(kTables +

@@ -30,6 +30,7 @@ TEST_CASE("A run ends with the table and a file from which report prints the sam
     CHECK(parsed["detection"]["features"].size() == 7);
     CHECK(parsed["provenance"]["seed"] == "2");
     CHECK(parsed["reliability"]["features"].size() == 7);
+    CHECK(mentions(text, "against fault depth at noise"));
     check_refused("report --by gearbox_colour " + out, {"torque_N_m"});
 }
 
@@ -46,6 +47,9 @@ TEST_CASE("Stiffness curves have the documented columns and the mean of the prin
                                         " --csv - --points 500");
     CHECK(csv.output.rfind("phase,sp1,sp2,sp3,sp4,rp1,rp2,rp3,rp4,", 0) == 0);
     CHECK(std::count(csv.output.begin(), csv.output.end(), '\n') == 501);
+    const std::string cracked = study("planet-crack-ideal.toml");
+    CHECK(
+        require_success("stiffness --te " + cracked).mentions("errors are those of healthy teeth"));
 }
 
 TEST_CASE("A fixed-shaft gearbox has its own columns, frequencies and description") {

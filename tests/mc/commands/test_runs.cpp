@@ -121,7 +121,7 @@ TEST_CASE("Killed twenty times at random moments and resumed, a run loses nothin
 TEST_CASE("Signals and the time limit end a run cleanly, save its state and exit with 4") {
     const Folder folder;
     const std::string out = folder.file("r.h5");
-    for (const int number : {SIGINT, SIGTERM, SIGUSR1}) {
+    for (const int number : {SIGINT, SIGTERM, SIGUSR1, SIGXCPU}) {
         const std::uintmax_t before = size_of(out + ".part");
         const pid_t child = start(run_of(out, 5000) + " --resume --quiet");
         await_batches(out + ".part", before);
@@ -135,9 +135,12 @@ TEST_CASE("Signals and the time limit end a run cleanly, save its state and exit
         const Outcome report = require_success("report " + out);
         CHECK(report.mentions("of 5035 gearboxes (interrupted by SIG"));
     }
-    const Outcome limited = program(run_of(out, 5000) + " --resume --time-limit 00:00:02");
+    const Outcome limited =
+        program(run_of(out, 5000) + " --resume --progress json --time-limit 00:00:02");
     CHECK(limited.code == 4);
-    check_mentions(limited, {"stopped by the time limit", "continue with --resume"});
+    CHECK_FALSE(limited.mentions("\"finished\":true"));
+    check_mentions(limited,
+                   {"\"finished\":false", "stopped by the time limit", "continue with --resume"});
     CHECK(program(run_of(out, 5000)).mentions("--resume"));
     CHECK(program(run_of(out, 5000) + " --resume --time-limit 2h").code == 2);
 }

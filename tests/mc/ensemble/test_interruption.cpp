@@ -25,7 +25,7 @@ TEST_CASE("Time limits are parsed as hours, minutes and seconds") {
 }
 
 TEST_CASE("A signal requests a stop during the lifetime of a watcher") {
-    for (const int number : {SIGINT, SIGTERM, SIGUSR1}) {
+    for (const int number : {SIGINT, SIGTERM, SIGUSR1, SIGUSR2, SIGXCPU, SIGHUP}) {
         const Interruption interruption(std::nullopt);
         CHECK(interruption.reason(1h).empty());
         std::raise(number);
@@ -42,6 +42,7 @@ TEST_CASE("Simultaneous signals count as one request, a later one ends the progr
         std::raise(SIGTERM);
         std::this_thread::sleep_for(Interruption::kSameRequest);
         std::raise(SIGUSR1);
+        std::raise(SIGXCPU);
         std::raise(SIGINT);
         _exit(0);
     }

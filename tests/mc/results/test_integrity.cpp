@@ -2,6 +2,7 @@
 #include <fcntl.h>
 #include <sys/stat.h>
 
+#include "mc/results/layout.hpp"
 #include "tests/mc/edited_results.hpp"
 #include "tests/mc/program.hpp"
 
@@ -91,6 +92,24 @@ TEST_CASE("A results file that is being written, cut or changed is refused with 
     CHECK(contains(reason(path), "gearpod repair"));
     REQUIRE(::mkfifo(folder.file("pipe.h5").c_str(), 0600) == 0);
     CHECK(contains(reason(folder.file("pipe.h5")), "a regular file is needed"));
+}
+
+// Anyone can compute the hash. HDF5 crashes on a text of 2^51 bytes.
+TEST_CASE("A changed byte under a valid hash ends no command by a crash of HDF5") {
+    const Folder folder;
+    const std::string path = folder.file("r.h5");
+    std::string bytes = bytes_of(genuine());
+    bytes.at(bytes.find(mc::kResultsFormat) - 2) = 8;
+    write_bytes(path, bytes);
+    update_checksum(path);
+    CHECK(mc::check_file_checksum(path) == mc::ChecksumState::intact);
+    CHECK(contains(reason(path), "is damaged"));
+    for (const std::string& command :
+         {"report " + path, "compare " + genuine() + " " + path, "repair " + path,
+          "merge " + path + " --out " + folder.file("m.h5"),
+          "run " + study("planet-crack-ideal.toml") + " --resume --out " + path}) {
+        check_refused(command, {"r.h5: is damaged"});
+    }
 }
 
 TEST_CASE("Files of version 2 are read, without their trailing hash with a note") {

@@ -242,6 +242,8 @@ TEST_CASE("Problems of a measuring chain are reported") {
             "sensor 1: sampling_Hz = 90 Hz is not above twice its low-pass, 50 Hz");
     refused(side("sampling_Hz=50, low_pass_Hz=20"),
             "sampling_Hz = 50 Hz is below twice the mesh frequency");
+    refused(" --set sensor.encoder_sampling_Hz=69",
+            "sensor.encoder_sampling_Hz: 69 Hz is below twice the mesh frequency (35 Hz)");
     refused(side("sampling_Hz=0"), "sensor 1: sampling_Hz must be");
     refused(side("low_pass_Hz=0"), "sensor 1: low_pass_Hz must be");
     refused(side("delay_s=1.5"), "sensor 1: delay_s must be");

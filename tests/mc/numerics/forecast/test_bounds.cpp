@@ -56,7 +56,7 @@ TEST_CASE("Counts beyond their limits are refused with the limit") {
                     "at most 1000"},
           std::pair{std::string("sensor.sampling_Hz=1e7"), "at most 20000"},
           std::pair{std::string("ensemble.instances=1000000001"), "ensemble.instances"},
-          std::pair{std::string("sensor.encoder_sampling_Hz=1\" --set \"features.use=['te_fm4']"),
+          std::pair{std::string("sensor.encoder_sampling_Hz=30\" --set \"features.use=['te_fm4']"),
                     "too few for te_fm4, te_m6a and te_m8a"},
           std::pair{std::string("features.te_harmonics=100000"), "features.te_harmonics"}}) {
         const Outcome outcome = bounded("describe " + study + " --set \"" + set + "\"");
