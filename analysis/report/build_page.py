@@ -13,6 +13,7 @@ gearpod report F.h5 --html F.html does both. Everything on the page comes from t
 loads nothing and runs no script.
 """
 
+import importlib
 import json
 import pathlib
 import sys
@@ -99,31 +100,6 @@ def page_html(data, figures=None):
 """
 
 
-def summary_pdf(data):
-    import summary_sheet
-    from report import Report
-
-    return summary_sheet.pdf(Report(data))
-
-
-def csv_tables(data):
-    import tables
-
-    return framed(tables.files(data))
-
-
-def evidence_pack(data):
-    from evidence import evidence
-
-    return framed(evidence.files(data))
-
-
-def dataset_folder(data):
-    import dataset
-
-    return framed(dataset.files(data))
-
-
 def framed(files):
     """Files, texts or bytes by their names, as one text: names and sizes in the first line."""
     contents = {name: text if isinstance(text, bytes) else text.encode()
@@ -132,22 +108,30 @@ def framed(files):
     return json.dumps(sizes).encode() + b"\n" + b"".join(contents.values())
 
 
-# Document, and the packages that it needs.
-DOCUMENTS = {"--pdf": (summary_pdf, DRAWING), "--csv": (csv_tables, ()),
-             "--evidence": (evidence_pack, DRAWING), "--dataset": (dataset_folder, HDF5)}
+# Modules that make documents, and the packages that they need.
+DOCUMENTS = {"--pdf": ("summary_sheet", DRAWING), "--csv": ("tables", ()),
+             "--evidence": ("evidence.evidence", DRAWING), "--dataset": ("dataset", HDF5)}
+
+
+def document_of(kind, data):
+    """Bytes of a PDF, or of the files of a folder."""
+    module = importlib.import_module(DOCUMENTS[kind][0])
+    if kind == "--pdf":
+        from report import Report
+
+        return module.pdf(Report(data))
+    return framed(module.files(data))
 
 
 def main(arguments):
     figures = None
-    document, needed = None, DRAWING
-    if len(arguments) == 2:
-        document, needed = DOCUMENTS.get(arguments[1], (None, ()))
+    document = arguments[1] if len(arguments) == 2 else None
     if len(arguments) == 3 and arguments[1] == "--figures":
         figures = pathlib.Path(arguments[2])
-    elif len(arguments) != 1 and not document:
+    elif len(arguments) != 1 and document not in DOCUMENTS:
         print(__doc__, file=sys.stderr)
         return 2
-    missing = missing_packages(needed)
+    missing = missing_packages(DOCUMENTS[document][1] if document else DRAWING)
     if missing:
         print(f"{sys.executable} lacks packages for this output: apt-get install "
               + " ".join(missing), file=sys.stderr)
@@ -157,7 +141,7 @@ def main(arguments):
     # Tables keep the digits of the JSON.
     data = json.loads(text, parse_float=Number if document else None)
     if document:
-        sys.stdout.buffer.write(document(data))
+        sys.stdout.buffer.write(document_of(document, data))
         return 0
     try:
         if figures is not None:

@@ -75,15 +75,6 @@ Json to_json(const ConditionLevel& level);
 Json to_json(const EpistemicBand& uncertain);
 Json to_json(const SmallestFault& smallest);
 
-template <class Value>
-struct IsOptional : std::false_type {};
-template <class Value>
-struct IsOptional<std::optional<Value>> : std::true_type {};
-template <class Value>
-struct IsVariant : std::false_type {};
-template <class... Values>
-struct IsVariant<std::variant<Values...>> : std::true_type {};
-
 template <class Structure>
 Json fields_json(const Structure& structure);
 
@@ -98,9 +89,9 @@ Json json_of(const Value& value) {
         return to_json(value);
     } else if constexpr (HasFields<const Value>) {
         return fields_json(value);
-    } else if constexpr (IsOptional<Value>::value) {
+    } else if constexpr (requires { value.has_value(); }) {  // std::optional
         return value ? json_of(*value) : Json(nullptr);
-    } else if constexpr (IsVariant<Value>::value) {
+    } else if constexpr (requires { value.index(); }) {  // std::variant
         return std::visit([](const auto& held) { return json_of(held); }, value);
     } else if constexpr (requires { value.begin(); } &&
                          !std::is_convertible_v<Value, std::string_view>) {

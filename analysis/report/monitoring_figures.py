@@ -1,6 +1,7 @@
 """Figures on recordings monitored one after another: indicators, teeth and alarms over the records."""
 
 import math
+from functools import partial
 
 from charts import INK, MUTED, PAPER, colour, dash, legend_below, panel, to_svg
 from words import number
@@ -54,24 +55,8 @@ def _draw_indicators(axes, monitoring, series, names):
     return "; ".join(about) or "no sustained alarm"
 
 
-def _indicators(page, monitoring, series, names):
-    figure, axes = panel(3.8)
-    about = _draw_indicators(axes, monitoring, series, names)
-    legend_below(axes, 1)
-    return to_svg(figure, _title("Indicators over the recordings", series), about, page.names)
-
-
 def _tooth_count(series):
     return max((len(rms) for rms in series["tooth_rms"]), default=0)
-
-
-def _teeth(page, series):
-    """Image of tooth by recording; empty without tooth maps."""
-    if _tooth_count(series) == 0:
-        return ""
-    figure, axes = panel(3.8)
-    about = _draw_teeth(axes, series)
-    return to_svg(figure, _title("Teeth over the recordings", series), about, page.names)
 
 
 def _draw_teeth(axes, series):
@@ -99,45 +84,44 @@ def _draw_teeth(axes, series):
 
 
 def _monitored(report):
-    """Gearboxes that are monitored, each with the names of its indicators in the figures."""
+    """Gearboxes that are monitored, each with titles and functions that draw on axes and return what
+    they show in words."""
     monitoring = report.data.get("monitoring")
     if not monitoring or not monitoring["watched"]:
         return
     for series in monitoring["recordings"]:
         names = [name for name in series["deviations"] if name != "fused"][:MOST]
         if names:
-            yield series, names
+            yield series, [("Indicators over the recordings", partial(
+                _draw_indicators, monitoring=monitoring, series=series, names=names))] + [
+                    ("Teeth over the recordings", partial(_draw_teeth, series=series))
+                    ] * (_tooth_count(series) > 0)
 
 
 def drawings(report):
     """Functions that draw the figures, each on axes."""
-    def indicators(series, names):
-        def draw(axes):
-            _draw_indicators(axes, report.data["monitoring"], series, names)
-            axes.set_title(_title("Indicators over the recordings", series), fontsize=10, loc="left")
+    def titled(axes, title, draw):
+        draw(axes)
+        axes.set_title(title, fontsize=10, loc="left")
+        if axes.get_legend_handles_labels()[0]:
             axes.legend(loc="upper left")
-        return draw
 
-    def teeth(series):
-        def draw(axes):
-            _draw_teeth(axes, series)
-            axes.set_title(_title("Teeth over the recordings", series), fontsize=10, loc="left")
-        return draw
-
-    for series, names in _monitored(report):
-        yield indicators(series, names)
-        if _tooth_count(series):
-            yield teeth(series)
+    for series, drawn in _monitored(report):
+        for title, draw in drawn:
+            yield partial(titled, title=_title(title, series), draw=draw)
 
 
 def figures(report, page):
     """HTML of the figures of every gearbox that is monitored."""
-    monitoring = report.data.get("monitoring")
     body = ""
-    for series, names in _monitored(report):
-        charts = [_indicators(page, monitoring, series, names)]
-        teeth = _teeth(page, series)
-        charts += [teeth] if teeth else []
+    for series, drawn in _monitored(report):
+        charts = []
+        for title, draw in drawn:
+            figure, axes = panel(3.8)
+            about = draw(axes)
+            if axes.get_legend_handles_labels()[0]:
+                legend_below(axes, 1)
+            charts.append(to_svg(figure, _title(title, series), about, page.names))
         body += page.figure(
             _title("Recordings in time order", series), charts,
             "Thin lines are the thresholds of single recordings, triangles the first sustained "

@@ -205,37 +205,35 @@ def _spectrum_chart(report, page, g, band, largest):
                   f"Largest lines without noise: {about}", page.names)
 
 
+def _over_median(values):
+    middle = median(values) or 1.0
+    return [v / middle for v in values]
+
+
 def tooth_rms(report, page):
     gearboxes = [g for g in report.data["examples"]["gearboxes"] if g["tooth_rms"]]
     level = report.data["examples"]["noise_level"]
     charts, columns, head = [], [], ["tooth"]
-    lowest, highest = 0.99, 1.02
-    for g in gearboxes:
-        for part in ("clean", "noisy"):
-            values, middle = g["tooth_rms"][part], median(g["tooth_rms"][part])
-            if middle > 0:
-                lowest = min(lowest, min(values) / middle)
-                highest = max(highest, max(values) / middle)
+    ends = [end for g in gearboxes for part in ("clean", "noisy") if median(g["tooth_rms"][part]) > 0
+            for end in _over_median(g["tooth_rms"][part])]
+    lowest, highest = min([0.99, *ends]), max([1.02, *ends])
     for g in gearboxes:
         figure, axes = panel(2.7)
         for part, paint, line, label in (("noisy", NOISY, "none", f"with {noise(level)}"),
                                          ("clean", colour(0), "-", "without noise")):
             values = g["tooth_rms"][part]
-            middle = median(values) or 1.0
-            ratio = [v / middle for v in values]
-            axes.plot(range(1, len(values) + 1), ratio, color=paint, linestyle=line,
+            axes.plot(range(1, len(values) + 1), _over_median(values), color=paint, linestyle=line,
                       marker="o", markersize=3.4, linewidth=1, label=label)
             head.append(f"{_name(report, g)}, {label}, m/s²")
             columns.append(values)
         axes.set(ylim=(lowest - 0.06 * (highest - lowest), highest + 0.1 * (highest - lowest)),
                  xlabel="Tooth of the monitored gear", ylabel="RMS over median")
         legend_above(axes, _name(report, g))
-        values = g["tooth_rms"]["noisy"]
-        worst = max(range(len(values)), key=lambda i: values[i])
+        ratio = _over_median(g["tooth_rms"]["noisy"])
         charts.append(to_svg(
             figure, f"RMS of each tooth's signal, {_name(report, g)}",
-            f"With {noise(level)} tooth {worst + 1} has the largest, "
-            f"{number(values[worst] / (median(values) or 1), 4)} times the median", page.names))
+            f"With {noise(level)} tooth {ratio.index(max(ratio)) + 1} has the largest, "
+            f"{number(max(ratio), 4)} times the median", page.names))
     count = max((len(c) for c in columns), default=0)
     rows = [[str(i + 1)] + [number(c[i], 4) for c in columns] for i in range(count)]
     how = ("Windowing collects the sensor signal of each tooth, as in Liang (2016), Fig. 5.8. A "
@@ -267,11 +265,10 @@ def sensors(report, page):
                       color=colour(i), linewidth=0.8, label=name)
             top = max(range(len(orders)), key=lambda k: lines["amplitude"][k])
             about.append(f"{name} {number(lines['amplitude'][top])} m/s² at {number(orders[top], 5)}")
-            values = one["tooth_rms"]["noisy"]
-            worst = max(range(len(values)), key=lambda k: values[k])
+            ratio = _over_median(one["tooth_rms"]["noisy"])
             rows.append([_name(report, g), name, number(lines["amplitude"][top]),
-                         number(orders[top], 5), str(worst + 1),
-                         number(values[worst] / (median(values) or 1), 4)])
+                         number(orders[top], 5), str(ratio.index(max(ratio)) + 1),
+                         number(max(ratio), 4)])
         axes.set(yscale="log", ylim=(1e-4 * largest, 2 * largest), xlim=(0, orders[-1]),
                  xlabel="Mesh orders", ylabel="Amplitude, m/s²")
         legend_above(axes, _name(report, g))
@@ -281,9 +278,9 @@ def sensors(report, page):
     for g in gearboxes:
         figure, axes = panel(2.7)
         for i, (name, one) in enumerate(_by_sensor(g)):
-            values = one["tooth_rms"]["noisy"]
-            axes.plot(range(1, len(values) + 1), [v / (median(values) or 1) for v in values],
-                      color=colour(i), marker=marker(i), markersize=3.4, linewidth=1, label=name)
+            ratio = _over_median(one["tooth_rms"]["noisy"])
+            axes.plot(range(1, len(ratio) + 1), ratio, color=colour(i), marker=marker(i),
+                      markersize=3.4, linewidth=1, label=name)
         axes.set(xlabel="Tooth of the monitored gear", ylabel="RMS over median")
         legend_above(axes, _name(report, g))
         charts.append(to_svg(figure, f"RMS of each tooth at every sensor, {_name(report, g)}",

@@ -38,32 +38,27 @@ int accuracy_command(const AccuracyOptions& options) {
     if (!options.quiet) {
         request.progress = [](const std::string& text) { fmt::print(stderr, "{}\n", text); };
     }
-    try {
-        const Planner& planner = *made.planner;
-        planner.check_choice();
-        std::vector<PeerResult> peers;
-        if (!options.peers.empty()) {
-            peers = read_peers(options.peers);
-        }
-        AccuracyReport report = measure_accuracy(planner, request);
-        report.peers = std::move(peers);
-        const bool terminal = options.json == "-";
-        if (!terminal) {
-            fmt::print("{}", accuracy_text(report));
-        }
-        const std::string json = accuracy_json(report, made.scene->ensemble());
-        if (!options.json.empty() && !write_text_to(options.json, json)) {
-            return kBadInput;
-        }
-        write_report_page(json, options.html, options.figures);
-        if (!options.html.empty() && !terminal) {
-            fmt::print("\npage: {}\n", options.html);
-        }
-        return kDone;
-    } catch (const SceneError& error) {
-        print_problems({{options.study.path, 0, error.key(), error.what(), error.remedy()}});
+    const Planner& planner = *made.planner;
+    planner.check_choice();
+    std::vector<PeerResult> peers;
+    if (!options.peers.empty()) {
+        peers = read_peers(options.peers);
+    }
+    AccuracyReport report = measure_accuracy(planner, request);
+    report.peers = std::move(peers);
+    const bool terminal = options.json == "-";
+    if (!terminal) {
+        fmt::print("{}", accuracy_text(report));
+    }
+    const std::string json = accuracy_json(report, made.scene->ensemble());
+    if (!options.json.empty() && !write_text_to(options.json, json)) {
         return kBadInput;
     }
+    write_report_page(json, options.html, options.figures);
+    if (!options.html.empty() && !terminal) {
+        fmt::print("\npage: {}\n", options.html);
+    }
+    return kDone;
 }
 
 }  // namespace

@@ -115,18 +115,14 @@ int modes_command(const ModesOptions& options) {
     if (!study || !writable) {
         return kBadInput;
     }
-    Modes modes;
-    try {
-        const ModalPlan plan = make_modal_plan(*study);
-        modes.speed_member = member_name(plan.speed_member);
-        modes.frequencies_Hz = natural_frequencies_Hz(plan);
-        modes.speeds = frequencies_over_speed(plan, kHighestSpeed, kSpeeds);
-        if (plan.coupled) {
-            modes.train_Hz = train_frequencies_Hz(resolved_plan(*study).gearbox());
-        }
-    } catch (const SceneError& error) {
-        print_problems({{options.study.path, 0, error.key(), error.what(), error.remedy()}});
-        return kBadInput;
+    const ModalPlan plan = make_modal_plan(*study);
+    Modes modes{member_name(plan.speed_member),
+                natural_frequencies_Hz(plan),
+                frequencies_over_speed(plan, kHighestSpeed, kSpeeds),
+                {},
+                {}};
+    if (plan.coupled) {
+        modes.train_Hz = train_frequencies_Hz(resolved_plan(*study).gearbox());
     }
     modes.critical = critical_speeds(modes.speeds, kHarmonics);
     if (!write_json_and_page(json_of(study->title, modes), options.json, options.html,
@@ -152,7 +148,8 @@ int modes_command(const ModesOptions& options) {
 
 void add_modes(CLI::App& app, int& code) {
     const auto [command, options] = add_command<ModesOptions>(
-        app, code, "modes", "print the natural frequencies at mean mesh stiffness", modes_command);
+        app, code, "modes", "print the natural frequencies at mean mesh stiffness",
+        reporting<modes_command>);
     add_study(command, options.study);
     add_json(command, options.json);
     add_file(command, "--html", options.html, "write a page with the Campbell diagram");

@@ -102,25 +102,19 @@ int simulate_command(const SimulateOptions& options) {
     try {
         simulation =
             simulate_row(scene->tile(), scene->ensemble(), options.instance, options.meshes);
-    } catch (const BadInput& error) {
-        fmt::print(stderr, "{}\n", error.what());
-        return kBadInput;
+    } catch (const BadInput&) {
+        throw;
     } catch (const std::exception& error) {
         fmt::print(stderr, "{}\n", exception_text(error));
         return kSomeFailed;
     }
-    try {
-        if (csv) {
-            const std::string text = columns_csv(simulation.columns, 17, true);
-            write_file(options.out, std::as_bytes(std::span(text)));
-        } else if (!options.out.empty()) {
-            write_hdf5(options.out, simulation, scene->ensemble());
-        }
-        print_summary(simulation, options.out);
-    } catch (const std::exception& error) {
-        fmt::print(stderr, "{}\n", exception_text(error));
-        return kBadInput;
+    if (csv) {
+        const std::string text = columns_csv(simulation.columns, 17, true);
+        write_file(options.out, std::as_bytes(std::span(text)));
+    } else if (!options.out.empty()) {
+        write_hdf5(options.out, simulation, scene->ensemble());
     }
+    print_summary(simulation, options.out);
     return kDone;
 }
 
@@ -128,7 +122,8 @@ int simulate_command(const SimulateOptions& options) {
 
 void add_simulate(CLI::App& app, int& code) {
     const auto [command, options] = add_command<SimulateOptions>(
-        app, code, "simulate", "compute the signals and features of one gearbox", simulate_command);
+        app, code, "simulate", "compute the signals and features of one gearbox",
+        reporting<simulate_command>);
     add_study(command, options.study);
     add_number(command, "--instance", options.instance, "row of the results file, from 0")
         ->required();

@@ -17,7 +17,8 @@ OPTION = re.compile(r"(?<![\w-])--[a-z][\w-]*")
 UNITS = ("mm", "um", "deg", "arcsec", "Hz", "rpm", "kg", "kg_m2", "N_m", "N_s_m", "m_s2", "Pa", "h")
 WITH_UNIT = re.compile(r"[a-z]\w*_(?:" + "|".join(UNITS) + ")")
 FILES = (".toml", ".csv", ".json", ".py", ".md", ".h5", ".html")
-OTHER_NAMES = {"speed_rpm", "sensor_m_s2", "mesh_Hz"}  # a column of signal files, members of the report's JSON
+# Columns of signal files, members of the JSON of reports.
+OTHER_NAMES = {"speed_rpm", "sensor_m_s2", "mesh_Hz", "highest_Hz", "stated_per_1000_h", "per_1000_h", "end_h"}
 HERE = pathlib.Path(__file__).parent
 OWN_OPTIONS = {"--help", "--version", "--man", "--completion", "--reference"}
 

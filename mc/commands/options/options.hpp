@@ -16,7 +16,9 @@
 
 #include "mc/files/input/number_text.hpp"
 #include "mc/files/input/problems.hpp"
+#include "mc/library/run/command_files.hpp"
 #include "mc/library/run/run_options.hpp"
+#include "mc/plan/scene_error.hpp"
 #include "mc/recordings/measure_recordings.hpp"
 #include "mc/recordings/recording_columns.hpp"
 
@@ -95,6 +97,13 @@ template <auto run, class Options>
 int reporting(const Options& options) {
     try {
         return run(options);
+    } catch (const SceneError& error) {
+        if constexpr (requires { options.study.path; }) {
+            print_problems({{options.study.path, 0, error.key(), error.what(), error.remedy()}});
+        } else {
+            print_problems({{"", 0, error.key(), error.what(), error.remedy()}});
+        }
+        return kBadInput;
     } catch (const std::exception& error) {
         fmt::print(stderr, "{}\n", exception_text(error));
         return kBadInput;
