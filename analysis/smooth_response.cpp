@@ -10,7 +10,7 @@
 #include <numeric>
 #include <random>
 
-#include "analysis/pod/calibrated_bounds.hpp"
+#include "analysis/pod/response_bounds.hpp"
 #include "analysis/statistics/interval.hpp"
 #include "analysis/statistics/link.hpp"
 

@@ -3,7 +3,7 @@
 #include <random>
 
 #include "analysis/report/wording.hpp"
-#include "mc/report/sweep/lives_summary.hpp"
+#include "mc/report/sweep/summaries.hpp"
 #include "tests/mc/lives/life_example.hpp"
 #include "tests/mc/program.hpp"
 
