@@ -7,10 +7,10 @@
 #include <cerrno>
 #include <csignal>
 #include <cstdio>
+#include <cstring>
 #include <exception>
 #include <string>
 #include <string_view>
-#include <system_error>
 #include <vector>
 
 #include "analysis/report/report.hpp"
@@ -44,24 +44,34 @@ bool is_command(CLI::App& app, const std::string& name) {
     return false;
 }
 
-// Writes a message as far as possible. What cannot be written, as on a full disk, is lost.
-ssize_t write_message(void*, const char* text, std::size_t size) {
+int output_error = 0;  // errno of the first write to standard output that failed
+
+// Writes text as far as possible. What cannot be written, as on a full disk, is lost.
+template <int descriptor>
+ssize_t write_lossily(void*, const char* text, std::size_t size) {
     std::size_t written = 0;
     for (ssize_t count = 1; written < size && count > 0;) {
-        count = ::write(STDERR_FILENO, text + written, size - written);
+        count = ::write(descriptor, text + written, size - written);
         written += static_cast<std::size_t>(std::max<ssize_t>(0, count));
+    }
+    if (written < size && descriptor == STDOUT_FILENO && output_error == 0) {
+        output_error = errno;
     }
     return static_cast<ssize_t>(size);
 }
 
-// Makes writing to stderr succeed always: fmt throws if it fails, also while a message is printed
-// about another error. A closed pipe is an error of the write, too, and no end by a signal.
-void lose_unwritable_messages() {
+// Makes writing to the standard streams succeed always: fmt throws if it fails, also while a
+// message is printed about another error. A closed pipe is no end by a signal.
+void lose_unwritable_text() {
     std::signal(SIGPIPE, SIG_IGN);
-    if (FILE* messages = ::fopencookie(nullptr, "w", {nullptr, write_message, nullptr, nullptr})) {
-        std::setvbuf(messages, nullptr, _IONBF, 0);
-        stderr = messages;
-    }
+    const auto replace = [](FILE*& stream, cookie_write_function_t* write, int buffering) {
+        if (FILE* lossy = ::fopencookie(nullptr, "w", {nullptr, write, nullptr, nullptr})) {
+            std::setvbuf(lossy, nullptr, buffering, BUFSIZ);
+            stream = lossy;
+        }
+    };
+    replace(stderr, write_lossily<STDERR_FILENO>, _IONBF);
+    replace(stdout, write_lossily<STDOUT_FILENO>, isatty(STDOUT_FILENO) == 1 ? _IOLBF : _IOFBF);
 }
 
 // Sets the width of reports to the width of the terminal.
@@ -132,7 +142,7 @@ int run_program(int argc, char** argv) {
 
 int main(int argc, char** argv) {
     fix_memory_limits();
-    lose_unwritable_messages();
+    lose_unwritable_text();
     if (!check_arguments(argc, argv)) {
         return kBadInput;
     }
@@ -144,16 +154,14 @@ int main(int argc, char** argv) {
         std::signal(SIGXFSZ, SIG_IGN);
         fit_terminal();
         const int code = run_program(argc, argv);
-        if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0) {
-            throw std::system_error(errno, std::generic_category(),
-                                    "standard output cannot be written");
+        std::fflush(stdout);
+        // Whoever closes a pipe, such as `head`, wants no more output.
+        if (output_error != 0 && output_error != EPIPE) {
+            fmt::print(stderr, "gearpod: standard output cannot be written ({})\n",
+                       std::strerror(output_error));
         }
-        return code;
+        return output_error == 0 ? code : kBadInput;
     } catch (const std::exception& error) {
-        const auto* const output = dynamic_cast<const std::system_error*>(&error);
-        if (output != nullptr && output->code() == std::errc::broken_pipe) {
-            return kBadInput;  // whoever read the output, such as `head`, wanted no more of it
-        }
         // Name the command and its first argument, because the command did not handle the error.
         std::string call = "gearpod";
         for (int i = 1; i < std::min(argc, 3); ++i) {

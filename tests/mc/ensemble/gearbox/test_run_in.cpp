@@ -56,7 +56,7 @@ TEST_CASE("The run-in follows from the slower of gearbox and sensor, and from th
 
 // Inertial terms make the rigid rotation grow and decay slowly, which does not affect vibration.
 TEST_CASE("The run-in suffices at 5 to 20,000 rpm of the sun, with and without inertial terms") {
-    for (const double carrier_rpm : {0.95, 170.0, 3800.0}) {
+    for (const double carrier_rpm : {0.95, 300.0, 3800.0}) {
         std::vector<int> run_ins;
         for (const bool inertial_terms : {false, true}) {
             const double mesh_Hz = 81 * carrier_rpm / 60;
@@ -75,7 +75,7 @@ TEST_CASE("The run-in suffices at 5 to 20,000 rpm of the sun, with and without i
             CHECK(test::relative_difference(own.acceleration, late.acceleration) < 1e-9);
             CHECK(test::relative_difference(own.te, late.te) < 1e-9);
         }
-        CHECK(run_ins[1] <= run_ins[0] + 1);
+        CHECK(run_ins[1] < 1.25 * run_ins[0]);
     }
 }
 
