@@ -8,7 +8,7 @@
 #include <numbers>
 #include <set>
 
-#include "analysis/detection/false_alarm_rate.hpp"
+#include "analysis/detection/threshold.hpp"
 #include "analysis/report/false_alarm_text.hpp"
 #include "mc/plan/ensemble_plan.hpp"
 #include "mc/plan/mesh_loads.hpp"
@@ -603,9 +603,8 @@ class Describer {
     std::string unequal_planets_text() {
         const PlanetDifferences& p = study_.planets;
         std::vector<std::string> parts;
-        for (const auto& [list, what] :
-             {std::pair{&p.pin_tangential_m, "tangential pin errors"},
-              std::pair{&p.pin_radial_m, "radial pin errors"}}) {
+        for (const auto& [list, what] : {std::pair{&p.pin_tangential_m, "tangential pin errors"},
+                                         std::pair{&p.pin_radial_m, "radial pin errors"}}) {
             if (!list->empty()) {
                 parts.push_back(fmt::format("{} given", what));
             }

@@ -7,7 +7,7 @@
 #include <tuple>
 #include <utility>
 
-#include "mc/numerics/study_scene.hpp"
+#include "mc/numerics/numerics_choice.hpp"
 #include "mc/study/faults/crack.hpp"
 #include "mc/study/gears.hpp"
 #include "mc/study/new/rules.hpp"

@@ -12,7 +12,7 @@
 #include <utility>
 
 #include "gears/planetary.hpp"
-#include "mc/numerics/study_scene.hpp"
+#include "mc/numerics/numerics_choice.hpp"
 #include "mc/study/faults/crack.hpp"
 #include "mc/study/gears.hpp"
 #include "mc/study/new/datasheet.hpp"
