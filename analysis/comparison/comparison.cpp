@@ -12,7 +12,6 @@
 
 #include "analysis/detection/detection.hpp"
 #include "analysis/detection/detection_table.hpp"
-#include "analysis/detection/false_alarm_rate.hpp"
 #include "analysis/detection/threshold.hpp"
 #include "analysis/pod/hit_miss_pod.hpp"
 #include "analysis/pod/pod_curve.hpp"

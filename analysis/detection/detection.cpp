@@ -8,7 +8,6 @@
 #include <stdexcept>
 #include <vector>
 
-#include "analysis/detection/false_alarm_rate.hpp"
 #include "analysis/detection/threshold.hpp"
 #include "analysis/statistics/every_nth.hpp"
 #include "analysis/statistics/interval.hpp"

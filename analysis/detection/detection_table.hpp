@@ -98,7 +98,7 @@ struct LevelDetection {
         {};                            // set if the threshold is from importance sampling
     std::vector<DetectionCell> cells;  // by ascending size
     // Interval of the false-alarm rate of this threshold from the healthy sample alone, whatever
-    // the feature's distribution (false_alarm_rate.hpp, threshold.hpp).
+    // the feature's distribution (threshold.hpp, threshold.hpp).
     Interval threshold_rate = {};
     // False-alarm rate of this threshold with the healthy test gearboxes included, its interval,
     // and the interval of the expected rate over repeated studies, threshold scatter included. The

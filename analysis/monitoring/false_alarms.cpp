@@ -5,7 +5,7 @@
 #include <numeric>
 #include <utility>
 
-#include "analysis/detection/false_alarm_rate.hpp"
+#include "analysis/detection/threshold.hpp"
 #include "analysis/statistics/distributions.hpp"
 #include "analysis/statistics/interval.hpp"
 #include "features/statistics/signal_statistics.hpp"

@@ -86,7 +86,7 @@ std::vector<SustainedAlarm> sustained_alarms(std::span<const std::optional<bool>
                                              const SustainedRule& rule);
 
 // Smallest false-alarm rate per record that n healthy records can set, 1 / (n + 1): the expected
-// rate of a threshold at the largest of them (false_alarm_rate.hpp).
+// rate of a threshold at the largest of them (threshold.hpp).
 double smallest_rate(long healthy_records);
 
 // False alarms that had no part in setting their threshold: the first half of each healthy life

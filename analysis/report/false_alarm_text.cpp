@@ -7,7 +7,6 @@
 #include <cmath>
 #include <vector>
 
-#include "analysis/detection/false_alarm_rate.hpp"
 #include "analysis/detection/importance_sample.hpp"
 #include "analysis/detection/threshold.hpp"
 #include "analysis/false_alarm_curve.hpp"

@@ -14,7 +14,7 @@
 #include "mc/ensemble/ranks.hpp"
 #include "mc/files/input/problems.hpp"
 #include "mc/library/run/command_files.hpp"
-#include "mc/numerics/study_scene.hpp"
+#include "mc/numerics/numerics_choice.hpp"
 #include "mc/plan/rare_event_studies.hpp"
 #include "mc/results/results_file.hpp"
 

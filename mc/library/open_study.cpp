@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 
 #include "mc/files/input/problems.hpp"
-#include "mc/numerics/study_scene.hpp"
+#include "mc/numerics/numerics_choice.hpp"
 #include "mc/results/result_rows.hpp"
 
 namespace gearpod::mc {

@@ -87,7 +87,7 @@ class LifeTiles::Lane {
           id_(gearbox.id),
           inputs_(gearbox.inputs),
           features_(tiles.tile_.features.used),
-          needs_(superposed_needs(features_)),
+          needs_(compared_needs(features_, /*superposed=*/true)),
           span_(tiles.plan_.record_span(inputs_.speed_rad_s)),
           record_(signals_with(needs_.record)),
           change_(signals_with(needs_.change)),

@@ -130,25 +130,6 @@ std::vector<double> LoadAxis::weights(double factor) const {
     return all;
 }
 
-ComparedNeeds superposed_needs(std::span<const features::Feature* const> features) {
-    using features::BaselineUse;
-    ComparedNeeds needs;
-    for (const features::Feature* feature : features) {
-        const BaselineUse use = feature->baseline_use;
-        const bool changes = use == BaselineUse::change || use == BaselineUse::record_and_change;
-        if (use != BaselineUse::change) {
-            needs.record |= feature->needs;
-        }
-        if (changes) {
-            needs.change |= feature->needs;
-        }
-        if (use == BaselineUse::baseline || (changes && feature->external)) {
-            needs.baseline |= feature->needs;
-        }
-    }
-    return needs;
-}
-
 namespace {
 
 void add(std::span<const double> values, double factor, std::vector<double>& sum) {

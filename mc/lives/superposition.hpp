@@ -52,10 +52,6 @@ class LoadAxis {
     std::vector<double> barycentric_;  // weights of the polynomial; empty: piecewise linear
 };
 
-// Needs of features in lives. Unlike in compared_needs(), a change is superposed without the
-// samples of the record and of the baseline.
-ComparedNeeds superposed_needs(std::span<const features::Feature* const> features);
-
 // Superposition of signals. The signal of a record is a linear combination of the gearbox's signals
 // at several crack depths and torques, and of the noise of earlier records. Its folded squares
 // follow from folded products, without the samples.

@@ -1,10 +1,12 @@
 // Numerics that were chosen on pilot gearboxes, and the error with which they were.
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <string>
 
 #include "mc/numerics/solver_setting.hpp"
+#include "mc/plan/scene.hpp"
 
 namespace gearpod::mc {
 
@@ -45,5 +47,21 @@ ResolvedNumerics resolve_numerics(const Planner& planner, const Numerics& numeri
 
 // Plan of a study with resolved numerics. Throws SceneError.
 Scene resolved_plan(const Study& study);
+
+// Makes the scene of a study that has been read.
+
+struct StudyScene {
+    std::unique_ptr<const Scene> scene;    // null: see `problems`
+    std::optional<NumericsChoice> choice;  // of the numerics; empty without a tolerance
+    Problems problems;
+    Problems notices = {};           // StudyReading::notices
+    std::optional<Planner> planner;  // of the study with the chosen numerics
+
+    explicit operator bool() const { return scene != nullptr; }
+};
+
+// Sets the kernels' instruction set, chooses the numerics and makes the scene. Messages about
+// problems use `name` for the study.
+StudyScene make_scene(const std::string& name, StudyReading reading);
 
 }  // namespace gearpod::mc

@@ -8,7 +8,7 @@
 #include <numbers>
 #include <set>
 
-#include "analysis/detection/false_alarm_rate.hpp"
+#include "analysis/detection/threshold.hpp"
 #include "analysis/report/false_alarm_text.hpp"
 #include "mc/plan/ensemble_plan.hpp"
 #include "mc/plan/mesh_loads.hpp"

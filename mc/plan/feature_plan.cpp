@@ -20,28 +20,25 @@ signals::GearTurns central_turns(const signals::SpanLayout& span, int teeth) {
 
 }  // namespace
 
-ComparedNeeds compared_needs(std::span<const features::Feature* const> features) {
+ComparedNeeds compared_needs(std::span<const features::Feature* const> features, bool superposed) {
+    using features::BaselineUse;
+    constexpr SignalSet kSamples = SignalSet::of<features::SensorSamples>();
     ComparedNeeds needs;
     for (const features::Feature* feature : features) {
-        switch (feature->baseline_use) {
-            case features::BaselineUse::nothing:
-                needs.record |= feature->needs;
-                break;
-            case features::BaselineUse::change:
-                needs.record |= SignalSet::of<features::SensorSamples>();
-                needs.baseline |= SignalSet::of<features::SensorSamples>();
-                needs.change |= feature->needs;
-                break;
-            case features::BaselineUse::record_and_change:
-                needs.record |= feature->needs;
-                needs.record |= SignalSet::of<features::SensorSamples>();
-                needs.baseline |= SignalSet::of<features::SensorSamples>();
-                needs.change |= feature->needs;
-                break;
-            case features::BaselineUse::baseline:
-                needs.record |= feature->needs;
-                needs.baseline |= feature->needs;
-                break;
+        const BaselineUse use = feature->baseline_use;
+        const bool changes = use == BaselineUse::change || use == BaselineUse::record_and_change;
+        if (use != BaselineUse::change) {
+            needs.record |= feature->needs;
+        }
+        if (changes) {
+            needs.change |= feature->needs;
+        }
+        if (changes && !superposed) {
+            needs.record |= kSamples;
+            needs.baseline |= kSamples;
+        }
+        if (use == BaselineUse::baseline || (changes && superposed && feature->external)) {
+            needs.baseline |= feature->needs;
         }
     }
     return needs;

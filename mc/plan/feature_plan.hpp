@@ -28,7 +28,9 @@ struct ComparedNeeds {
         return both |= change;
     }
 };
-ComparedNeeds compared_needs(std::span<const features::Feature* const> features);
+// If signals are `superposed`, a change needs no samples of the record and of the baseline.
+ComparedNeeds compared_needs(std::span<const features::Feature* const> features,
+                             bool superposed = false);
 
 // True if features with these needs use the sensor's samples.
 bool needs_samples(features::SignalSet needs);

@@ -13,7 +13,7 @@
 #include "mc/ensemble/gearbox/realization_features.hpp"
 #include "mc/ensemble/gearbox/record_window.hpp"
 #include "mc/ensemble/gearbox/simulation.hpp"
-#include "mc/numerics/study_scene.hpp"
+#include "mc/numerics/numerics_choice.hpp"
 #include "mc/plan/scene.hpp"
 #include "mc/results/reliability_of_results.hpp"
 #include "signals/noise/sensor_noise.hpp"

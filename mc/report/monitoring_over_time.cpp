@@ -11,7 +11,7 @@
 #include <sstream>
 #include <utility>
 
-#include "analysis/detection/false_alarm_rate.hpp"
+#include "analysis/detection/threshold.hpp"
 #include "analysis/monitoring/baseline_deviations.hpp"
 #include "analysis/report/json_values.hpp"
 #include "analysis/report/wording.hpp"

@@ -1,5 +1,5 @@
 // Checks that the analysis of any finite values ends with numbers or with a reason.
-#include "analysis/detection/false_alarm_rate.hpp"
+#include "analysis/detection/threshold.hpp"
 #include "analysis/reliability.hpp"
 #include "analysis/statistics/distributions.hpp"
 #include "analysis/statistics/interval.hpp"

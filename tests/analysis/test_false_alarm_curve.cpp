@@ -2,7 +2,6 @@
 // grows with the size.
 #include <boost/math/distributions/normal.hpp>
 
-#include "analysis/detection/false_alarm_rate.hpp"
 #include "analysis/detection/threshold.hpp"
 #include "analysis/false_alarm_curve.hpp"
 #include "tests/test.hpp"

@@ -20,7 +20,7 @@ const ModeTables<bench::Counted>& ModeInertia::tables<bench::Counted>() const {
 
 namespace gearpod::bench {
 
-// Same as advance() of lockstep/integrators/integration_steps.hpp for doubles.
+// Same as advance() of lockstep/integrators/integration_state.hpp for doubles.
 inline Counted advance(Counted sum, Counted h, Counted rate, lockstep::NoRounding, int) {
     return std::fma(h, rate, sum);
 }

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "mc/library/run/run_options.hpp"
-#include "mc/numerics/study_scene.hpp"
+#include "mc/numerics/numerics_choice.hpp"
 
 namespace gearpod::mc {
 

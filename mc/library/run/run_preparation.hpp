@@ -10,7 +10,7 @@
 #include "mc/ensemble/interruption.hpp"
 #include "mc/ensemble/ranks.hpp"
 #include "mc/library/run/run_options.hpp"
-#include "mc/numerics/study_scene.hpp"
+#include "mc/numerics/numerics_choice.hpp"
 #include "mc/plan/scene.hpp"
 #include "mc/results/result_rows.hpp"
 

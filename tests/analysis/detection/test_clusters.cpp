@@ -2,7 +2,6 @@
 #include <boost/math/distributions/normal.hpp>
 
 #include "analysis/detection/detection.hpp"
-#include "analysis/detection/false_alarm_rate.hpp"
 #include "analysis/detection/threshold.hpp"
 #include "tests/test.hpp"
 

@@ -1,4 +1,3 @@
-#include "analysis/detection/false_alarm_rate.hpp"
 #include "analysis/detection/threshold.hpp"
 #include "tests/test.hpp"
 

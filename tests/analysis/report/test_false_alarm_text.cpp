@@ -1,5 +1,5 @@
 // Checks the text about healthy samples that are too small for their false-alarm rate.
-#include "analysis/detection/false_alarm_rate.hpp"
+#include "analysis/detection/threshold.hpp"
 #include "analysis/report/false_alarm_text.hpp"
 #include "tests/test.hpp"
 

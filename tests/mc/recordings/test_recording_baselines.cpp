@@ -9,7 +9,7 @@
 #include <random>
 #include <sstream>
 
-#include "mc/numerics/study_scene.hpp"
+#include "mc/numerics/numerics_choice.hpp"
 #include "mc/recordings/recording_baselines.hpp"
 #include "signals/spectra/alignment.hpp"
 #include "tests/mc/program.hpp"

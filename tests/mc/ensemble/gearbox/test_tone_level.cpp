@@ -1,7 +1,7 @@
 // Checks the level of other machine noise: one factor on the amplitudes of all tones.
 #include <fmt/format.h>
 
-#include "mc/numerics/study_scene.hpp"
+#include "mc/numerics/numerics_choice.hpp"
 #include "mc/plan/calibration_plan.hpp"
 #include "mc/recordings/calibration/simulated_sets.hpp"
 #include "tests/mc/program.hpp"

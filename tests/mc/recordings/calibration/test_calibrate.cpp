@@ -7,7 +7,7 @@
 #include <random>
 #include <sstream>
 
-#include "mc/numerics/study_scene.hpp"
+#include "mc/numerics/numerics_choice.hpp"
 #include "mc/recordings/calibration/calibrate.hpp"
 #include "mc/recordings/calibration/healthy_records.hpp"
 #include "tests/mc/program.hpp"

@@ -5,7 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "dynamics/effects/mesh_law.hpp"
-#include "mc/numerics/study_scene.hpp"
+#include "mc/numerics/numerics_choice.hpp"
 #include "mc/study/new/datasheet.hpp"
 #include "tests/mc/program.hpp"
 #include "tests/mc/study/new/gear_sets.hpp"
