@@ -1,17 +1,8 @@
 // Checks the spectrogram of a signal whose line follows an uneven speed.
-#include <algorithm>
-#include <catch2/catch.hpp>
-#include <cmath>
-#include <numbers>
-#include <vector>
-
 #include "mc/report/example_gearboxes.hpp"
+#include "tests/test.hpp"
 
-namespace test_spectrogram {
-
-using namespace gearpod::mc;
-
-namespace {
+namespace gearpod::mc::test_spectrogram {
 
 constexpr int kSamples = 40;  // per mesh period
 constexpr double kMesh_Hz = 100.0, kOrder = 3.0;
@@ -26,8 +17,6 @@ std::vector<double> rising_times(int meshes) {
     }
     return times;
 }
-
-}  // namespace
 
 TEST_CASE("The spectrogram's largest line follows the mesh frequency of an uneven speed") {
     constexpr int kMeshes = 60;
@@ -62,4 +51,4 @@ TEST_CASE("A signal shorter than a window of the spectrogram has no slices") {
     CHECK(spectrogram_json(times, signal, kSamples, 900.0)["time_s"].empty());
 }
 
-}  // namespace test_spectrogram
+}  // namespace gearpod::mc::test_spectrogram
