@@ -1,10 +1,8 @@
 // Checks a90 and cost over the false-alarm rate where both are known: a normal feature whose mean
 // grows with the size.
-#include <boost/math/distributions/normal.hpp>
-
 #include "analysis/detection/threshold.hpp"
 #include "analysis/false_alarm_curve.hpp"
-#include "tests/test.hpp"
+#include "tests/analysis/detection/gearbox_laws.hpp"
 
 namespace gearpod::analysis::test_false_alarm_curve {
 
@@ -142,19 +140,14 @@ TEST_CASE("A threshold of least cost has the bounds of the method that determine
     // 300 healthy gearboxes of 8 records, most of them exponentially tilted towards alarms. The
     // first records, which alone set order statistics, have few alarms, so that these thresholds
     // seem inexpensive.
-    constexpr std::array kShifts{0.0, 2.0, 3.5, 5.0};
     std::mt19937_64 engine(11);
     std::normal_distribution<double> noise;
     std::vector<double> healthy, weights, size(4000, 3.0), value;
     std::vector<std::size_t> gearbox;
     for (std::size_t i = 0; i < 300 * 8; ++i) {
         const double z = (i % 8 == 0 ? 0.8 : 1.0) * noise(engine) + kShifts[i % kShifts.size()];
-        double density = 0.0;
-        for (const double shift : kShifts) {
-            density += std::exp(shift * (z - 0.5 * shift)) / kShifts.size();
-        }
         healthy.push_back(z);
-        weights.push_back(1.0 / density);
+        weights.push_back(weight_of(z));
         gearbox.push_back(i / 8);
     }
     for (std::size_t i = 0; i < size.size(); ++i) {

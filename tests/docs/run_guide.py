@@ -26,7 +26,7 @@ SMALL = {
     "lives": ["--instances", "2", "--set", "ensemble.threshold_instances=2",
               "--set", "life.healthy_lives=2", "--set", "life.records=40",
               "--set", "life.depth_steps=2", "--set", "life.distinct_torques=2"],
-    "describe": ["--seconds", "2"],
+    "describe": ["--seconds", "1"],
 }
 # Studies of slow gearboxes, which turn faster here: a mesh period then has fewer samples and steps.
 SLOW = ("studies/planet-crack.toml", "studies/bearing-fault.toml", "studies/sensor-places.toml", "studies/two-stages.toml",

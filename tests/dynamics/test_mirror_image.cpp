@@ -4,7 +4,7 @@
 #include "dynamics/gearbox_matrices.hpp"
 #include "dynamics/planetary.hpp"
 #include "tests/dynamics/lin_parker.hpp"
-#include "tests/test.hpp"
+#include "tests/numbers.hpp"
 
 namespace gearpod::dynamics::test_mirror_image {
 
@@ -82,9 +82,7 @@ TEST_CASE("The carrier-driven train on its real flanks is the model's mirror ima
     const auto ours = natural_frequencies_Hz(model);
     const auto theirs = natural_frequencies_Hz(flanks);
     REQUIRE(ours.size() == theirs.size());
-    for (std::size_t i = 0; i < ours.size(); ++i) {
-        CHECK(ours[i] == Approx(theirs[i]).epsilon(1e-9));
-    }
+    test::check_close(ours, theirs, 1e-9);
     // The reflected shape has the same x, with y and u reversed.
     const Eigen::VectorXd q = static_equilibrium(model), mirrored = static_equilibrium(flanks);
     CHECK(q.norm() > 1e-6);

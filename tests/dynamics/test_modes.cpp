@@ -3,7 +3,7 @@
 #include "dynamics/gearbox_matrices.hpp"
 #include "dynamics/planetary.hpp"
 #include "tests/dynamics/lin_parker.hpp"
-#include "tests/test.hpp"
+#include "tests/numbers.hpp"
 
 namespace gearpod::dynamics::test_modes {
 
@@ -104,9 +104,7 @@ TEST_CASE("At rest the frequencies are those of the symmetric eigenvalue problem
     const GearboxMatrices m = assemble(layout, in, std::vector<double>(8, 5e8));
     const auto turning = rotating_frequencies_Hz(m), resting = natural_frequencies_Hz(m);
     REQUIRE(turning.size() == resting.size());
-    for (std::size_t i = 0; i < resting.size(); ++i) {
-        CHECK(turning[i] == Approx(resting[i]).epsilon(1e-6).margin(1e-3));
-    }
+    test::check_close(turning, resting, 1e-6, 1e-3);
 }
 
 }  // namespace gearpod::dynamics::test_rotating_modes

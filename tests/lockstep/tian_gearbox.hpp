@@ -15,12 +15,12 @@ struct TianGearbox {
     static constexpr double kMeshFrequency_Hz = 570.0;
 
     gears::Gear pinion{19, false, kModule, kAngle}, gear{48, false, kModule, kAngle};
-    stiffness::Material steel;
+    stiffness::Material steel{2.068e11, 0.3, 0.016, true};
     gears::MeshGeometry mesh{pinion, gear};
     stiffness::AdditiveMesh pair{mesh, steel, stiffness::Profile::base_circle};
     lockstep::PairSet pairs;
 
-    explicit TianGearbox(bool shear_energy = true) : steel{2.068e11, 0.3, 0.016, shear_energy} {
+    TianGearbox() {
         pairs.mesh = {&pair};
         pairs.start = {0.0};
     }

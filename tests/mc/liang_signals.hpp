@@ -5,7 +5,7 @@
 
 #include "signals/sensor/sensor_signal.hpp"
 #include "study_file.hpp"
-#include "tests/test.hpp"
+#include "tests/numbers.hpp"
 
 namespace gearpod::test {
 

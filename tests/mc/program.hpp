@@ -160,6 +160,21 @@ inline void write_bytes(const std::string& path, const std::string& bytes) {
     std::ofstream(path, std::ios::binary) << bytes;
 }
 
+inline bool contains(const std::string& text, const std::string& part) {
+    return text.find(part) != std::string::npos;
+}
+
+// Message of the error that a call throws, "" if there is none.
+template <class Call>
+std::string message_of(Call call) {
+    try {
+        call();
+    } catch (const std::runtime_error& error) {
+        return error.what();
+    }
+    return "";
+}
+
 // Bits of values, so that NaN equals NaN.
 inline std::vector<std::uint64_t> bits_of_values(const std::vector<double>& values) {
     std::vector<std::uint64_t> all;

@@ -31,6 +31,30 @@ inline void check_reads_back(const mc::Study& study) {
     CHECK(study_of_text(resolved_text(study)) == study);
 }
 
+// Checks that the scene of a study is refused for a key, with words in the message or the remedy.
+// Returns the message.
+inline std::string check_scene_refused(const std::function<void()>& make, const std::string& key,
+                                       const std::vector<std::string>& words = {}) {
+    try {
+        make();
+    } catch (const mc::SceneError& error) {
+        INFO(error.what() << "; " << error.remedy());
+        CHECK(error.key() == key);
+        for (const std::string& text : words) {
+            INFO(text);
+            CHECK((std::string(error.what()) + "; " + error.remedy()).find(text) !=
+                  std::string::npos);
+        }
+        return error.what();
+    }
+    FAIL_CHECK("not refused");
+    return "";
+}
+inline std::string check_scene_refused(const mc::Study& study, const std::string& key,
+                                       const std::vector<std::string>& words = {}) {
+    return check_scene_refused([&] { const mc::Scene scene(study); }, key, words);
+}
+
 inline mc::Results run(const mc::Study& study) {
     const mc::Scene scene(study);
     mc::Progress progress(1, true);

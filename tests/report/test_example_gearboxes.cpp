@@ -1,31 +1,21 @@
 // Checks the gearboxes that a report recomputes against those that the program simulates.
-#include <algorithm>
-#include <catch2/catch.hpp>
-#include <cmath>
-#include <complex>
 #include <nlohmann/json.hpp>
-#include <numbers>
 
 #include "mc/ensemble/gearbox/simulation.hpp"
 #include "mc/library/run/command_files.hpp"
 #include "mc/report/example_gearboxes.hpp"
 #include "tests/mc/program.hpp"
 
-namespace test_example_gearboxes {
+namespace gearpod::test_example_gearboxes {
 
-using namespace gearpod;
 using Json = nlohmann::json;
-
-namespace {
 
 // A study's scene, its results and the report's examples.
 struct Example {
     explicit Example(const std::string& name, const std::string& overrides = "") {
         const std::string file = folder.file("r.h5");
-        const test::Outcome run =
-            test::program("run " + test::study(name) + " --quiet --out " + file + overrides);
-        INFO(run.output);
-        REQUIRE(run.code == 0);
+        require_success(
+            test::program("run " + test::study(name) + " --quiet --out " + file + overrides));
         results = mc::read_results(file);
         json = mc::examples_json(results, mc::ColumnRows(results));
         scene = mc::make_scene(name, mc::read_study_text(results.provenance_value("study"), name))
@@ -58,8 +48,6 @@ double line(const std::vector<double>& signal, double cycles) {
     }
     return 2.0 * std::abs(sum) / static_cast<double>(signal.size());
 }
-
-}  // namespace
 
 TEST_CASE("The examples are the first healthy and the first worst gearbox, bit for bit") {
     const Example example("planet-crack-ideal.toml",
@@ -153,4 +141,4 @@ TEST_CASE(
     }
 }
 
-}  // namespace test_example_gearboxes
+}  // namespace gearpod::test_example_gearboxes

@@ -1,14 +1,10 @@
 // Checks the printed feature values of a study without thresholds.
-#include <catch2/catch.hpp>
-#include <sstream>
-
 #include "mc/report/gearbox_values.hpp"
 #include "tests/mc/program.hpp"
 #include "tests/report/report_cases.hpp"
 
-namespace test_feature_values {
+namespace gearpod::test_feature_values {
 
-using namespace gearpod;
 using test::Folder;
 using test::program;
 
@@ -31,10 +27,8 @@ TEST_CASE("Values are printed only without thresholds and for few gearboxes") {
 TEST_CASE("A study without noise prints the values of its file, not dashes") {
     const Folder folder;
     const std::string file = folder.file("r.h5");
-    REQUIRE(program("run " + test::study("published/park-fig-13.toml") + " --quiet --out " + file)
-                .code == 0);
-    const auto report = program("report " + file);
-    REQUIRE(report.code == 0);
+    require_success("run " + test::study("published/park-fig-13.toml") + " --quiet --out " + file);
+    const auto report = require_success("report " + file);
     CHECK(!report.mentions("-    "));
     CHECK(report.mentions("Feature values"));
     // Line of each test gearbox: row, loss of stiffness, then the four features.
@@ -58,4 +52,4 @@ TEST_CASE("A study without noise prints the values of its file, not dashes") {
     CHECK(found == 4);
 }
 
-}  // namespace test_feature_values
+}  // namespace gearpod::test_feature_values

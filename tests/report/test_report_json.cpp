@@ -1,20 +1,15 @@
 // Checks a report's JSON for any results: each number is finite or null, and missing results have a
 // reason.
-#include <algorithm>
-#include <catch2/catch.hpp>
-#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "mc/report/run_report.hpp"
 #include "mc/results/reliability_of_results.hpp"
 #include "tests/report/report_cases.hpp"
+#include "tests/test.hpp"
 
-namespace test_report_json {
+namespace gearpod::test_report_json {
 
-using namespace gearpod;
 using Json = nlohmann::json;
-
-namespace {
 
 Json json_of(const mc::Results& results) {
     const mc::ColumnRows rows(results);
@@ -70,8 +65,6 @@ void check_roc(const Json& json) {
         }
     }
 }
-
-}  // namespace
 
 TEST_CASE("For any results the JSON is complete, its numbers are finite and its counts add up") {
     for (const tests::ReportCase& each : tests::report_cases()) {
@@ -162,4 +155,4 @@ TEST_CASE("The default noise level is 1, else the least noise, else the first") 
     CHECK(case_json("many")["noise"]["reference"] == 4);
 }
 
-}  // namespace test_report_json
+}  // namespace gearpod::test_report_json

@@ -8,7 +8,7 @@
 #include <iterator>
 
 #include "mc/files/input/terminal_text.hpp"
-#include "mc/numerics/study_scene.hpp"
+#include "mc/numerics/numerics_choice.hpp"
 
 namespace gearpod::mc {
 

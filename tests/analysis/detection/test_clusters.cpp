@@ -1,9 +1,7 @@
 // Checks false-alarm rates of thresholds set from several recordings of each gearbox.
-#include <boost/math/distributions/normal.hpp>
-
 #include "analysis/detection/detection.hpp"
 #include "analysis/detection/threshold.hpp"
-#include "tests/test.hpp"
+#include "tests/analysis/detection/gearbox_laws.hpp"
 
 namespace gearpod::analysis::test_clusters {
 
@@ -63,33 +61,19 @@ struct RareCoverage {
     double covered = 0.0, median_width = 0.0;
 };
 
-RareCoverage rare_coverage(double deviation, bool exponential, int gearboxes, int records,
-                           double rate, int studies) {
+RareCoverage rare_coverage(double deviation, Law law, int gearboxes, int records, double rate,
+                           int studies) {
     std::mt19937_64 engine(11);
     std::normal_distribution<double> noise;
     std::exponential_distribution<double> skewed;
-    const boost::math::normal normal;
-    // False-alarm rate of further gearboxes from the same law.
-    const auto beyond = [&](double threshold) {
-        if (!exponential) {
-            return cdf(complement(normal, threshold / std::sqrt(1.0 + deviation * deviation)));
-        }
-        constexpr int kSteps = 4000;
-        constexpr double kFar = 40.0;
-        double sum = 0.0;
-        for (int i = 0; i < kSteps; ++i) {
-            const double g = (i + 0.5) * kFar / kSteps;
-            sum += std::exp(-g) * cdf(complement(normal, threshold - deviation * (g - 1.0)));
-        }
-        return sum * kFar / kSteps;
-    };
     RareCoverage result;
     std::vector<double> widths;
     for (int s = 0; s < studies; ++s) {
         std::vector<double> values;
         std::vector<std::size_t> gearbox;
         for (int g = 0; g < gearboxes; ++g) {
-            const double own = deviation * (exponential ? skewed(engine) - 1.0 : noise(engine));
+            const double own =
+                deviation * (law == Law::exponential ? skewed(engine) - 1.0 : noise(engine));
             for (int r = 0; r < records; ++r) {
                 values.push_back(own + noise(engine));
                 gearbox.push_back(static_cast<std::size_t>(g));
@@ -98,7 +82,7 @@ RareCoverage rare_coverage(double deviation, bool exponential, int gearboxes, in
         const double threshold = alarm_threshold(values, Alarm::high, rate).value;
         const Interval bounds =
             clustered_rate_interval(values, gearbox, Alarm::high, threshold, rate, 0.95);
-        const double truth = beyond(threshold);
+        const double truth = rate_beyond(threshold, deviation, law);
         result.covered += bounds.lower <= truth && truth <= bounds.upper ? 1.0 / studies : 0.0;
         widths.push_back(bounds.upper / bounds.lower);
     }
@@ -110,10 +94,10 @@ RareCoverage rare_coverage(double deviation, bool exponential, int gearboxes, in
 TEST_CASE("Rates below one per number of gearboxes are covered by many records of each") {
     // The standard deviation of a coverage of 0.95 in 200 studies is 0.015.
     constexpr double kLow = 0.95 - 0.045;
-    const RareCoverage alike = rare_coverage(0.0, false, 500, 100, 0.001, 200),
-                       differing = rare_coverage(0.4, false, 500, 100, 0.001, 200),
-                       apart = rare_coverage(1.5, false, 1000, 50, 0.001, 100),
-                       skewed = rare_coverage(0.4, true, 1000, 50, 0.001, 100);
+    const RareCoverage alike = rare_coverage(0.0, Law::normal, 500, 100, 0.001, 200),
+                       differing = rare_coverage(0.4, Law::normal, 500, 100, 0.001, 200),
+                       apart = rare_coverage(1.5, Law::normal, 1000, 50, 0.001, 100),
+                       skewed = rare_coverage(0.4, Law::exponential, 1000, 50, 0.001, 100);
     CHECK(alike.covered > kLow);
     CHECK(alike.median_width < 1.9);
     CHECK(differing.covered > kLow);
@@ -126,14 +110,17 @@ TEST_CASE("Rates below one per number of gearboxes are covered by many records o
 
 TEST_CASE("Rates of 1e-4 from 400 records of each of 2,000 gearboxes",
           "[.rare-coverage][rare-rates]") {
-    for (const auto& [deviation, exponential] :
-         {std::pair{0.0, false}, {0.3, false}, {0.6, false}, {1.0, false}, {0.3, true}}) {
-        const RareCoverage found = rare_coverage(deviation, exponential, 2000, 400, 1e-4, 500);
-        WARN((exponential ? "exponential" : "normal")
+    for (const auto& [deviation, law] : {std::pair{0.0, Law::normal},
+                                         {0.3, Law::normal},
+                                         {0.6, Law::normal},
+                                         {1.0, Law::normal},
+                                         {0.3, Law::exponential}}) {
+        const RareCoverage found = rare_coverage(deviation, law, 2000, 400, 1e-4, 500);
+        WARN((law == Law::exponential ? "exponential" : "normal")
              << " gearboxes of deviation " << deviation << ": covered " << found.covered
              << ", upper over lower " << found.median_width);
         CHECK(found.covered > 0.95 - 0.03);
-        if (deviation <= 0.3 && !exponential) {
+        if (deviation <= 0.3 && law == Law::normal) {
             CHECK(found.median_width < 1.65);
         }
     }

@@ -1,34 +1,13 @@
 // Checks thresholds from weighted records where the rate beyond every value is known. Gearboxes
 // have a normal or an exponential law with normal noise of variance 1, and records are
 // exponentially tilted towards alarms by shifts of the noise.
-#include <boost/math/distributions/normal.hpp>
-
 #include "analysis/detection/detection.hpp"
 #include "analysis/detection/threshold.hpp"
-#include "tests/test.hpp"
+#include "tests/analysis/detection/gearbox_laws.hpp"
 
 namespace gearpod::analysis::test_importance_sample {
 
 const boost::math::normal kNormal;
-constexpr std::array kShifts{0.0, 2.0, 3.5, 5.0};
-
-enum class Law { normal, exponential };
-
-// False-alarm rate of further gearboxes.
-double rate_beyond(double threshold, double deviation, Law law) {
-    if (law == Law::normal) {
-        return cdf(complement(kNormal, threshold / std::sqrt(1.0 + deviation * deviation)));
-    }
-    constexpr int kSteps = 4000;
-    constexpr double kFar = 40.0;
-    double sum = 0.0;
-    for (int i = 0; i < kSteps; ++i) {
-        const double g = (i + 0.5) * kFar / kSteps;
-        sum += std::exp(-g) * cdf(complement(kNormal, threshold - deviation * (g - 1.0)));
-    }
-    return sum * kFar / kSteps;
-}
-
 struct Records {
     std::vector<double> values, weights;
     std::vector<std::size_t> gearbox;
@@ -43,12 +22,8 @@ struct Records {
             for (int r = 0; r < records; ++r) {
                 const double z =
                     noise(engine) + kShifts[static_cast<std::size_t>(r) % kShifts.size()];
-                double density = 0.0;
-                for (const double shift : kShifts) {
-                    density += std::exp(shift * (z - 0.5 * shift)) / kShifts.size();
-                }
                 values.push_back(sign * (own + z));
-                weights.push_back(1.0 / density);
+                weights.push_back(weight_of(z));
                 gearbox.push_back(static_cast<std::size_t>(g));
             }
         }

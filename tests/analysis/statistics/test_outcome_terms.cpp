@@ -1,8 +1,7 @@
 // Checks the vectorised terms of binomial likelihoods against scalar link functions, finite
 // differences and other instruction sets.
 #include "analysis/statistics/outcome_terms.hpp"
-#include "machine/instruction_sets.hpp"
-#include "tests/test.hpp"
+#include "tests/numbers.hpp"
 
 namespace gearpod::analysis::test_outcome_terms {
 
@@ -118,14 +117,11 @@ TEST_CASE("Terms and sums have the same bits on all instruction sets") {
     using namespace gearpod;
     const std::vector<double> u = evenly(-9.0, 9.0, 101), weight = evenly(1.0, 4.0, 101);
     const std::vector<char> yes(u.size(), 1);
-    const auto best = machine::best_instruction_set();
     for (const OutcomeCurve& curve : kCurves) {
         const OutcomeLine line{curve, 0.3, 0.9};
-        machine::use_instruction_set(machine::InstructionSet::baseline);
         const Terms terms = terms_of(curve, u, yes);
         const LikelihoodSums sums = sums_of(line, true, u, weight);
-        for (int set = 1; set <= static_cast<int>(best); ++set) {
-            machine::use_instruction_set(static_cast<machine::InstructionSet>(set));
+        test::for_each_instruction_set([&] {
             const Terms other = terms_of(curve, u, yes);
             CHECK(other.log_probability == terms.log_probability);
             CHECK(other.slope == terms.slope);
@@ -134,8 +130,7 @@ TEST_CASE("Terms and sums have the same bits on all instruction sets") {
             CHECK(again.value == sums.value);
             CHECK(again.slope_slope == sums.slope_slope);
             CHECK(again.first_ceiling == sums.first_ceiling);
-        }
-        machine::use_instruction_set(best);
+        });
     }
 }
 

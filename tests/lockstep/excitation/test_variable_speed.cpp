@@ -7,7 +7,7 @@
 #include "lockstep/tile/rigid_rotation.hpp"
 #include "lockstep/tile/tile_integrators.hpp"
 #include "tests/lockstep/liang_train.hpp"
-#include "tests/test.hpp"
+#include "tests/numbers.hpp"
 
 namespace gearpod::lockstep::test_variable_speed {
 
@@ -149,9 +149,7 @@ TEST_CASE("a speed that stays above its mean equals another steady speed",
             difference, std::abs(of_steady.acceleration[n] - of_variable_speed.acceleration[n]));
     }
     CHECK(difference < 1e-9 * largest);
-    for (std::size_t d = 0; d < a.q.size(); ++d) {
-        CHECK(a.q[d] == Approx(b.q[d]).epsilon(1e-9).margin(1e-15));
-    }
+    test::check_close(a.q, b.q, 1e-9, 1e-15);
 }
 
 TEST_CASE("a free body moves straight while the carrier accelerates", "[uneven-speed][lockstep]") {
@@ -219,11 +217,7 @@ TEST_CASE("a slowly varying speed passes through the periodic orbits of steady s
             (*mesh_integrator)(k, {}, state, record);
             turn.remove(state);
         }
-        double worst = 0.0;
-        for (std::size_t n = 0; n < record.te.size(); ++n) {
-            worst = std::max(worst, std::abs(record.te[n] - at_top.te[n]));
-        }
-        return worst;
+        return test::largest_difference(record.te, at_top.te);
     };
     const auto [low, high] = std::minmax_element(at_top.te.begin(), at_top.te.end());
     const double slow = difference(400), slower = difference(800);

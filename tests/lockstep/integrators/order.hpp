@@ -5,7 +5,7 @@
 #include "lockstep/integrators/facts.hpp"
 #include "lockstep/tile/tile_integrators.hpp"
 #include "tests/lockstep/tian_gearbox.hpp"
-#include "tests/test.hpp"
+#include "tests/numbers.hpp"
 
 namespace gearpod::test {
 
@@ -35,14 +35,6 @@ inline Integrated integrate_meshes(const lockstep::IntegrationPlan& plan,
         (*mesh_integrator)({}, m.state, m.record);
     }
     return m;
-}
-
-inline double largest_difference(const machine::AlignedVector& a, const machine::AlignedVector& b) {
-    double largest = 0.0;
-    for (std::size_t i = 0; i < a.size(); ++i) {
-        largest = std::max(largest, std::abs(a[i] - b[i]));
-    }
-    return largest;
 }
 
 // Tian's gearbox in which only the gear pair is stiff.

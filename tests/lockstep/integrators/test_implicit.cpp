@@ -4,10 +4,9 @@
 #include "lockstep/integrators/facts.hpp"
 #include "lockstep/integrators/sensor_filter.hpp"
 #include "lockstep/tile/tile_integrators.hpp"
-#include "machine/instruction_sets.hpp"
 #include "tests/lockstep/integrators/order.hpp"
 #include "tests/lockstep/liang_train.hpp"
-#include "tests/test.hpp"
+#include "tests/numbers.hpp"
 
 namespace gearpod::lockstep::test_implicit {
 
@@ -239,19 +238,12 @@ TEST_CASE(
         const TileResult wide = run_tile<8>(plan, inputs, faults, solution);
         check_lanes<4>(plan, inputs, cracks, solution, 5, wide);
         check_lanes<1>(plan, inputs, cracks, solution, 5, wide);
-        const machine::InstructionSet best = machine::best_instruction_set();
-        for (const auto set :
-             {machine::InstructionSet::baseline, machine::InstructionSet::x86_64_v3}) {
-            if (set >= best) {
-                continue;
-            }
-            machine::use_instruction_set(set);
+        test::for_each_instruction_set([&] {
             const TileResult other = run_tile<8>(plan, inputs, faults, solution);
             check_lanes<4>(plan, inputs, cracks, solution, 5, wide);
-            machine::use_instruction_set(best);
             CHECK(other.records[5].acceleration == wide.records[5].acceleration);
             CHECK(other.records[5].te == wide.records[5].te);
-        }
+        });
     }
 }
 

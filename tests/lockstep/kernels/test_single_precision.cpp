@@ -3,9 +3,8 @@
 #include "lockstep/integrators/facts.hpp"
 #include "lockstep/tile/rigid_rotation.hpp"
 #include "lockstep/tile/tile_integrators.hpp"
-#include "machine/instruction_sets.hpp"
 #include "tests/lockstep/liang_train.hpp"
-#include "tests/test.hpp"
+#include "tests/numbers.hpp"
 
 namespace gearpod::lockstep::test_single_precision {
 
@@ -86,21 +85,15 @@ TEST_CASE("Sixteen singles, eight, four and one give the same bits, on every ins
     check_width<8>(plan, inputs, wide);
     check_width<4>(plan, inputs, wide);
     check_width<1>(plan, inputs, wide);
-    const machine::InstructionSet best = machine::best_instruction_set();
-    for (const auto set : {machine::InstructionSet::baseline, machine::InstructionSet::x86_64_v3}) {
-        if (set >= best) {
-            continue;
-        }
-        machine::use_instruction_set(set);
+    test::for_each_instruction_set([&] {
         const TileResult other = tile<16>(plan, inputs, 0);
-        machine::use_instruction_set(best);
         for (std::size_t l = 0; l < 16; ++l) {
             CHECK(unrolled(other, &MeshRecord::te, l, 16) ==
                   unrolled(wide, &MeshRecord::te, l, 16));
             CHECK(unrolled(other, &MeshRecord::acceleration, l, 16) ==
                   unrolled(wide, &MeshRecord::acceleration, l, 16));
         }
-    }
+    });
 }
 
 TEST_CASE("Single precision keeps sensor signal and transmission error close to double precision") {

@@ -7,7 +7,7 @@
 #include "lockstep/tile/rigid_rotation.hpp"
 #include "lockstep/tile/tile_integrators.hpp"
 #include "tests/lockstep/liang_train.hpp"
-#include "tests/test.hpp"
+#include "tests/numbers.hpp"
 
 namespace gearpod::lockstep::test_unilateral_contact {
 
@@ -41,23 +41,6 @@ std::vector<dynamics::GearboxInputs> light_trains(double load, double speedup) {
         inputs.emplace_back(in);
     }
     return inputs;
-}
-
-double largest_difference(const machine::AlignedVector& a, const machine::AlignedVector& b) {
-    REQUIRE(a.size() == b.size());
-    double difference = 0.0;
-    for (std::size_t i = 0; i < a.size(); ++i) {
-        difference = std::max(difference, std::abs(a[i] - b[i]));
-    }
-    return difference;
-}
-
-double largest(const machine::AlignedVector& a) {
-    double size = 0.0;
-    for (const double x : a) {
-        size = std::max(size, std::abs(x));
-    }
-    return size;
 }
 
 // Normal errors of every flank, one set for each of eight lanes.
@@ -223,10 +206,10 @@ TEST_CASE("Tooth pairs without errors act as one mesh that separates") {
             ends.push_back(std::move(state));
         }
         INFO("integrator " << static_cast<int>(integrator));
-        const double size = largest(ends[0].q);
+        const double size = test::largest_magnitude(ends[0].q);
         // Rounding differences grow where teeth regain contact.
-        CHECK(largest_difference(ends[1].q, ends[0].q) < 1e-7 * size);
-        CHECK(largest_difference(ends[2].q, ends[0].q) > 1e-3 * size);
+        CHECK(test::largest_difference(ends[1].q, ends[0].q) < 1e-7 * size);
+        CHECK(test::largest_difference(ends[2].q, ends[0].q) > 1e-3 * size);
     }
 }
 
@@ -306,7 +289,8 @@ TEST_CASE("Kernels for varying forces, variable speed and single precision treat
         const auto varied = [&](const auto& overrides, TileState& state, MeshRecord& record) {
             (*variable_excitation_integrator)(0, overrides, state, record);
         };
-        CHECK(largest_difference(end_of(plan, varied), expected) < 1e-9 * largest(expected));
+        CHECK(test::largest_difference(end_of(plan, varied), expected) <
+              1e-9 * test::largest_magnitude(expected));
     }
     // Sixteen singles: the eight realizations twice.
     IntegrationPlan plan = plan_for(Integrator::rk4, MeshLaw::unilateral, 2400, full);
@@ -333,7 +317,7 @@ TEST_CASE("Kernels for varying forces, variable speed and single precision treat
                                                state, record);
     for (std::size_t i = 0; i < state.q.size(); ++i) {
         const double own = expected[i / 16 * 8 + i % 8];
-        CHECK(state.q[i] == Approx(own).margin(1e-4 * largest(expected)));
+        CHECK(state.q[i] == Approx(own).margin(1e-4 * test::largest_magnitude(expected)));
     }
 }
 

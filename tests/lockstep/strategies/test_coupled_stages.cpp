@@ -6,7 +6,7 @@
 #include "lockstep/strategies/coupled_stages.hpp"
 #include "tests/lockstep/liang_train.hpp"
 #include "tests/lockstep/tian_gearbox.hpp"
-#include "tests/test.hpp"
+#include "tests/numbers.hpp"
 
 namespace gearpod::lockstep::test_coupled_stages {
 
@@ -182,15 +182,6 @@ class WholeTrain {
     std::vector<Eigen::VectorXd> mesh_;
 };
 
-double largest_difference(const std::vector<double>& a, const std::vector<double>& b) {
-    REQUIRE(a.size() == b.size());
-    double largest = 0.0;
-    for (std::size_t i = 0; i < a.size(); ++i) {
-        largest = std::max(largest, std::abs(a[i] - b[i]));
-    }
-    return largest;
-}
-
 double range(const std::vector<double>& a) {
     return std::ranges::max(a) - std::ranges::min(a);
 }
@@ -203,9 +194,9 @@ TEST_CASE("A coupled train agrees with one integration of all its equations", "[
         for (std::size_t stage = 0; stage < train.stages.size(); ++stage) {
             INFO(train.stages.size() << " stages, stage " << stage);
             const double size = range(exact[stage]);
-            const double error = largest_difference(fine[stage], exact[stage]) / size;
+            const double error = test::largest_difference(fine[stage], exact[stage]) / size;
             CHECK(error < 2e-4);
-            CHECK(largest_difference(coarse[stage], exact[stage]) / size > 3.0 * error);
+            CHECK(test::largest_difference(coarse[stage], exact[stage]) / size > 3.0 * error);
         }
     }
 }
@@ -218,7 +209,7 @@ TEST_CASE("A shaft carries the vibration of a stage to the other one", "[coupled
     // The second stage vibrates although its own stiffness is constant; the first one differs by
     // the vibration of the second one.
     CHECK(range(one[1]) > 1e-3 * range(both[1]));
-    CHECK(largest_difference(one[0], both[0]) > 1e-4 * range(both[0]));
+    CHECK(test::largest_difference(one[0], both[0]) > 1e-4 * range(both[0]));
 }
 
 TEST_CASE("Stages without shafts have the bits of single stages", "[coupled]") {

@@ -1,9 +1,8 @@
 // Checks tiles: the healthy periodic orbit, the passage of a crack, and lanes that are independent
 // of their neighbours.
 #include "lockstep/integrators/facts.hpp"
-#include "machine/instruction_sets.hpp"
 #include "tests/lockstep/liang_train.hpp"
-#include "tests/test.hpp"
+#include "tests/numbers.hpp"
 
 namespace gearpod::lockstep::test_solution {
 
@@ -54,20 +53,14 @@ TEST_CASE("Eight lanes, four and one give the same bits, on every instruction se
     CHECK(wide.status == std::vector(8, LaneStatus::ok));
     check_lanes<4>(plan, inputs, wide);
     check_lanes<1>(plan, inputs, wide);
-    const machine::InstructionSet best = machine::best_instruction_set();
-    for (const auto set : {machine::InstructionSet::baseline, machine::InstructionSet::x86_64_v3}) {
-        if (set >= best) {
-            continue;
-        }
-        machine::use_instruction_set(set);
+    test::for_each_instruction_set([&] {
         const TileResult other =
             run_tile<8>(plan, inputs, train.ring_side_cracks(kDepths), PeriodicSolution{});
         check_lanes<4>(plan, inputs, wide);
-        machine::use_instruction_set(best);
         for (std::size_t l = 0; l < 8; ++l) {
             CHECK(unrolled(other, l, 8) == unrolled(wide, l, 8));
         }
-    }
+    });
 }
 
 constexpr int kSpan = 93;  // three passages of the faulty tooth

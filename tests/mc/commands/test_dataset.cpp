@@ -20,8 +20,8 @@ const std::vector<std::string> kData{"train.csv", "validation.csv", "test.csv"};
 std::string dataset_of(const Folder& folder, const std::string& name, const std::string& run) {
     const std::string results = folder.file(name + ".h5");
     require_success(run + " --out " + results);
-    const Outcome report = require_success("report " + results + " --dataset " + folder.file(name));
-    CHECK(report.mentions("dataset: " + folder.file(name)));
+    check_mentions(require_success("report " + results + " --dataset " + folder.file(name)),
+                   {"dataset: " + folder.file(name)});
     return folder.file(name);
 }
 
@@ -96,14 +96,14 @@ TEST_CASE("A dataset holds the numbers of the results, each gearbox in one split
     CHECK(in_split[2] > 0);
     // The card names the study, and every column has a meaning.
     const std::string card = bytes_of(data + "/README.md");
-    CHECK(card.find(results.provenance_value("git_hash").substr(0, 12)) != std::string::npos);
+    CHECK(contains(card, results.provenance_value("git_hash").substr(0, 12)));
     const mc::TextTable columns = mc::read_text_table(data + "/columns.csv");
     CHECK(columns.rows.size() == lines[0].fields.size());
     for (const auto& column : columns.rows) {
         INFO(column[0]);
         CHECK(lines[0].fields.contains(column[0]));
         CHECK_FALSE(column[3].empty());
-        CHECK(card.find("| " + column[0] + " | " + column[1]) != std::string::npos);
+        CHECK(contains(card, "| " + column[0] + " | " + column[1]));
     }
     // The study of the folder gives the same results.
     const std::string again = dataset_of(folder, "again", "run " + data + "/study.toml --quiet");
@@ -118,9 +118,8 @@ TEST_CASE("A dataset has the same bytes for other threads and from merged parts"
     ::unsetenv("OMP_NUM_THREADS");
     const std::string first = dataset_of(folder, "first", kRun + " --part 1/2"),
                       second = dataset_of(folder, "second", kRun + " --part 2/2");
-    REQUIRE(program("merge " + first + ".h5 " + second + ".h5 --out " + folder.file("m.h5")).code ==
-            0);
-    REQUIRE(program("report " + folder.file("m.h5") + " --dataset " + folder.file("m")).code == 0);
+    require_success("merge " + first + ".h5 " + second + ".h5 --out " + folder.file("m.h5"));
+    require_success("report " + folder.file("m.h5") + " --dataset " + folder.file("m"));
     for (const std::string& name : kData) {
         INFO(name);
         CHECK(bytes_of(one + "/" + name) == bytes_of(data + "/" + name));
@@ -165,9 +164,8 @@ TEST_CASE("Records of a gearbox stay together, and stored signals are written") 
     // Row 110 is test gearbox 5, after 35 gearboxes with three records.
     const mc::TextTable stored = mc::read_text_table(data + "/signals_110.csv");
     const std::string simulated = folder.file("simulated.csv");
-    REQUIRE(
-        program("simulate " + data + "/study.toml --instance 110 --meshes 31 --out " + simulated)
-            .code == 0);
+    require_success("simulate " + data + "/study.toml --instance 110 --meshes 31 --out " +
+                    simulated);
     const mc::TextTable own = mc::read_text_table(simulated);
     const auto column = own.find("sensor"), same = stored.find("sensor");
     REQUIRE(column);
@@ -209,7 +207,7 @@ TEST_CASE("A dataset replaces no other file, and lives have none") {
     const Folder folder;
     const std::string data = dataset_of(folder, "data", kRun), card = data + "/README.md";
     const std::string report = "report " + folder.file("data.h5") + " --dataset ";
-    CHECK(program(report + data).code == 0);  // its own files
+    require_success(report + data);  // its own files
     for (const std::string name : {"README.md", "train.csv", "study.toml"}) {
         std::filesystem::create_directory(folder.file("other"));
         write_bytes(folder.file("other/" + name), "notes of a user\n");

@@ -1,8 +1,6 @@
 // Checks studies too small for their false-alarm rate: a warning before the run and at the top of
 // its report.
-#include <nlohmann/json.hpp>
-
-#include "tests/mc/program.hpp"
+#include "tests/mc/program_json.hpp"
 
 namespace gearpod::test_false_alarms {
 
@@ -17,25 +15,24 @@ TEST_CASE(
     "A sample without a threshold is reported before the run, and no fault counts as missed") {
     const Folder folder;
     const std::string rare = kSmall + " --set detection.false_alarm_rate=0.001";
-    const Outcome described = program("describe " + rare);
-    check_mentions(described, {"Too few healthy gearboxes for a false-alarm rate of 0.001: 30",
-                               "At least 999 are needed"});
+    check_mentions(program("describe " + rare),
+                   {"Too few healthy gearboxes for a false-alarm rate of 0.001: 30",
+                    "At least 999 are needed"});
     const std::string results = folder.file("r.h5");
-    const Outcome run = require_success("run " + rare + " --quiet --out " + results);
-    CHECK(run.mentions("Too few healthy gearboxes"));  // also where only problems are printed
+    check_mentions(require_success("run " + rare + " --quiet --out " + results),
+                   {"Too few healthy gearboxes"});  // also where only problems are printed
     const Outcome report = program("report " + results);
     CHECK(report.output.starts_with("Too few healthy gearboxes for a false-alarm rate of 0.001"));
     CHECK(report.mentions("no threshold, so detection is unknown"));
     CHECK(!report.mentions("No tested"));
     CHECK(!report.mentions("not reached"));
-    REQUIRE(program("report " + results + " --html " + folder.file("r.html")).code == 0);
+    require_success("report " + results + " --html " + folder.file("r.html"));
     const std::string page = bytes_of(folder.file("r.html"));
-    CHECK(page.find("Too few healthy gearboxes") != std::string::npos);
-    CHECK(page.find("No tested") == std::string::npos);
-    const Outcome compared = program("compare " + results + " " + results);
-    CHECK(compared.mentions("no threshold, so detection is unknown"));
-    const auto json =
-        nlohmann::json::parse(program("compare " + results + " " + results + " --json -").output);
+    CHECK(contains(page, "Too few healthy gearboxes"));
+    CHECK_FALSE(contains(page, "No tested"));
+    check_mentions(program("compare " + results + " " + results),
+                   {"no threshold, so detection is unknown"});
+    const auto json = json_of("compare " + results + " " + results + " --json -");
     CHECK(json["files"][1]["shortage"].get<std::string>().starts_with("Too few healthy"));
 }
 
@@ -44,22 +41,21 @@ TEST_CASE("A sweep begins with what its healthy samples cannot determine, also o
     const std::string sweep = "sweep " + kSmall +
                               " --set detection.false_alarm_rate=0.001 --quiet --out " +
                               folder.file("s") + " --vary sensor.noise_m_s2=[1,2]";
-    REQUIRE(program(sweep).code == 0);
+    require_success(sweep);
     // Finished points are not computed again; the warning appears again, once.
     const Outcome again = require_success(sweep + " --html " + folder.file("s.html"));
     const std::size_t warning_position = again.output.find("Too few healthy gearboxes");
     CHECK(warning_position < again.output.find("smallest fault found"));
-    CHECK(again.output.find("Too few healthy gearboxes", warning_position + 1) ==
-          std::string::npos);
+    CHECK_FALSE(contains(again.output.substr(warning_position + 1), "Too few healthy gearboxes"));
     const std::string page = bytes_of(folder.file("s.html"));
-    CHECK(page.find("Too few healthy gearboxes") != std::string::npos);
-    CHECK(page.find("no threshold in 2 of 2 studies") != std::string::npos);
-    CHECK(page.find("none in any") == std::string::npos);
+    CHECK(contains(page, "Too few healthy gearboxes"));
+    CHECK(contains(page, "no threshold in 2 of 2 studies"));
+    CHECK_FALSE(contains(page, "none in any"));
 }
 
 TEST_CASE("A sample that does not determine its rate is reported, one that does is not") {
-    const Outcome few = program("describe " + kSmall);
-    CHECK(few.mentions("Few healthy gearboxes for a false-alarm rate of 0.05: 30 determine it"));
+    check_mentions(program("describe " + kSmall),
+                   {"Few healthy gearboxes for a false-alarm rate of 0.05: 30 determine it"});
     const Outcome enough =
         program("describe " + kSmall + " --set ensemble.threshold_instances=100");
     CHECK(!enough.mentions("ew healthy"));
@@ -69,11 +65,11 @@ TEST_CASE("A sample that does not determine its rate is reported, one that does 
 TEST_CASE("Costs of an alarm and of a miss give a threshold; all three keys are required") {
     const Folder folder;
     const std::string results = folder.file("r.h5");
-    REQUIRE(program("run " + kSmall + " --quiet --out " + results).code == 0);
+    require_success("run " + kSmall + " --quiet --out " + results);
     const std::string costs = " --alarm-cost 10 --miss-cost 500";
     check_refused("report " + results + costs, {"need all three"});
-    const Outcome all = require_success("report " + results + costs + " --fault-share 0.01");
-    check_mentions(all, {"Thresholds of least expected cost", "without any alarm"});
+    check_mentions(require_success("report " + results + costs + " --fault-share 0.01"),
+                   {"Thresholds of least expected cost", "without any alarm"});
     CHECK(program("report " + results).output.find("expected cost") == std::string::npos);
     const Outcome bad =
         check_refused("report " + results + " --alarm-cost nan --miss-cost -1 --fault-share 2");
@@ -82,8 +78,8 @@ TEST_CASE("Costs of an alarm and of a miss give a threshold; all three keys are 
           "--miss-cost: must be at least 0, but is -1\n"
           "--fault-share: must be 0 to 1, but is 2\n"
           "Run with --help for more information.\n");
-    const Outcome json = program("report " + results + costs + " --fault-share 0.01 --json -");
-    check_mentions(json, {"\"least_cost\"", "\"by_false_alarm_rate\""});
+    check_mentions(program("report " + results + costs + " --fault-share 0.01 --json -"),
+                   {"\"least_cost\"", "\"by_false_alarm_rate\""});
 }
 
 TEST_CASE("Uncertainty left by a calibration is a separate band in text, data and page") {
@@ -95,22 +91,21 @@ TEST_CASE("Uncertainty left by a calibration is a separate band in text, data an
         " --set sensor.noise_levels=[1] --set 'features.use=[\"window_ratio\"]'"
         " --set 'random.sensor.noise_m_s2={distribution=\"lognormal\",median=1.5,cv=0.3}'"
         " --set 'detection.uncertain_inputs=[\"sensor.noise_m_s2\"]'";
-    REQUIRE(program("run " + uncertain + " --quiet --out " + results).code == 0);
+    require_success("run " + uncertain + " --quiet --out " + results);
     const Outcome report = program("report " + results);
     INFO(report.output);
     CHECK(report.mentions("Unknown for this machine: sensor noise."));
     const auto level =
-        nlohmann::json::parse(program("report " + results + " --json -")
-                                  .output)["reliability"]["features"][0]["levels"][0];
+        json_of("report " + results + " --json -")["reliability"]["features"][0]["levels"][0];
     const auto band = level["uncertain"];
     CHECK(band["inputs"][0] == "noise_m_s2");
     REQUIRE(band["a90_low"]["where"] == "reached");
     // Higher background noise hides larger cracks.
     CHECK(band["a90_low"]["size"].get<double>() < 0.9 * band["a90_high"]["size"].get<double>());
     CHECK(band["band"]["lower"].size() == level["hit_miss"]["band"]["size"].size());
-    REQUIRE(program("report " + results + " --html " + folder.file("r.html")).code == 0);
+    require_success("report " + results + " --html " + folder.file("r.html"));
     const std::string page = bytes_of(folder.file("r.html"));
-    CHECK(page.find("Unknown for this machine") != std::string::npos);
+    CHECK(contains(page, "Unknown for this machine"));
     check_refused("describe " + study("planet-crack-ideal.toml") +
                       " --set 'detection.uncertain_inputs=[\"sensor.gain\"]'",
                   {"\"sensor.gain\" is not a random input of the gearboxes"});

@@ -1,45 +1,23 @@
 // Checks gearpod features: the features of a measured signal.
-#include <nlohmann/json.hpp>
-
 #include "features/feature.hpp"
-#include "mc/files/hdf5_data.hpp"
 #include "mc/files/signal_file.hpp"
 #include "mc/numerics/forecast/memory.hpp"
 #include "tests/mc/compared_program.hpp"
-#include "tests/mc/program.hpp"
 #include "tests/mc/recording_bytes.hpp"
+#include "tests/mc/recording_files.hpp"
 
 namespace gearpod::test_features_command {
 
 using namespace test;
 
-const std::string kReference = std::string(GEARPOD_SOURCE_DIR) + "/tests/features/reference/";
-const std::string kSmall = kReference + "small.toml";
-
 nlohmann::json features_of(const std::string& signal, const std::string& options) {
-    const Outcome outcome =
-        require_success("features " + signal + " --study " + options + " --json -");
-    return nlohmann::json::parse(outcome.output);
+    return json_of("features " + signal + " --study " + options + " --json -");
 }
 
-using Columns = std::vector<std::pair<std::string, std::vector<double>>>;
-
-void write_csv(const std::string& path, const Columns& columns, const char* separator = ",") {
-    std::ofstream stream(path);
-    stream.precision(17);
-    for (std::size_t c = 0; c < columns.size(); ++c) {
-        stream << (c == 0 ? "" : separator) << columns[c].first;
-    }
-    for (std::size_t i = 0; i < columns[0].second.size(); ++i) {
-        for (std::size_t c = 0; c < columns.size(); ++c) {
-            stream << (c == 0 ? "\n" : separator) << columns[c].second[i];
-        }
-    }
-    stream << "\n";
-}
+using Named = std::vector<std::pair<std::string, std::vector<double>>>;
 
 // Variables of MATLAB 4: type, rows, columns, no imaginary part, length of the name.
-void write_mat(const std::string& path, const Columns& columns, bool rows) {
+void write_mat(const std::string& path, const Named& columns, bool rows) {
     std::string bytes;
     for (const auto& [name, values] : columns) {
         const std::size_t count = values.size();
@@ -55,29 +33,13 @@ void write_mat(const std::string& path, const Columns& columns, bool rows) {
     write_bytes(path, bytes);
 }
 
-Columns simulated(const std::string& path) {
-    const mc::Hdf5Handle file(H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), H5Fclose, path);
-    const mc::Hdf5Handle group = mc::open_group(file.get(), "signals");
-    Columns columns;
-    for (const char* name : {"time", "mesh_phase", "sensor_noise_1", "te"}) {
-        columns.emplace_back(name, mc::read_numbers(group.get(), name, 1000000).values);
-    }
-    return columns;
-}
-
-std::vector<double> simulated_feature(const std::string& path, const std::string& name) {
-    const mc::Hdf5Handle file(H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), H5Fclose, path);
-    const mc::Hdf5Handle group = mc::open_group(file.get(), "features");
-    return mc::read_numbers(group.get(), name, 100).values;
-}
-
 // Definitions in numpy on stored signals: tests/features/reference/README.md.
 TEST_CASE("Every feature equals the numpy result for the same signals") {
-    const auto result = features_of(kReference + "faulty.h5", kSmall + " --healthy " + kReference +
-                                                                  "healthy-1.h5 --healthy " +
-                                                                  kReference + "healthy-2.h5");
-    std::ifstream stream(kReference + "expected.json");
-    const auto expected = nlohmann::json::parse(stream);
+    const auto result =
+        features_of(kReferenceFolder + "faulty.h5", kSmallStudy + " --healthy " + kReferenceFolder +
+                                                        "healthy-1.h5 --healthy " +
+                                                        kReferenceFolder + "healthy-2.h5");
+    const auto expected = json_of_file(kReferenceFolder + "expected.json");
     CHECK(result["unavailable"].empty());
     for (const features::Feature& feature : features::record_features()) {
         const std::string name(feature.name);
@@ -91,17 +53,21 @@ TEST_CASE("Every feature equals the numpy result for the same signals") {
 TEST_CASE("A simulated signal read from a file has the features of the simulation") {
     const Folder folder;
     const std::string options =
-        kSmall + " --set fault.reduction=0.5 --set 'sensor.noise_levels=[0, 1]'";
-    REQUIRE(
-        program("simulate " + options + " --instance 2 --meshes 455 --out " + folder.file("s.h5"))
-            .code == 0);
-    const Columns columns = simulated(folder.file("s.h5"));
+        kSmallStudy + " --set fault.reduction=0.5 --set 'sensor.noise_levels=[0, 1]'";
+    require_success("simulate " + options + " --instance 2 --meshes 455 --out " +
+                    folder.file("s.h5"));
+    const CsvColumns columns = read_columns(folder.file("s.h5"), "signals",
+                                            {"time", "mesh_phase", "sensor_noise_1", "te"});
     // One time base at a time: mesh phase, time, and the rate alone.
-    write_csv(folder.file("phase.csv"), {columns[1], columns[2], columns[3]}, ";");
-    write_csv(folder.file("time.csv"), {columns[0], columns[2], columns[3]}, "\t");
-    const double rate = 1.0 / columns[0].second[1];
-    write_mat(folder.file("rate.mat"), {{"sampling_Hz", {rate}}, columns[2], columns[3]}, true);
-    write_mat(folder.file("column.mat"), {columns[2], columns[3]}, false);
+    write_csv(folder.file("phase.csv"), "mesh_phase;sensor_noise_1;te",
+              {columns[1], columns[2], columns[3]}, 17, ";");
+    write_csv(folder.file("time.csv"), "time\tsensor_noise_1\tte",
+              {columns[0], columns[2], columns[3]}, 17, "\t");
+    const double rate = 1.0 / columns[0][1];
+    Named variables{{"sensor_noise_1", columns[2]}, {"te", columns[3]}};
+    write_mat(folder.file("column.mat"), variables, false);
+    variables.emplace_back("sampling_Hz", std::vector{rate});
+    write_mat(folder.file("rate.mat"), variables, true);
     const std::string noisy = " --sensor sensor_noise_1 --noise-level 1";
     for (const std::string& file :
          {folder.file("s.h5"), folder.file("phase.csv"), folder.file("time.csv"),
@@ -115,7 +81,7 @@ TEST_CASE("A simulated signal read from a file has the features of the simulatio
             INFO(name);
             // The exported transmission error is the noise-free one.
             const std::size_t level = feature.from_sensor ? 1 : 0;
-            const double was = simulated_feature(folder.file("s.h5"), name)[level];
+            const double was = read_columns(folder.file("s.h5"), "features", {name})[0][level];
             CHECK(std::abs(result["features"][name].get<double>() - was) <= 1e-9 * std::abs(was));
         }
     }
@@ -123,18 +89,18 @@ TEST_CASE("A simulated signal read from a file has the features of the simulatio
 
 TEST_CASE("All features have the same bits for any lanes, threads, ranks and instruction set") {
     const Folder folder;
-    const std::string study = " run " + kSmall +
+    const std::string study = " run " + kSmallStudy +
                               " --quiet --set fault.reduction=0.3 --set ensemble.instances=9"
                               " --set ensemble.threshold_instances=4 --out ";
-    REQUIRE(program(study + folder.file("a.h5")).code == 0);
+    require_success(study + folder.file("a.h5"));
     const auto reference = bits(folder.file("a.h5"));
     for (const char* change : {"numerics.lanes=4", "numerics.lanes=1", "numerics.threads=1",
                                "numerics.instruction_set=baseline"}) {
         INFO(change);
-        REQUIRE(compared_program(study + folder.file("b.h5") + " --set " + change).code == 0);
+        require_success(compared_program(study + folder.file("b.h5") + " --set " + change));
         CHECK(bits(folder.file("b.h5")) == reference);
     }
-    REQUIRE(shell(mpirun(2) + GEARPOD_PROGRAM + study + folder.file("c.h5")).code == 0);
+    require_success(shell(mpirun(2) + GEARPOD_PROGRAM + study + folder.file("c.h5")));
     CHECK(bits(folder.file("c.h5")) == reference);
 }
 
@@ -152,9 +118,9 @@ TEST_CASE("A recording at changing speed is resampled with its speed column") {
         sensor.push_back(std::sin(2.0 * std::numbers::pi * phase) +
                          0.5 * std::sin(4.0 * std::numbers::pi * phase));
     }
-    const std::string study = kSmall + " --set sensor.sampling_Hz=2800 --sampling-Hz 2800";
-    write_csv(folder.file("speed.csv"), {{"sensor", sensor}, {"speed_rpm", speed_rpm}});
-    write_csv(folder.file("blind.csv"), {{"sensor", sensor}});
+    const std::string study = kSmallStudy + " --set sensor.sampling_Hz=2800 --sampling-Hz 2800";
+    write_csv(folder.file("speed.csv"), "sensor,speed_rpm", {sensor, speed_rpm});
+    write_csv(folder.file("blind.csv"), "sensor", {sensor});
     const auto tracked = features_of(folder.file("speed.csv"), study)["features"];
     CHECK(tracked["energy_ratio"].get<double>() < 1e-3);
     CHECK(tracked["sensor_rms"].get<double>() == Approx(std::sqrt(0.5 * 1.25)).epsilon(1e-3));
@@ -166,7 +132,7 @@ TEST_CASE("A recording at changing speed is resampled with its speed column") {
 TEST_CASE("Every problem of a signal is reported in one message, with exit code 2") {
     const Folder folder;
     const auto refused = [&](const std::string& arguments, const std::string& message) {
-        check_refused("features " + arguments + " --study " + kSmall, {message});
+        check_refused("features " + arguments + " --study " + kSmallStudy, {message});
     };
     const std::vector<double> eight{0, 1, 2, 3, 4, 5, 6, 7};
     std::vector<double> phase(80), time(80), bad(80, 1.0), good(80, 1.0);
@@ -194,7 +160,7 @@ TEST_CASE("Every problem of a signal is reported in one message, with exit code 
     write_bytes(folder.file("word.csv"), "time,sensor\n0,1\n1,one\n");
     refused(folder.file("word.csv"), ":3: column sensor: \"one\" is not a number");
 
-    write_csv(folder.file("other.csv"), {{"mesh_phase", phase}, {"accel", good}});
+    write_csv(folder.file("other.csv"), "mesh_phase,accel", {phase, good});
     refused(folder.file("other.csv"),
             "neither a column sensor nor a column te; its columns are mesh_phase, accel");
     refused(folder.file("other.csv") + " --sensor sensr --te angle",
@@ -203,21 +169,21 @@ TEST_CASE("Every problem of a signal is reported in one message, with exit code 
     refused(folder.file("other.csv") + " --sensor accel",
             "too short for every feature: 10 mesh periods of sensor signal and 0 of transmission "
             "error; record at least 11");
-    write_csv(folder.file("te.csv"), {{"mesh_phase", phase}, {"te", good}});
+    write_csv(folder.file("te.csv"), "mesh_phase,te", {phase, good});
     refused(folder.file("te.csv"), "record at least 11");
-    write_csv(folder.file("nan.csv"), {{"mesh_phase", phase}, {"sensor", bad}});
+    write_csv(folder.file("nan.csv"), "mesh_phase,sensor", {phase, bad});
     refused(folder.file("nan.csv"),
             "column sensor: 2 of 80 samples are not finite, the first is sample 18");
-    write_csv(folder.file("rate.csv"), {{"sensor", good}});
+    write_csv(folder.file("rate.csv"), "sensor", {good});
     refused(folder.file("rate.csv"), "no sampling rate");
     refused(folder.file("rate.csv") + " --sampling-Hz 5000",
             "set sensor.sampling_Hz to that of the recording, about 5000 Hz");
     refused(folder.file("rate.csv") + " --sampling-Hz 100", "set sensor.low_pass_Hz to at most ");
     time[50] += 1e-3;
-    write_csv(folder.file("uneven.csv"), {{"time", time}, {"sensor", good}});
+    write_csv(folder.file("uneven.csv"), "time,sensor", {time, good});
     refused(folder.file("uneven.csv"), "the samples must be evenly spaced");
     phase[30] = phase[29];
-    write_csv(folder.file("back.csv"), {{"mesh_phase", phase}, {"sensor", good}});
+    write_csv(folder.file("back.csv"), "mesh_phase,sensor", {phase, good});
     refused(folder.file("back.csv"), "the mesh phase does not increase from sample 30 to the next");
     write_mat(folder.file("long.mat"), {{"sensor", good}, {"te", eight}}, true);
     refused(folder.file("long.mat") + " --sampling-Hz 280",
@@ -225,38 +191,38 @@ TEST_CASE("Every problem of a signal is reported in one message, with exit code 
 }
 
 // More than a turn of the planet, with 60 samples per mesh period.
-Columns hostile(const std::function<double(double)>& te) {
-    Columns columns{{"mesh_phase", {}}, {"te", {}}};
+std::string hostile(const std::string& path, const std::function<double(double)>& te) {
+    CsvColumns columns(2);
     for (int i = 0; i < 60 * 30; ++i) {
-        columns[0].second.push_back(i / 60.0);
-        columns[1].second.push_back(te(i / 60.0));
+        columns[0].push_back(i / 60.0);
+        columns[1].push_back(te(i / 60.0));
     }
-    return columns;
+    return write_csv(path, "mesh_phase,te", columns);
 }
 
 TEST_CASE("A feature without a value is reported with its reason, and no number is infinite") {
     const Folder folder;
     const std::string file = folder.file("x.csv");
     for (const double level : {0.0, 1e-5, -3.0, 1e15}) {
-        write_csv(file, hostile([&](double) { return level; }));
-        const auto json = features_of(file, kSmall);
+        hostile(file, [&](double) { return level; });
+        const auto json = features_of(file, kSmallStudy);
         INFO(level << json.dump(2));
         CHECK(json["features"]["te_rms"] == 0.0);
         for (const char* name : {"te_kurtosis", "te_fc", "te_fm0"}) {
             CHECK(json["unavailable"][name] == "the transmission error is constant");
         }
-        const Outcome text = program("features " + file + " --study " + kSmall);
+        const Outcome text = program("features " + file + " --study " + kSmallStudy);
         CHECK_FALSE(text.mentions("nan"));
         CHECK_FALSE(text.mentions("inf"));
     }
     for (const double level : {1e19, 1e200, -1e308}) {
-        write_csv(file, hostile([&](double at) { return level * std::sin(at); }));
-        check_refused("features " + file + " --study " + kSmall,
+        hostile(file, [&](double at) { return level * std::sin(at); });
+        check_refused("features " + file + " --study " + kSmallStudy,
                       {"column te: sample", "are not supported"});
     }
     // Two samples per mesh from the encoders resolve none of its harmonics.
-    write_csv(file, hostile([](double at) { return 1e-5 * std::sin(0.1 * at); }));
-    const auto slow = features_of(file, kSmall +
+    hostile(file, [](double at) { return 1e-5 * std::sin(0.1 * at); });
+    const auto slow = features_of(file, kSmallStudy +
                                             " --set sensor.encoder_sampling_Hz=70 --set "
                                             "'features.use=[\"te_rms\"]'");
     INFO(slow.dump(2));
@@ -268,30 +234,22 @@ TEST_CASE("A recording's speed is accepted only where it is plausible") {
     const Folder folder;
     const std::string file = folder.file("x.csv");
     const auto recorded = [&](const std::function<double(int)>& rpm) {
-        Columns columns{{"time", {}}, {"te", {}}, {"speed_rpm", {}}};
+        CsvColumns columns(3);
         for (int i = 0; i < 3000; ++i) {
-            columns[0].second.push_back(i / 1000.0);
-            columns[1].second.push_back(1e-5 * std::sin(0.3 * i));
-            columns[2].second.push_back(rpm(i));
+            columns[0].push_back(i / 1000.0);
+            columns[1].push_back(1e-5 * std::sin(0.3 * i));
+            columns[2].push_back(rpm(i));
         }
-        write_csv(file, columns);
+        write_csv(file, "time,te,speed_rpm", columns);
         return shell(within_memory(1000000) + std::string(GEARPOD_PROGRAM) + " features " + file +
-                     " --study " + kSmall);
+                     " --study " + kSmallStudy);
     };
-    const Outcome forwards = recorded([](int) { return 20.0; });
-    INFO(forwards.output);
-    CHECK(forwards.code == 0);
-    const Outcome backwards = recorded([](int) { return -20.0; });
-    CHECK(backwards.code == 0);
-    CHECK(backwards.mentions("backward rotation"));
-    const Outcome flipping = recorded([](int i) { return i < 1000 ? 20.0 : -20.0; });
-    CHECK(flipping.code == 2);
-    CHECK(flipping.mentions("column speed_rpm: changes its sign at sample 1001"));
+    require_success(recorded([](int) { return 20.0; }));
+    check_mentions(require_success(recorded([](int) { return -20.0; })), {"backward rotation"});
+    check_refused(recorded([](int i) { return i < 1000 ? 20.0 : -20.0; }),
+                  {"column speed_rpm: changes its sign at sample 1001"});
     for (const double rpm : {1e6, 1e12, 1e18}) {
-        const Outcome raced = recorded([&](int) { return rpm; });
-        INFO(raced.output);
-        CHECK(raced.code == 2);
-        CHECK(raced.mentions("do not resolve the mesh frequency"));
+        check_refused(recorded([&](int) { return rpm; }), {"do not resolve the mesh frequency"});
     }
 }
 
@@ -300,13 +258,13 @@ TEST_CASE("Recordings of a few samples are too short, whatever their format") {
     const std::string file = folder.file("x.csv");
     for (const char* column : {"sensor", "te"}) {
         for (const int samples : {2, 3, 10, 20}) {
-            Columns columns{{"mesh_phase", {}}, {column, {}}};
+            CsvColumns columns(2);
             for (int i = 0; i < samples; ++i) {
-                columns[0].second.push_back(i / 8.0);
-                columns[1].second.push_back(0.5 + i % 2);
+                columns[0].push_back(i / 8.0);
+                columns[1].push_back(0.5 + i % 2);
             }
-            write_csv(file, columns);
-            check_refused("features " + file + " --study " + kSmall,
+            write_csv(file, std::string("mesh_phase,") + column, columns);
+            check_refused("features " + file + " --study " + kSmallStudy,
                           {"too short for every feature: "});
         }
     }
@@ -320,7 +278,7 @@ TEST_CASE("A MAT file that declares gigabytes is reported as damaged, without al
     const double before = mc::peak_memory_bytes();
     CHECK_THROWS_AS(mc::open_signal_file(file)->names(), mc::SignalError);
     CHECK(mc::peak_memory_bytes() - before < 500e6);
-    check_refused("features " + file + " --study " + kSmall, {"x.mat: "});
+    check_refused("features " + file + " --study " + kSmallStudy, {"x.mat: "});
 }
 
 TEST_CASE("A table of two hundred thousand columns is refused immediately with a short message") {
@@ -338,7 +296,7 @@ TEST_CASE("A table of two hundred thousand columns is refused immediately with a
         stream << "\n";
     }
     const Outcome outcome = check_refused(shell("timeout 10 " + std::string(GEARPOD_PROGRAM) +
-                                                " features " + file + " --study " + kSmall),
+                                                " features " + file + " --study " + kSmallStudy),
                                           {"200000 columns; at most 10000 are supported"});
     CHECK(outcome.output.size() < 1000);
 }
@@ -347,15 +305,15 @@ TEST_CASE("Control characters in file names and titles do not reach the terminal
     const Folder folder;
     const std::string file = folder.file("x.csv"), study = folder.file("s.toml");
     write_bytes(file, "mesh_phase,\x1b[31mred\n0,1\n0.1,2\n");
-    const Outcome column = check_refused("features " + file + " --study " + kSmall);
+    const Outcome column = check_refused("features " + file + " --study " + kSmallStudy);
     CHECK_FALSE(column.mentions("\x1b"));
     const Outcome option =
-        check_refused("features " + file + " --sensor '\x1b[31mred' --study " + kSmall,
+        check_refused("features " + file + " --sensor '\x1b[31mred' --study " + kSmallStudy,
                       {"argument 4 (?[31mred) has control characters"});
     CHECK_FALSE(option.mentions("\x1b"));
     for (const char* line : {"title = \"\\u001b[31mred\"\n", "title = \"\\u009b31mred\"\n",
                              "title = \"two\\nlines\"\n", "\"\\u001b[31mred\" = 1\n"}) {
-        write_bytes(study, std::string(line) + bytes_of(kSmall));
+        write_bytes(study, std::string(line) + bytes_of(kSmallStudy));
         const Outcome outcome = check_refused("describe " + study);
         CHECK_FALSE(outcome.mentions("\x1b"));
         CHECK_FALSE(outcome.mentions("\xc2\x9b"));

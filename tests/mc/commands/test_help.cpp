@@ -35,8 +35,7 @@ std::string replaced(std::string text) {
 
 TEST_CASE("The man page and the completion hold every option of the help, of 80 columns") {
     options("");
-    const auto man = program("--man"), completion = program("--completion");
-    REQUIRE(man.code == 0);
+    const auto man = require_success("--man"), completion = program("--completion");
     REQUIRE(completion.code == 0);
     const std::string page = replaced(man.output);
     for (const char* command : kCommands) {
@@ -52,8 +51,8 @@ TEST_CASE("The man page and the completion hold every option of the help, of 80 
             completion.output.substr(line, completion.output.find('\n', line) - line);
         for (const std::string& name : names) {
             INFO(name);
-            CHECK(section.find(name) != std::string::npos);
-            CHECK(words.find(name) != std::string::npos);
+            CHECK(contains(section, name));
+            CHECK(contains(words, name));
         }
     }
 }

@@ -11,8 +11,7 @@ using namespace test;
 const std::string kStudy = std::string(GEARPOD_SOURCE_DIR) + "/tests/bench/rare_teeth.toml";
 
 std::string output_of(const std::string& arguments) {
-    const Outcome outcome = require_success(compared_program(arguments));
-    return outcome.output;
+    return require_success(compared_program(arguments)).output;
 }
 
 // Outputs of `misses` and `rare`, and bits of the points of a sweep, computed with so many lanes.

@@ -43,7 +43,7 @@ TEST_CASE("Machines share the detection statistics, and the report is that of on
     const Folder folder;
     const std::string command =
         std::string(GEARPOD_PROGRAM) + " run " + study("planet-crack-ideal.toml") +
-        " --instances 300 --set ensemble.threshold_instances=200 --set numerics.threads=1 --out ";
+        " --instances 140 --set ensemble.threshold_instances=100 --set numerics.threads=1 --out ";
     const Outcome one = shell(command + folder.file("one.h5"));
     const Outcome two = shell(on_two_machines(folder) + command + folder.file("two.h5"));
     INFO(two.output);

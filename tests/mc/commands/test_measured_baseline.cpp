@@ -1,8 +1,5 @@
 // Checks features --baseline: a recording compared with an earlier one of the same gearbox.
-#include <nlohmann/json.hpp>
-
-#include "mc/files/hdf5_data.hpp"
-#include "tests/mc/program.hpp"
+#include "tests/mc/recording_files.hpp"
 
 namespace gearpod::test_measured_baseline {
 
@@ -10,8 +7,8 @@ using namespace test;
 
 // Planets and ring have tooth errors: the signal repeats after 385 mesh periods of eight samples.
 const std::string kStudy =
-    std::string(GEARPOD_SOURCE_DIR) +
-    "/tests/features/reference/small.toml --set gearbox.planet.quality=7 --set "
+    kSmallStudy +
+    " --set gearbox.planet.quality=7 --set "
     "gearbox.ring.quality=7 --set sensor.noise_levels=[0] --set features.baseline_torque_scatter=0 "
     "--set 'features.use=[\"window_ratio\",\"window_z\",\"own_window_ratio\",\"own_sensor_rms\","
     "\"change_window_ratio\",\"change_window_z\",\"change_sensor_rms\"]' ";
@@ -21,50 +18,37 @@ const std::string kFaulty = "--set fault.reduction=0.3 ";
 // Recording without noise over one span.
 std::vector<double> recorded(const Folder& folder, const std::string& options) {
     const std::string path = folder.file("s.h5");
-    REQUIRE(
-        program("simulate " + kStudy + options + "--instance 2 --meshes 385 --out " + path).code ==
-        0);
-    const mc::Hdf5Handle file(H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), H5Fclose, path);
-    const mc::Hdf5Handle group = mc::open_group(file.get(), "signals");
-    auto values = mc::read_numbers(group.get(), "sensor", 1000000).values;
+    require_success("simulate " + kStudy + options + "--instance 2 --meshes 385 --out " + path);
+    auto values = read_columns(path, "signals", {"sensor"})[0];
     values.resize(kSpan);
     return values;
 }
 
 std::string written(const Folder& folder, const std::string& name,
                     const std::vector<double>& sensor) {
-    std::ofstream stream(folder.file(name));
-    stream.precision(17);
-    stream << "sensor\n";
-    for (const double value : sensor) {
-        stream << value << "\n";
-    }
-    return folder.file(name);
+    return write_csv(folder.file(name), "sensor", {sensor});
 }
 
 Outcome features(const std::string& path, const std::string& options) {
     return program("features " + path + " --samples-per-mesh 8 --study " + kStudy + options);
 }
 
-nlohmann::json json_of(const std::string& path, const std::string& options) {
-    const Outcome outcome = features(path, options + " --json -");
-    INFO(outcome.output);
-    REQUIRE(outcome.code == 0);
-    return nlohmann::json::parse(outcome.output);
+nlohmann::json features_json(const std::string& path, const std::string& options) {
+    return json_of(features(path, options + " --json -"));
 }
 
 TEST_CASE("A measured baseline gives the result of the simulated one, for any start") {
     const Folder folder;
     const std::string healthy = written(folder, "healthy.csv", recorded(folder, ""));
     const std::string faulty = written(folder, "faulty.csv", recorded(folder, kFaulty));
-    REQUIRE(program("run " + kStudy + kFaulty + "--quiet --out " + folder.file("r.h5")).code == 0);
+    require_success("run " + kStudy + kFaulty + "--quiet --out " + folder.file("r.h5"));
     const mc::Results run = mc::read_results(folder.file("r.h5"));
     const auto of_run = [&](const std::string& name) {
         const auto found = std::find_if(run.features.begin(), run.features.end(),
                                         [&](const auto& one) { return one.name == name; });
         return found->values[2];
     };
-    const auto json = json_of(faulty, "--baseline " + healthy);
+    const auto json = features_json(faulty, "--baseline " + healthy);
     CHECK(json["baseline"]["correlation"].get<double>() > 0.5);
     for (const char* name : {"window_ratio", "own_window_ratio", "own_sensor_rms"}) {
         INFO(name);
@@ -77,24 +61,19 @@ TEST_CASE("A measured baseline gives the result of the simulated one, for any st
 
     auto turned = recorded(folder, "");
     std::rotate(turned.begin(), turned.begin() + 123, turned.end());
-    const auto again = json_of(faulty, "--baseline " + written(folder, "turned.csv", turned));
+    const auto again = features_json(faulty, "--baseline " + written(folder, "turned.csv", turned));
     CHECK(again["baseline"]["turned_on_meshes"].get<double>() ==
           Approx((static_cast<double>(kSpan) - 123.0) / 8).margin(1e-3));
-    for (const char* name : {"change_window_ratio", "change_sensor_rms", "own_window_ratio"}) {
-        CHECK(again["features"][name].get<double>() ==
-              Approx(json["features"][name].get<double>()).epsilon(1e-4));
-    }
+    check_alike(again["features"], json["features"], 1e-4,
+                {"change_window_ratio", "change_sensor_rms", "own_window_ratio"});
 }
 
 // Definitions in numpy on stored signals: tests/features/reference/README.md.
 TEST_CASE("Features of the change equal the numpy result for the same signals") {
-    const std::string reference = std::string(GEARPOD_SOURCE_DIR) + "/tests/features/reference/";
-    const Outcome outcome =
-        require_success("features " + reference + "faulty.h5 --study " + reference +
-                        "small.toml --baseline " + reference + "healthy-1.h5 --json -");
-    const auto result = nlohmann::json::parse(outcome.output)["features"];
-    std::ifstream stream(reference + "expected-change.json");
-    const auto expected = nlohmann::json::parse(stream);
+    const auto result =
+        json_of("features " + kReferenceFolder + "faulty.h5 --study " + kSmallStudy +
+                " --baseline " + kReferenceFolder + "healthy-1.h5 --json -")["features"];
+    const auto expected = json_of_file(kReferenceFolder + "expected-change.json");
     CHECK(expected.size() == 8);
     for (const auto& [name, numpy] : expected.items()) {
         INFO(name);
@@ -111,20 +90,18 @@ TEST_CASE("A file that is no baseline of a recording is reported") {
     for (std::size_t i = 0; i < other.size(); ++i) {
         other[i] = 1e-3 * std::sin(1.3 * static_cast<double>(i) * static_cast<double>(i));
     }
-    const auto json = json_of(path, "--baseline " + written(folder, "other.csv", other));
+    const auto json = features_json(path, "--baseline " + written(folder, "other.csv", other));
     CHECK_FALSE(json["features"].contains("change_window_ratio"));
     CHECK_THAT(json["unavailable"]["change_window_ratio"].get<std::string>(),
                Catch::Contains("other.csv") && Catch::Contains("does not resemble this baseline"));
     CHECK(json["features"].contains("window_ratio"));
 
-    const Outcome none = features(path, "--baseline " + folder.file("none.csv"));
-    CHECK(none.code == 2);
-    CHECK(none.mentions("none.csv"));
+    check_refused(features(path, "--baseline " + folder.file("none.csv")), {"none.csv"});
     CHECK(features(path, "--baseline " + path + " --json " + path).code == 2);
 
     // A part of the span has no circular shift: it must begin where the baseline does.
     const std::vector<double> part(healthy.begin() + 88, healthy.begin() + 88 + 33 * 8);
-    const auto elsewhere = json_of(written(folder, "part.csv", part), "--baseline " + path);
+    const auto elsewhere = features_json(written(folder, "part.csv", part), "--baseline " + path);
     CHECK(elsewhere["unavailable"]["change_sensor_rms"].get<std::string>().find("start position") !=
           std::string::npos);
 }
@@ -133,11 +110,9 @@ TEST_CASE("Many recordings are compared with one baseline") {
     const Folder folder;
     const std::string healthy = written(folder, "a.csv", recorded(folder, ""));
     const std::string faulty = written(folder, "b.csv", recorded(folder, kFaulty));
-    const Outcome outcome =
-        features(healthy + " " + faulty, "--quiet --csv - --baseline " + healthy);
-    INFO(outcome.output);
-    REQUIRE(outcome.code == 0);
-    check_mentions(outcome, {"own_window_ratio", "change_window_z"});
+    check_mentions(
+        require_success(features(healthy + " " + faulty, "--quiet --csv - --baseline " + healthy)),
+        {"own_window_ratio", "change_window_z"});
     CHECK(features(healthy + " " + faulty, "--quiet --csv -").mentions("window_ratio"));
     CHECK_FALSE(features(healthy + " " + faulty, "--quiet --csv -").mentions("change_"));
 }

@@ -1,8 +1,6 @@
 // Checks misses: rates of misses against counted ones, and the same bits for any threads and ranks.
-#include <nlohmann/json.hpp>
-
 #include "mc/results/results_file.hpp"
-#include "tests/mc/program.hpp"
+#include "tests/mc/program_json.hpp"
 
 namespace gearpod::test_misses {
 
@@ -27,19 +25,16 @@ const std::string kRequest = " --feature window_ratio --size 1 --quiet --json -"
 TEST_CASE("Rates of misses agree with counted ones") {
     const Folder folder;
     const std::string& results = small_results();
-    const Outcome importance_sampled =
-        require_success("misses " + results + " --gearboxes 60 --records 32" + kRequest);
-    const auto result = nlohmann::json::parse(importance_sampled.output);
+    const auto result = json_of("misses " + results + " --gearboxes 60 --records 32" + kRequest);
     CHECK(result["noise_level"] == 2.0);
     REQUIRE(result["miss_rate"].is_number());
     // Other gearboxes of the same study, with one plain record each, against the same threshold.
     const double threshold = result["threshold"];
     const std::string counted = folder.file("counted.h5");
-    REQUIRE(program("run " + study("planet-crack-ideal.toml") + " --quiet --out " + counted +
+    require_success("run " + study("planet-crack-ideal.toml") + " --quiet --out " + counted +
                     " --instances 500 --seed 77 --set ensemble.threshold_instances=8 --set "
                     "'sensor.noise_levels=[0,2]' --set 'features.use=[\"window_ratio\"]' --set "
-                    "'random.fault.depth_mm={distribution=\"levels\",values=[1]}'")
-                .code == 0);
+                    "'random.fault.depth_mm={distribution=\"levels\",values=[1]}'");
     const mc::Results rows = mc::read_results(counted);
     double misses = 0.0, all = 0.0;
     for (std::size_t row = 0; row < rows.status.size(); ++row) {
@@ -58,9 +53,8 @@ TEST_CASE("The miss rate of faults that are nearly always missed is at most 1") 
     const std::string request = "misses " + small_results() +
                                 " --feature window_ratio --size 0.01 --gearboxes 60 --records 16 "
                                 "--quiet";
-    const Outcome text = require_success(request);
-    CHECK(text.mentions("misses are not rare enough for this method"));
-    const auto result = nlohmann::json::parse(program(request + " --json -").output);
+    check_mentions(require_success(request), {"misses are not rare enough for this method"});
+    const auto result = json_of(request + " --json -");
     CHECK(result["miss_rate"] <= 1.0);
     CHECK(result["miss_rate"] > 0.9);
     CHECK(result["upper"] <= 1.0);
@@ -93,7 +87,7 @@ TEST_CASE("Invalid requests to misses are refused, every problem at once") {
     const Outcome deep = check_refused("misses " + results + " --feature window_ratio --size 900");
     CHECK(deep.output.starts_with("--size: "));
     CHECK(std::count(deep.output.begin(), deep.output.end(), '\n') == 1);
-    CHECK(program("misses /none/none.h5 --feature fm4 --size 1").code == 2);
+    check_refused("misses /none/none.h5 --feature fm4 --size 1");
 }
 
 }  // namespace gearpod::test_misses

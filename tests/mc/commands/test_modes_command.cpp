@@ -1,8 +1,6 @@
 // Checks the critical speeds and the page of gearpod modes.
-#include <nlohmann/json.hpp>
-
 #include "mc/library/stiffness_modes.hpp"
-#include "tests/mc/program.hpp"
+#include "tests/mc/program_json.hpp"
 
 namespace gearpod::test_modes_command {
 
@@ -32,10 +30,10 @@ TEST_CASE("Critical speeds lie where a mesh harmonic crosses a natural frequency
 TEST_CASE("modes writes a Campbell diagram, and prints the critical speeds") {
     const Folder folder;
     const std::string html = folder.file("m.html");
-    const Outcome outcome = require_success("modes " + study("bell-206b.toml") + " --html " + html +
-                                            " --json " + folder.file("m.json"));
-    CHECK(outcome.mentions("speeds of the carrier at which mesh harmonics 1 to 5"));
-    const auto json = nlohmann::json::parse(bytes_of(folder.file("m.json")));
+    check_mentions(require_success("modes " + study("bell-206b.toml") + " --html " + html +
+                                   " --json " + folder.file("m.json")),
+                   {"speeds of the carrier at which mesh harmonics 1 to 5"});
+    const auto json = json_of_file(folder.file("m.json"));
     const auto& campbell = json["campbell"];
     CHECK(campbell["nominal_rpm"].get<double>() == Approx(343.8));
     const auto at_rest = campbell["speeds"][0]["frequencies_Hz"];
@@ -51,10 +49,9 @@ TEST_CASE("modes writes a Campbell diagram, and prints the critical speeds") {
         CHECK(one["harmonic"].get<int>() * mesh_Hz ==
               Approx(one["frequency_Hz"].get<double>()).epsilon(1e-9));
     }
-    CHECK(bytes_of(html).find("Campbell diagram") != std::string::npos);
+    CHECK(contains(bytes_of(html), "Campbell diagram"));
     // A study without tooth numbers has no mesh frequency, and an existing file is kept.
-    CHECK(program("modes " + study("bell-206b.toml") + " --html " + folder.file("m.json")).code ==
-          2);
+    check_refused("modes " + study("bell-206b.toml") + " --html " + folder.file("m.json"));
 }
 
 }  // namespace gearpod::test_modes_command

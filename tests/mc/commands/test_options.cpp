@@ -1,9 +1,7 @@
 // Checks options with numbers, which have one reader for all commands, and options with several
 // values after one name.
-#include <nlohmann/json.hpp>
-
 #include "mc/files/input/number_text.hpp"
-#include "tests/mc/program.hpp"
+#include "tests/mc/program_json.hpp"
 
 namespace gearpod::test_options {
 
@@ -61,7 +59,7 @@ TEST_CASE("A whole number has no fraction and fits into its type") {
 }
 
 TEST_CASE("Every numeric option of every command refuses what is no number, by its name") {
-    const auto reference = nlohmann::json::parse(program("--reference").output);
+    const auto reference = json_of("--reference");
     int options = 0;
     for (const auto& command : reference["commands"]) {
         for (const auto& option : command["options"]) {
@@ -87,13 +85,13 @@ TEST_CASE("All refused values of a command line are printed together") {
          "--target: must be above 0, but is 0", "--bounds: exact not in {likelihood-ratio,wald}"});
     CHECK(program("features x.csv --study s.toml --sampling-Hz 0")
               .mentions("--sampling-Hz: must be above 0 Hz, but is 0"));
-    const Outcome teeth = program("new planetary --sun 1e1 --planet 3000000000 --module 2");
-    check_mentions(teeth, {"--sun: 1e1 is not written as a whole number; write 10",
-                           "--planet: 3000000000 is beyond the range of whole numbers"});
+    check_mentions(program("new planetary --sun 1e1 --planet 3000000000 --module 2"),
+                   {"--sun: 1e1 is not written as a whole number; write 10",
+                    "--planet: 3000000000 is beyond the range of whole numbers"});
 }
 
 TEST_CASE("Every key of a study refuses numbers that are not finite") {
-    const auto reference = nlohmann::json::parse(program("--reference").output);
+    const auto reference = json_of("--reference");
     for (const std::string value : {"nan", "inf"}) {
         std::vector<std::string> names;
         std::string settings;
@@ -140,9 +138,9 @@ TEST_CASE("`pod` takes several inspectors after one --hit, before or after the t
     // Responses likewise, and settings of a study.
     const Outcome responses = program("pod " + table + " --size x --response A B --threshold 1");
     CHECK_FALSE(responses.mentions("unexpected argument"));
-    const Outcome study = program("describe " + test::study("planet-crack-ideal.toml") +
-                                  " --set ensemble.seed=nan ensemble.instances=nan");
-    check_mentions(study, {"ensemble.seed: must be", "ensemble.instances: must be"});
+    check_mentions(program("describe " + test::study("planet-crack-ideal.toml") +
+                           " --set ensemble.seed=nan ensemble.instances=nan"),
+                   {"ensemble.seed: must be", "ensemble.instances: must be"});
 }
 
 TEST_CASE("A word that an option cannot take is not its value") {
@@ -168,7 +166,7 @@ TEST_CASE("A word that an option cannot take is not its value") {
     INFO(before.output);
     CHECK(after.code == 0);
     CHECK(before.output == after.output);
-    CHECK(program("run --signals 0 x " + study + " --out " + folder.file("r.h5")).code == 2);
+    check_refused("run --signals 0 x " + study + " --out " + folder.file("r.h5"));
     CHECK(program("run " + study + settings + "--signals 0 99999999 --out " + folder.file("r.h5"))
               .mentions("--signals 99999999: is not a row"));
     // One option of several files keeps one value for each name, because signals are files, too.

@@ -20,7 +20,7 @@ struct Workplace {
     Workplace() {
         fs::copy_file(test::study("planet-crack-ideal.toml"), study);
         require_success("run " + study + kSmall + " --quiet --out " + results);
-        REQUIRE(program("simulate " + study + " --instance 0 --out " + signal).code == 0);
+        require_success("simulate " + study + " --instance 0 --out " + signal);
         fs::create_symlink("s.toml", folder.file("link.toml"));
         fs::create_hard_link(study, folder.file("hard.toml"));
         fs::create_symlink(results, folder.file("link.h5"));
@@ -90,19 +90,19 @@ TEST_CASE("Results of another study and other files are overwritten with --force
     const Workplace place;
     const std::string run = "run " + place.study + kSmall + " --quiet --out " + place.results;
     const std::string before = bytes_of(place.results);
-    CHECK(program(run).code == 0);  // the same study again
+    require_success(run);  // the same study again
     for (const std::string& other : {run + " --set operation.torque_N_m=400", run + " --seed 99"}) {
         check_refused(other, {"--force"});
         CHECK(mc::read_results(place.results).status.size() == 3);
     }
-    CHECK(program(run + " --seed 99 --force").code == 0);
+    require_success(run + " --seed 99 --force");
     CHECK(mc::read_frame(place.results).provenance_value("seed") == "99");
     const std::string notes = place.folder.file("notes.dat");
     write_bytes(notes, "years of work\n");
     const std::string over = "run " + place.study + kSmall + " --quiet --out " + notes;
-    CHECK(program(over).code == 2);
+    check_refused(over);
     CHECK(bytes_of(notes) == "years of work\n");
-    CHECK(program(over + " --force").code == 0);
+    require_success(over + " --force");
 }
 
 TEST_CASE("An existing file under the temporary output name is refused and not opened") {
@@ -124,7 +124,7 @@ TEST_CASE("An existing file under the temporary output name is refused and not o
     in_the_way([&] { REQUIRE(::mkfifo(pending.c_str(), 0600) == 0); });
     in_the_way([&] { fs::create_directory(pending); });
     write_bytes(pending, "what a killed writer left");
-    CHECK(program("run " + place.study + kSmall + " --quiet --out " + out).code == 0);
+    require_success("run " + place.study + kSmall + " --quiet --out " + out);
     CHECK_FALSE(fs::exists(pending));
 }
 
@@ -160,7 +160,7 @@ TEST_CASE("A file of another kind than the output is replaced with --force only"
         require_success(output.command + output.file + " --force");
         CHECK(bytes_of(output.file) != before);
         // The next output of the same kind replaces the first one.
-        CHECK(program(output.command + output.file).code == 0);
+        require_success(output.command + output.file);
         write_bytes(output.file, before);
     }
     for (const char* option : {"--html", "--pdf"}) {
@@ -168,13 +168,13 @@ TEST_CASE("A file of another kind than the output is replaced with --force only"
     }
     // Tables of a folder.
     const std::string folder = at("tables");
-    REQUIRE(program("report " + place.results + " --csv " + folder).code == 0);
-    REQUIRE(program("report " + place.results + " --csv " + folder).code == 0);
+    require_success("report " + place.results + " --csv " + folder);
+    require_success("report " + place.results + " --csv " + folder);
     const std::string first = fs::directory_iterator(folder)->path().string();
     fs::copy_file(other, first, fs::copy_options::overwrite_existing);
     check_refused("report " + place.results + " --csv " + folder, {"another kind"});
     CHECK(bytes_of(first) == bytes_of(other));
-    CHECK(program("report " + place.results + " --force --csv " + folder).code == 0);
+    require_success("report " + place.results + " --force --csv " + folder);
     CHECK(bytes_of(first) != bytes_of(other));
 }
 
@@ -251,7 +251,7 @@ TEST_CASE("Names of conditions that a results file cannot hold are refused befor
     CHECK_FALSE(outcome.mentions("load: the name"));
     CHECK_FALSE(fs::exists(out));
     // A table holds any name.
-    CHECK(program(command + "--csv -").code == 0);
+    require_success(command + "--csv -");
 }
 
 }  // namespace gearpod::test_outputs

@@ -2,9 +2,7 @@
 // tests/analysis/pod/test_inspection.cpp.
 #include <fmt/format.h>
 
-#include <nlohmann/json.hpp>
-
-#include "tests/mc/program.hpp"
+#include "tests/mc/program_json.hpp"
 
 namespace gearpod::test_pod_command {
 
@@ -19,8 +17,7 @@ std::string written(const Folder& folder, const std::string& name, const std::st
 }
 
 nlohmann::json pod_of(const std::string& arguments) {
-    const Outcome outcome = require_success("pod " + arguments + " --json -");
-    return nlohmann::json::parse(outcome.output);
+    return json_of("pod " + arguments + " --json -");
 }
 
 TEST_CASE("pod reads hits and misses with units, and states the kind of bound") {
@@ -36,19 +33,17 @@ TEST_CASE("pod reads hits and misses with units, and states the kind of bound") 
     // A method of asymptotic bounds alone is that of the handbook.
     CHECK(pod_of(table + " --bounds likelihood-ratio")["hit_miss"]["a90"] ==
           handbook["hit_miss"]["a90"]);
-    const Outcome text = program("pod " + table + " --specimen specimen");
-    check_mentions(text, {"120 specimens and 120 repeated measurements", "robust covariance"});
-    CHECK_THAT(text.output, Catch::Contains("(mm)"));
+    check_mentions(program("pod " + table + " --specimen specimen"),
+                   {"120 specimens and 120 repeated measurements", "robust covariance", "(mm)"});
 }
 
 TEST_CASE("pod ends at a confidence of one half, where bounds are the estimates") {
     const std::string table = kTables + "inspections_hits.csv";
     for (const std::string scale : {"", " --size-scale linear", " --specimen specimen"}) {
         INFO(scale);
-        const Outcome outcome =
-            require_success(shell("ulimit -t 60; " + std::string(GEARPOD_PROGRAM) + " pod " +
-                                  table + scale + " --confidence 0.5 --json -"));
-        const auto a90 = nlohmann::json::parse(outcome.output)["hit_miss"]["a90"];
+        const auto a90 =
+            json_of(shell("ulimit -t 60; " + std::string(GEARPOD_PROGRAM) + " pod " + table +
+                          scale + " --confidence 0.5 --json -"))["hit_miss"]["a90"];
         const double size = a90["estimate"]["size"].get<double>();
         CHECK(a90["upper"]["size"].get<double>() >= size * (1.0 - 1e-6));
         CHECK(a90["lower"]["size"].get<double>() <= size * (1.0 + 1e-6));
@@ -114,8 +109,7 @@ TEST_CASE("pod reads tables as pandas, R and spreadsheets write them") {
 TEST_CASE("pod refuses unusable input by name, all at once") {
     const Folder folder;
     const auto refused = [](const std::string& arguments) {
-        const Outcome outcome = check_refused("pod " + arguments);
-        return outcome.output;
+        return check_refused("pod " + arguments).output;
     };
     const std::string bad =
         refused(written(folder, "bad.csv", "size,hit\n1,2\n-3,1\nx,0\n4,inf\n"));
@@ -147,9 +141,7 @@ TEST_CASE("pod reports data that determine no curve") {
         text += std::to_string(i) + (i > 6 ? ",1\n" : ",0\n");
     }
     const std::string table = written(folder, "separated.csv", text);
-    const Outcome without = require_success("pod " + table);
-    CHECK_THAT(without.output, Catch::Contains("do not overlap"));
-    CHECK_THAT(without.output, Catch::Contains("--firth"));
+    check_mentions(require_success("pod " + table), {"do not overlap", "--firth"});
     CHECK_THAT(program("pod " + table + " --firth").output, Catch::Contains("a90"));
 }
 
@@ -167,12 +159,11 @@ TEST_CASE("The page of responses that lie on no line shows a curve with its boun
     const auto json = pod_of(written(folder, "curve.csv", text) + " --threshold 15 --html " + page);
     REQUIRE(json["signal_response"]["smooth"].is_object());
     const std::string html = bytes_of(page);
-    CHECK(html.find("Figure 1. Probability of detection") != std::string::npos);
-    CHECK(html.find("The mean (a monotone curve)") != std::string::npos);
+    CHECK(contains(html, "Figure 1. Probability of detection"));
+    CHECK(contains(html, "The mean (a monotone curve)"));
     // More specimens would bring the bound down, but their number is not computed for a curve.
-    const auto text_of =
-        program("pod " + folder.file("curve.csv") + " --threshold 15 --target 1.2");
-    CHECK(text_of.mentions("is computed for lines and hit/miss curves only"));
+    check_mentions(program("pod " + folder.file("curve.csv") + " --threshold 15 --target 1.2"),
+                   {"is computed for lines and hit/miss curves only"});
 }
 
 // Shape of a test with seeded wear: 35 depths on one gear each, 8 records of each, and 250 records

@@ -1,9 +1,7 @@
 // Checks rare: thresholds and misses at rates determined by gearbox-to-gearbox variation, against
 // counted ones, and the same bits for any threads and ranks.
-#include <nlohmann/json.hpp>
-
 #include "mc/results/results_file.hpp"
-#include "tests/mc/program.hpp"
+#include "tests/mc/program_json.hpp"
 
 namespace gearpod::test_rare {
 
@@ -48,10 +46,9 @@ std::pair<double, double> count_above(const std::string& results, int group, dou
 
 TEST_CASE("Thresholds of rare false alarms agree with counted ones") {
     const Folder folder;
-    const Outcome rare_outcome =
-        require_success("rare " + few_results() +
-                        " --feature window_ratio --rate 0.01 --gearboxes 160 --quiet --json -");
-    const auto result = nlohmann::json::parse(rare_outcome.output);
+    const auto result =
+        json_of("rare " + few_results() +
+                " --feature window_ratio --rate 0.01 --gearboxes 160 --quiet --json -");
     CHECK(result["kind"] == "rare-false-alarms");
     CHECK(result["gearboxes"] == 160 * (1 + 2 * 3));
     REQUIRE(result["rate"].is_number());
@@ -75,9 +72,8 @@ TEST_CASE("Misses due to gearbox variation agree with counted ones") {
                  "--instances 600 --set ensemble.threshold_instances=100 --set "
                  "'random.fault.depth_mm={distribution=\"levels\",values=[4]}' --set "
                  "detection.false_alarm_rate=0.3");
-    const Outcome rare_outcome = require_success(
-        "rare " + results + " --feature te_kurtosis --size 4 --gearboxes 100 --quiet --json -");
-    const auto result = nlohmann::json::parse(rare_outcome.output);
+    const auto result = json_of("rare " + results +
+                                " --feature te_kurtosis --size 4 --gearboxes 100 --quiet --json -");
     CHECK(result["kind"] == "rare-misses");
     CHECK(result["size_unit"] == "mm");
     REQUIRE(result["rate"].is_number());
@@ -100,23 +96,22 @@ TEST_CASE("Rare false alarms have the same bits for any number of threads and ra
 
 TEST_CASE("rare reports the number of gearboxes it simulated and what is unknown") {
     const std::string results = few_results();
-    const Outcome known = require_success("rare " + results +
-                                          " --feature window_ratio --rate 0.05 --gearboxes 60 "
-                                          "--quiet");
-    check_mentions(known, {"false-alarm rate 0.05 of window_ratio at noise x 1",
-                           "gearboxes computed, 60 per level"});
-    const Outcome few = require_success("rare " + results +
-                                        " --feature window_ratio --rate 1e-3 --gearboxes 20 "
-                                        "--quiet");
-    CHECK(few.mentions("unknown from 20 gearboxes per level"));
+    check_mentions(
+        require_success("rare " + results +
+                        " --feature window_ratio --rate 0.05 --gearboxes 60 "
+                        "--quiet"),
+        {"false-alarm rate 0.05 of window_ratio at noise x 1", "gearboxes computed, 60 per level"});
+    check_mentions(require_success("rare " + results +
+                                   " --feature window_ratio --rate 1e-3 --gearboxes 20 "
+                                   "--quiet"),
+                   {"unknown from 20 gearboxes per level"});
 }
 
 TEST_CASE("Invalid requests to rare are refused, every problem at once") {
     const Folder folder;
     const std::string results = few_results();
     const auto refused = [&](const std::string& options) {
-        const Outcome outcome = check_refused("rare " + results + " " + options);
-        return outcome.output;
+        return check_refused("rare " + results + " " + options).output;
     };
     CHECK(refused("--feature nothing --rate 0.5 --gearboxes 3") ==
           "--rate: must be between 1e-09 and 0.1, but is 0.5\n"
@@ -131,7 +126,7 @@ TEST_CASE("Invalid requests to rare are refused, every problem at once") {
           "--size: must be > 0 and finite, but is 0\n");
     CHECK(refused("--feature window_ratio --size 900").starts_with("--size: "));
     CHECK(program("rare " + results + " --feature window_ratio --size 1 --rate 0.01").code != 0);
-    CHECK(program("rare " + folder.file("none.h5") + " --feature fm4 --rate 0.01").code == 2);
+    check_refused("rare " + folder.file("none.h5") + " --feature fm4 --rate 0.01");
 }
 
 }  // namespace gearpod::test_rare

@@ -1,26 +1,12 @@
 // Checks gearpod features of many recordings, and the report on them.
-#include <algorithm>
-#include <catch2/catch.hpp>
-#include <fstream>
-#include <nlohmann/json.hpp>
-#include <random>
-#include <set>
-#include <sstream>
-
-#include "mc/files/hdf5_data.hpp"
 #include "mc/results/results_file.hpp"
-#include "tests/mc/program.hpp"
+#include "tests/mc/recording_files.hpp"
 
-namespace test_recordings {
+namespace gearpod::test_recordings {
 
-using namespace gearpod;
-using namespace gearpod::test;
+using namespace test;
 
-namespace {
-
-const std::string kSmall = std::string(GEARPOD_SOURCE_DIR) +
-                           "/tests/features/reference/small.toml --set "
-                           "detection.false_alarm_rate=0.1";
+const std::string kSmall = kSmallStudy + " --set detection.false_alarm_rate=0.1";
 constexpr int kTeeth = 11, kPerMesh = 8;
 
 // One turn of the planet; all teeth are equal except one that is `worse` times as loud.
@@ -36,22 +22,8 @@ std::vector<double> turn(double worse, unsigned seed) {
     return samples;
 }
 
-void write_record(const std::string& path, const std::vector<double>& samples,
-                  const std::string& column = "sensor [m/s^2]") {
-    std::ofstream stream(path);
-    stream.precision(17);
-    stream << column << "\n";
-    for (const double sample : samples) {
-        stream << sample << "\n";
-    }
-}
-
 nlohmann::json single(const std::string& path) {
-    const Outcome outcome =
-        program("features " + path + " --study " + kSmall + " --samples-per-mesh 8 --json -");
-    INFO(outcome.output);
-    REQUIRE(outcome.code == 0);
-    return nlohmann::json::parse(outcome.output);
+    return json_of("features " + path + " --study " + kSmall + " --samples-per-mesh 8 --json -");
 }
 
 TEST_CASE("One turn of the planet gives the features of its teeth, as many turns do") {
@@ -60,43 +32,42 @@ TEST_CASE("One turn of the planet gives the features of its teeth, as many turns
     for (int i = 0; i < 35; ++i) {
         many.insert(many.end(), once.begin(), once.end());
     }
-    write_record(folder.file("once.csv"), once);
-    write_record(folder.file("many.csv"), many);
+    write_csv(folder.file("once.csv"), "sensor [m/s^2]", {once});
+    write_csv(folder.file("many.csv"), "sensor [m/s^2]", {many});
     const auto one = single(folder.file("once.csv")), all = single(folder.file("many.csv"));
     CHECK(one["planet_turns"] == 1);
     CHECK(all["planet_turns"] == 35);
-    for (const char* name : {"sensor_rms", "window_ratio", "window_z", "crest_factor", "fm4", "m6a",
-                             "m8a", "energy_ratio", "sideband_index", "sideband_level",
-                             "window_kurtosis", "window_crest", "window_m8a"}) {
-        INFO(name);
-        REQUIRE(one["features"].contains(name));
-        CHECK(one["features"][name].get<double>() ==
-              Approx(all["features"][name].get<double>()).epsilon(1e-9));
-    }
+    check_alike(one["features"], all["features"], 1e-9,
+                {"sensor_rms", "window_ratio", "window_z", "crest_factor", "fm4", "m6a", "m8a",
+                 "energy_ratio", "sideband_index", "sideband_level", "window_kurtosis",
+                 "window_crest", "window_m8a"});
     CHECK(one["unavailable"].contains("frms"));  // requires carrier turns
     CHECK(one["unavailable"].contains("sun_window_ratio"));
 }
 
 struct Recorded {
     Folder folder;
-    std::string manifest;
+    std::string manifest, results = folder.file("f.h5");
+    Outcome measured;  // outcome of the command that writes the results
 
     Recorded() {
         std::string table = "file,gearbox,time [day],label,size [mm],oil temperature [K]\n";
         for (int i = 0; i < 60; ++i) {
             const double size = i < 30 ? 0.0 : 0.05 * (i - 29);
             const std::string name = "r" + std::to_string(i) + ".csv";
-            write_record(folder.file(name), turn(1.0 + 1.2 * size, 10U + static_cast<unsigned>(i)));
+            write_csv(folder.file(name), "sensor [m/s^2]",
+                      {turn(1.0 + 1.2 * size, 10U + static_cast<unsigned>(i))});
             table += name + ",A," + std::to_string(i / 10) + "," + (i < 30 ? "healthy" : "faulty") +
                      "," + std::to_string(size) + "," + std::to_string(300 + i) + "\n";
         }
-        write_record(folder.file("unknown.csv"), turn(9.0, 99));
+        write_csv(folder.file("unknown.csv"), "sensor [m/s^2]", {turn(9.0, 99)});
         table += "unknown.csv,B,7,,,300\n";
         table += "missing.csv,A,7,,,300\n";
         write_bytes(folder.file("broken.csv"), "sensor\n1\nx\n");
         table += "broken.csv,A,7,,,300\n";
         manifest = folder.file("manifest.csv");
         write_bytes(manifest, table);
+        measured = features("--out " + results + " --csv " + folder.file("f.csv"));
     }
     Outcome features(const std::string& options, const std::string& before = "") const {
         return shell(before + " " + std::string(GEARPOD_PROGRAM) + " features --manifest " +
@@ -104,16 +75,18 @@ struct Recorded {
     }
 };
 
+const Recorded& recorded_once() {
+    static const Recorded once;
+    return once;
+}
+
 TEST_CASE("A bad recording is reported and does not stop the others; the exit code is 3") {
-    const Recorded recorded;
-    const Outcome outcome = recorded.features("--out " + recorded.folder.file("f.h5") + " --csv " +
-                                              recorded.folder.file("f.csv"));
-    INFO(outcome.output);
-    CHECK(outcome.code == 3);
-    CHECK(outcome.mentions("61 of 63 have features"));
-    CHECK(outcome.mentions("missing.csv: cannot be read (No such file"));
-    CHECK(outcome.mentions("broken.csv:3: column sensor: \"x\" is not a number"));
-    const auto results = mc::read_results(recorded.folder.file("f.h5"));
+    const Recorded& recorded = recorded_once();
+    CHECK(recorded.measured.code == 3);
+    check_mentions(recorded.measured,
+                   {"61 of 63 have features", "missing.csv: cannot be read (No such file",
+                    "broken.csv:3: column sensor: \"x\" is not a number"});
+    const auto results = mc::read_results(recorded.results);
     REQUIRE(results.group.size() == 61);
     CHECK(results.group[0] == 0);
     CHECK(results.group[59] == 1);
@@ -124,31 +97,20 @@ TEST_CASE("A bad recording is reported and does not stop the others; the exit co
     for (const auto& feature : results.features) {
         CHECK(feature.values[50] == alone["features"][feature.name].get<double>());
     }
-    std::ifstream table(recorded.folder.file("f.csv"));
-    std::string line;
-    long lines = 0;
-    while (std::getline(table, line)) {
-        ++lines;
-    }
-    CHECK(lines == 64);
+    CHECK(std::ranges::count(bytes_of(recorded.folder.file("f.csv")), '\n') == 64);
 }
 
 TEST_CASE("Many recordings have the same results for any number of threads") {
-    const Recorded recorded;
+    const Recorded& recorded = recorded_once();
     recorded.features("--out " + recorded.folder.file("1.h5"), "OMP_NUM_THREADS=1");
     recorded.features("--out " + recorded.folder.file("3.h5"), "OMP_NUM_THREADS=3");
-    CHECK(bits(mc::read_results(recorded.folder.file("1.h5"))) ==
-          bits(mc::read_results(recorded.folder.file("3.h5"))));
+    CHECK(bits(recorded.folder.file("1.h5")) == bits(recorded.folder.file("3.h5")));
 }
 
 TEST_CASE("The report on recordings has thresholds, POD where sizes are known, alarms over time") {
-    const Recorded recorded;
-    const std::string results = recorded.folder.file("f.h5");
-    recorded.features("--out " + results);
-    const Outcome outcome = program("report " + results + " --json -");
-    INFO(outcome.output);
-    REQUIRE(outcome.code == 0);
-    const auto json = nlohmann::json::parse(outcome.output);
+    const Recorded& recorded = recorded_once();
+    const std::string& results = recorded.results;
+    const auto json = json_of("report " + results + " --json -");
     const auto& features = json["reliability"]["features"];
     const auto ratio = std::find_if(features.begin(), features.end(), [](const auto& feature) {
         return feature["name"] == "window_ratio";
@@ -167,13 +129,9 @@ TEST_CASE("The report on recordings has thresholds, POD where sizes are known, a
 }
 
 TEST_CASE("The report monitors a gearbox's recordings in sequence") {
-    const Recorded recorded;
-    const std::string results = recorded.folder.file("f.h5");
-    recorded.features("--out " + results);
-    const Outcome outcome = program("report " + results + " --json -");
-    INFO(outcome.output);
-    REQUIRE(outcome.code == 0);
-    const auto monitoring = nlohmann::json::parse(outcome.output)["monitoring"];
+    const Recorded& recorded = recorded_once();
+    const std::string& results = recorded.results;
+    const auto monitoring = json_of("report " + results + " --json -")["monitoring"];
     CHECK(monitoring["baseline_records"] == 20);
     CHECK(monitoring["refusal"] == "");
     std::set<std::string> detectors;
@@ -197,19 +155,16 @@ TEST_CASE("The report monitors a gearbox's recordings in sequence") {
     CHECK(found);
     CHECK(detectors ==
           std::set<std::string>{"single", "2 of 3", "ewma 0.2", "cusum 0.5", "trend 100"});
-    const Outcome text = program("report " + results);
-    CHECK(text.mentions("Monitoring over time"));
-    CHECK(text.mentions("fused"));
+    check_mentions(program("report " + results), {"Monitoring over time", "fused"});
 
-    recorded.features("--set monitoring.baseline_records=25 --out " + results);
-    CHECK(program("report " + results).mentions("5 healthy recordings after the first 25"));
-    recorded.features("--set monitoring.torque_regression=true --out " + results);
-    CHECK(program("report " + results).mentions("no column torque"));
-    const Outcome wrong =
-        recorded.features("--set 'monitoring.detectors=[\"cusum\",\"single\",\"single\"]' --csv -");
-    CHECK(wrong.code == 2);
-    CHECK(wrong.mentions("\"cusum\" is not a detector"));
-    CHECK(wrong.mentions("names \"single\" twice"));
+    const std::string others = recorded.folder.file("others.h5");
+    recorded.features("--set monitoring.baseline_records=25 --out " + others);
+    CHECK(program("report " + others).mentions("5 healthy recordings after the first 25"));
+    recorded.features("--set monitoring.torque_regression=true --force --out " + others);
+    CHECK(program("report " + others).mentions("no column torque"));
+    check_refused(
+        recorded.features("--set 'monitoring.detectors=[\"cusum\",\"single\",\"single\"]' --csv -"),
+        {"\"cusum\" is not a detector", "names \"single\" twice"});
 }
 
 TEST_CASE("Alarms over time count recordings with a value, and none without a threshold") {
@@ -218,15 +173,15 @@ TEST_CASE("Alarms over time count recordings with a value, and none without a th
     for (int i = 0; i < 30; ++i) {
         const bool te_alone = i >= 20 && i % 2 == 1;
         const std::string name = "r" + std::to_string(i) + ".csv";
-        write_record(folder.file(name), turn(i < 20 ? 1.0 : 50.0, static_cast<unsigned>(i)),
-                     te_alone ? "te [rad]" : "sensor [m/s^2]");
+        write_csv(folder.file(name), te_alone ? "te [rad]" : "sensor [m/s^2]",
+                  {turn(i < 20 ? 1.0 : 50.0, static_cast<unsigned>(i))});
         table += name + (i < 20 ? ",,1,healthy\n" : ",,2,faulty\n");
     }
     write_bytes(folder.file("m.csv"), table);
     const std::string results = folder.file("f.h5");
     program("features --manifest " + folder.file("m.csv") + " --study " + kSmall +
             " --samples-per-mesh 8 --set monitoring.baseline_records=5 --out " + results);
-    const auto json = nlohmann::json::parse(program("report " + results + " --json -").output);
+    const auto json = json_of("report " + results + " --json -");
     const auto& last = json["over_time"].back();
     CHECK(last["recordings"] == 10);
     CHECK(last["values"]["sensor_rms"] == 5);
@@ -236,22 +191,15 @@ TEST_CASE("Alarms over time count recordings with a value, and none without a th
     // Recordings without gearbox names are monitored as one machine, and this is reported.
     CHECK(json["monitoring"]["note"].get<std::string>().find("of one machine") !=
           std::string::npos);
-    const Outcome text = program("report " + results);
-    CHECK(text.mentions("are assumed to be of one machine"));
-    CHECK(text.mentions("5 of 5"));
+    check_mentions(program("report " + results), {"are assumed to be of one machine", "5 of 5"});
 }
 
 TEST_CASE(
     "On the terminal, recordings are called recordings and have a size only where it is known") {
-    const Recorded recorded;
-    const std::string results = recorded.folder.file("f.h5");
-    recorded.features("--out " + results);
-    const Outcome sized = program("report " + results);
-    INFO(sized.output);
-    CHECK(sized.code == 0);
-    CHECK(sized.mentions("healthy: alarms/recordings"));
-    CHECK(sized.mentions("size mm"));
-    CHECK(sized.mentions("a90/95"));
+    const Recorded& recorded = recorded_once();
+    const std::string& results = recorded.results;
+    const Outcome sized = require_success("report " + results);
+    check_mentions(sized, {"healthy: alarms/recordings", "size mm", "a90/95"});
     CHECK(!sized.mentions(" boxes"));
     CHECK(!sized.mentions("Noise x"));
     CHECK(sized.mentions("Recordings of too few gearboxes for a false-alarm rate of 0.1"));
@@ -262,14 +210,11 @@ TEST_CASE(
                  (i < 30 ? ",healthy\n" : ",faulty\n");
     }
     write_bytes(recorded.folder.file("labels.csv"), table);
-    REQUIRE(program("features --manifest " + recorded.folder.file("labels.csv") + " --study " +
-                    kSmall + " --samples-per-mesh 8 --quiet --out " + results)
-                .code == 0);
-    const Outcome labelled = program("report " + results);
-    INFO(labelled.output);
-    CHECK(labelled.code == 0);
-    CHECK(labelled.mentions("label"));
-    CHECK(labelled.mentions("Area under the ROC, healthy against faulty"));
+    const std::string by_label = recorded.folder.file("labels.h5");
+    require_success("features --manifest " + recorded.folder.file("labels.csv") + " --study " +
+                    kSmall + " --samples-per-mesh 8 --quiet --out " + by_label);
+    const Outcome labelled = require_success("report " + by_label);
+    check_mentions(labelled, {"label", "Area under the ROC, healthy against faulty"});
     for (const char* word : {"boxes", "size", "a90", "Noise x"}) {
         INFO(word);
         CHECK(!labelled.mentions(word));
@@ -289,7 +234,7 @@ TEST_CASE("A row of an HDF5 file is a record, with the dataset's scale") {
         mc::write_numbers(file.get(), "sensor", {2, first.size()}, both);
         mc::write_number(file.get(), "sensor", "scale", 4.0);
     }
-    write_record(folder.file("second.csv"), second);
+    write_csv(folder.file("second.csv"), "sensor [m/s^2]", {second});
     write_bytes(folder.file("m.csv"), "file,row\nrows.h5,1\nsecond.csv,\nrows.h5,2\n");
     const Outcome outcome = program("features --manifest " + folder.file("m.csv") + " --study " +
                                     kSmall + " --samples-per-mesh 8 --csv -");
@@ -312,20 +257,16 @@ TEST_CASE("Invalid manifest entries are reported with their line, all at once") 
     const std::string manifest = folder.file("m.csv");
     const auto refused = [&](const std::string& text) {
         write_bytes(manifest, text);
-        const Outcome outcome = program("features --manifest " + manifest + " --study " + kSmall +
-                                        " --csv " + folder.file("t.csv"));
-        CHECK(outcome.code == 2);
-        return outcome;
+        return check_refused("features --manifest " + manifest + " --study " + kSmall + " --csv " +
+                             folder.file("t.csv"));
     };
-    const Outcome outcome = refused(
-        "file,row,label,size,torque\na.csv,x,,,1\nb.csv,,broken,,1\nc.csv,,healthy,2,1\n"
-        "d.csv,,,-1,one\n");
-    INFO(outcome.output);
-    CHECK(outcome.mentions("m.csv:2: row: \"x\" is not a row number"));
-    CHECK(outcome.mentions("m.csv:3: label: \"broken\" is neither healthy nor faulty"));
-    CHECK(outcome.mentions("m.csv:4: label: healthy contradicts the size"));
-    CHECK(outcome.mentions("m.csv:5: size: is negative"));
-    CHECK(outcome.mentions("m.csv:5: torque: \"one\" is not a finite number"));
+    check_mentions(
+        refused("file,row,label,size,torque\na.csv,x,,,1\nb.csv,,broken,,1\nc.csv,,healthy,2,1\n"
+                "d.csv,,,-1,one\n"),
+        {"m.csv:2: row: \"x\" is not a row number",
+         "m.csv:3: label: \"broken\" is neither healthy nor faulty",
+         "m.csv:4: label: healthy contradicts the size", "m.csv:5: size: is negative",
+         "m.csv:5: torque: \"one\" is not a finite number"});
     CHECK(refused("name\na\n").mentions("has no column file"));
     CHECK(refused("file,load,load\na.csv,1,2\n").mentions("is the name of two columns"));
     write_bytes(manifest, ",file,label,load [N]\n0,a.csv,healthy,\"1,5\"\n1,=b.csv,NA,2\n");
@@ -337,6 +278,4 @@ TEST_CASE("Invalid manifest entries are reported with their line, all at once") 
     CHECK(refused("file\n").mentions("lists no recording"));
 }
 
-}  // namespace
-
-}  // namespace test_recordings
+}  // namespace gearpod::test_recordings

@@ -1,9 +1,9 @@
 // Checks ensembles: the same bits for any way of computation, reuse against full integration, and
 // plausible detection rates.
-#include "machine/instruction_sets.hpp"
 #include "mc/study/schema/sizes.hpp"
 #include "tests/mc/program.hpp"
 #include "tests/mc/study_file.hpp"
+#include "tests/numbers.hpp"
 
 namespace gearpod::test_ensemble {
 
@@ -16,21 +16,22 @@ std::vector<std::string> with(std::vector<std::string> overrides, const std::str
     return overrides;
 }
 
+// Results of the small ensemble, computed once.
+const mc::Results& small_results() {
+    static const mc::Results results = run(shipped_study("planet-crack-ideal.toml", kSmall));
+    return results;
+}
+
 TEST_CASE("One lane, four or eight, one thread or two, any instruction set: the same bits") {
-    const auto reference = bits(run(shipped_study("planet-crack-ideal.toml", kSmall)));
+    const auto reference = bits(small_results());
     for (const char* change :
          {"numerics.lanes=1", "numerics.lanes=4", "numerics.threads=1", "numerics.threads=2"}) {
         INFO(change);
         CHECK(bits(run(shipped_study("planet-crack-ideal.toml", with(kSmall, change)))) ==
               reference);
     }
-    using machine::InstructionSet;
-    const InstructionSet best = machine::best_instruction_set();
-    if (best > InstructionSet::x86_64_v3) {
-        machine::use_instruction_set(InstructionSet::x86_64_v3);
-        CHECK(bits(run(shipped_study("planet-crack-ideal.toml", kSmall))) == reference);
-        machine::use_instruction_set(best);
-    }
+    for_each_instruction_set(
+        [&] { CHECK(bits(run(shipped_study("planet-crack-ideal.toml", kSmall))) == reference); });
 }
 
 TEST_CASE("Single precision: the same bits for any lanes and threads, features as in double") {
@@ -63,7 +64,7 @@ TEST_CASE("Single precision: the same bits for any lanes and threads, features a
 }
 
 TEST_CASE("Features by central differences and Runge-Kutta agree within the error of the steps") {
-    const auto exact = run(shipped_study("planet-crack-ideal.toml", kSmall));
+    const auto& exact = small_results();
     const auto central = run(shipped_study("planet-crack-ideal.toml",
                                            with(kSmall, "numerics.integrator=central-difference")));
     const std::size_t levels = exact.noise_levels.size();
@@ -84,7 +85,7 @@ TEST_CASE("Features by central differences and Runge-Kutta agree within the erro
 }
 
 TEST_CASE("A larger ensemble begins with the gearboxes of the smaller one") {
-    const auto small = run(shipped_study("planet-crack-ideal.toml", kSmall));
+    const auto& small = small_results();
     const auto large = run(shipped_study(
         "planet-crack-ideal.toml", {"ensemble.instances=16", "ensemble.threshold_instances=6"}));
     const std::size_t levels = small.noise_levels.size();
@@ -113,10 +114,7 @@ TEST_CASE("Reused mesh periods and full integration agree to 1e-6 in every noise
         const auto full_integration = run(study);
         for (std::size_t f = 0; f < reuse.features.size(); ++f) {
             INFO(reuse.features[f].name);
-            for (std::size_t i = 0; i < reuse.features[f].values.size(); ++i) {
-                CHECK(reuse.features[f].values[i] ==
-                      Approx(full_integration.features[f].values[i]).epsilon(1e-6));
-            }
+            test::check_close(reuse.features[f].values, full_integration.features[f].values, 1e-6);
         }
     }
 }

@@ -26,10 +26,9 @@ std::string with(const std::string& environment) {
 // Checks the run's message about its threads.
 void check_threads(const std::string& environment, const std::string& more, int threads) {
     const Folder folder;
-    const Outcome run =
-        require_success(shell(with(environment) + kProgram + run_of(folder) + more));
-    CHECK(run.mentions("(1 rank, " + std::to_string(threads) + " thread" +
-                       (threads == 1 ? "" : "s") + " in total"));
+    check_mentions(require_success(shell(with(environment) + kProgram + run_of(folder) + more)),
+                   {"(1 rank, " + std::to_string(threads) + " thread" + (threads == 1 ? "" : "s") +
+                    " in total"});
 }
 
 TEST_CASE(

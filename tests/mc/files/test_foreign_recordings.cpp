@@ -8,12 +8,9 @@
 #include "tests/mc/files/recorded.hpp"
 #include "tests/mc/tdms_bytes.hpp"
 
-namespace test_foreign_recordings {
+namespace gearpod::test_foreign_recordings {
 
-using namespace gearpod;
-using namespace gearpod::test;
-
-namespace {
+using namespace test;
 
 using Catch::Contains;
 using Names = std::vector<std::string>;
@@ -53,12 +50,7 @@ TEST_CASE("Channels of a group are found by their names, and different sampling 
         const auto other = opened(step, start);
         CHECK(other->read("h/b") == Values{5, 6});
         CHECK(other->sampling_Hz_of("h/b") == 2.0);  // a column that is not in use does not matter
-        try {
-            static_cast<void>(other->read("h/a"));
-        } catch (const mc::SignalError& error) {
-            return std::string(error.what());
-        }
-        return std::string();
+        return error_in([&] { static_cast<void>(other->read("h/a")); });
     };
     CHECK_THAT(refusal(0.25, 0.0), Contains("have different time steps, 0.5 s and 0.25 s"));
     CHECK_THAT(refusal(0.5, 1.0), Contains("start at different times, 1 s apart"));
@@ -185,6 +177,4 @@ TEST_CASE("The end of the Python process is reported, and no process or file rem
     CHECK(waitpid(-1, nullptr, WNOHANG) == -1);
 }
 
-}  // namespace
-
-}  // namespace test_foreign_recordings
+}  // namespace gearpod::test_foreign_recordings

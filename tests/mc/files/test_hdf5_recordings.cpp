@@ -1,22 +1,14 @@
-// Checks HDF5 files of other programs: their structure, and their statements of units, scales and
-// rates.
-#include <catch2/catch.hpp>
-#include <cmath>
-#include <fstream>
-#include <map>
-#include <vector>
+// Checks HDF5 files of other programs: their structure and links, and their statements of units,
+// scales and rates.
+#include <sys/stat.h>
 
 #include "mc/files/hdf5_data.hpp"
-#include "mc/files/signal_file.hpp"
-#include "tests/mc/program.hpp"
+#include "tests/mc/files/recorded.hpp"
 
-namespace test_hdf5_recordings {
+namespace gearpod::test_hdf5_recordings {
 
-using namespace gearpod;
-using namespace gearpod::test;
+using namespace test;
 using Values = std::vector<double>;
-
-namespace {
 
 const Values kSix = {1.0, -2.0, 3.0, -4.0, 5.0, -6.0};
 
@@ -37,27 +29,22 @@ class Made {
     std::unique_ptr<mc::SignalFile> open() const { return mc::open_signal_file(path()); }
     // Message of the error that choosing and reading a column causes, else "".
     std::string refusal(const std::string& name) const {
-        try {
+        return error_in([&] {
             const auto file = open();
             const std::string found = file->find({name});
             if (!found.empty()) {
                 static_cast<void>(file->read(found));
                 static_cast<void>(file->sampling_Hz_of(found));
             }
-        } catch (const mc::SignalError& error) {
-            return error.what();
-        }
-        return "";
+        });
     }
 
   private:
     Folder folder_;
 };
 
-bool contains(const std::string& text, const std::string& part) {
-    INFO(text);
-    CHECK(text.find(part) != std::string::npos);
-    return text.find(part) != std::string::npos;
+void check_contains(const std::string& text, const std::string& part) {
+    CHECK_THAT(text, Catch::Contains(part));
 }
 
 // Text of fixed length, as MATLAB, C and R write it, padded with blanks.
@@ -74,6 +61,17 @@ void write_fixed_text(hid_t file, const std::string& object, const std::string& 
     H5Awrite(attribute.get(), type.get(), (text + "  ").c_str());
 }
 
+// Unit of a column with these attributes.
+std::string unit_of(const std::map<std::string, std::string>& attributes) {
+    const Made made([&](hid_t file) {
+        mc::write_numbers(file, "sensor", {6}, kSix);
+        for (const auto& [name, text] : attributes) {
+            mc::write_text(file, "sensor", name, text);
+        }
+    });
+    return made.open()->unit("sensor");
+}
+
 TEST_CASE("Attributes state the unit under usual names, in text of fixed and variable length") {
     for (const char* name : {"unit", "units", "Units", "unit_string", "engineering_units"}) {
         INFO(name);
@@ -82,24 +80,11 @@ TEST_CASE("Attributes state the unit under usual names, in text of fixed and var
             write_fixed_text(file, "sensor", name, "m/s**2");
         });
         CHECK(fixed.open()->unit("sensor") == "m/s**2");
-        const Made variable([&](hid_t file) {
-            mc::write_numbers(file, "sensor", {6}, kSix);
-            mc::write_text(file, "sensor", name, "g");
-        });
-        CHECK(variable.open()->unit("sensor") == "g");
+        CHECK(unit_of({{name, "g"}}) == "g");
     }
-    const Made equal([&](hid_t file) {
-        mc::write_numbers(file, "sensor", {6}, kSix);
-        mc::write_text(file, "sensor", "unit", "m/s^2");
-        mc::write_text(file, "sensor", "units", "m/s²");
-    });
-    CHECK(equal.open()->unit("sensor") == "m/s^2");
-    const Made different([&](hid_t file) {
-        mc::write_numbers(file, "sensor", {6}, kSix);
-        mc::write_text(file, "sensor", "unit", "g");
-        mc::write_text(file, "sensor", "units", "m/s^2");
-    });
-    CHECK(different.open()->unit("sensor") == "g (attribute unit) but m/s^2 (attribute units)");
+    CHECK(unit_of({{"unit", "m/s^2"}, {"units", "m/s²"}}) == "m/s^2");
+    CHECK(unit_of({{"unit", "g"}, {"units", "m/s^2"}}) ==
+          "g (attribute unit) but m/s^2 (attribute units)");
 }
 
 TEST_CASE("The unit of a group belongs to its only signal, and is named if there are more") {
@@ -117,7 +102,7 @@ TEST_CASE("The unit of a group belongs to its only signal, and is named if there
     const auto file = two.open();
     CHECK(file->unit("run/sensor").empty());
     REQUIRE(file->notes().size() == 1);
-    CHECK(contains(file->notes()[0], "unit g of the group of run/sensor is not used"));
+    check_contains(file->notes()[0], "unit g of the group of run/sensor is not used");
 }
 
 TEST_CASE("Scale and offset are applied, and contradictory ones refused") {
@@ -141,10 +126,10 @@ TEST_CASE("Scale and offset are applied, and contradictory ones refused") {
     const Values missing = values({{"_FillValue", 20.0}, {"scale_factor", 0.1}});
     CHECK(std::isnan(missing[1]));
     CHECK(missing[0] == 1.0);
-    CHECK(contains(made({{"scale", 2.0}, {"scale_factor", 3.0}}).refusal("sensor"),
-                   "scale = 2 and scale_factor = 3; they differ"));
-    CHECK(contains(made({{"scale", 2.0}, {"offset", 1.0}}).refusal("sensor"),
-                   "in an order that is not defined"));
+    check_contains(made({{"scale", 2.0}, {"scale_factor", 3.0}}).refusal("sensor"),
+                   "scale = 2 and scale_factor = 3; they differ");
+    check_contains(made({{"scale", 2.0}, {"offset", 1.0}}).refusal("sensor"),
+                   "in an order that is not defined");
     const Made gain = made({{"gain", 10.0}});
     const auto file = gain.open();
     CHECK(file->read("sensor") == Values{10.0, 20.0, -5.0});
@@ -180,8 +165,8 @@ TEST_CASE("Usual names of a sampling rate or interval are read next to the colum
         mc::write_number(file, "sensor", "sampling_rate", 5120.0);
     });
     const std::string why = two.refusal("sensor");
-    CHECK(contains(why, "5120 Hz"));
-    CHECK(contains(why, "5000 Hz; give --sampling-Hz"));
+    check_contains(why, "5120 Hz");
+    check_contains(why, "5000 Hz; give --sampling-Hz");
     const Made dataset([](hid_t file) {
         mc::write_numbers(file, "sensor", {6, 1}, kSix);
         mc::write_numbers(file, "fs", {1, 1}, {5120.0});
@@ -191,7 +176,7 @@ TEST_CASE("Usual names of a sampling rate or interval are read next to the colum
         mc::write_numbers(file, "sensor", {6}, kSix);
         mc::write_number(file, ".", "fs", 0.0);
     });
-    CHECK(contains(zero.refusal("sensor"), "fs = 0 is not a sampling rate"));
+    check_contains(zero.refusal("sensor"), "fs = 0 is not a sampling rate");
 }
 
 TEST_CASE("Columns are found in groups by path or name, and others next to them") {
@@ -215,8 +200,8 @@ TEST_CASE("Columns are found in groups by path or name, and others next to them"
     CHECK(file->find({"time", "extra", false}).empty());  // the times are of other groups
     CHECK(file->find({"sensor", "", false}).empty());
     CHECK(file->find({"nothing"}).empty());
-    CHECK(contains(made.refusal("sensor"),
-                   "several columns are named sensor: run1/acc/sensor, run2/acc/sensor"));
+    check_contains(made.refusal("sensor"),
+                   "several columns are named sensor: run1/acc/sensor, run2/acc/sensor");
     CHECK(file->contents() ==
           "extra (6), run1/acc/sensor (1 x 6), run1/time (6 x 1), run2/acc/sensor (1 x 6), "
           "run2/time (6 x 1), te (6)");
@@ -243,11 +228,11 @@ TEST_CASE("Columns of a matrix are chosen by their number from 1, along the long
     CHECK(file->read("tall:2") == Values{-2.0, -4.0, -6.0});
     CHECK(file->read("wide:2") == Values{-4.0, 5.0, -6.0});
     CHECK(file->read("cube:1") == Values{1.0, -2.0, 3.0});
-    CHECK(contains(made.refusal("tall"), "tall is a matrix of 3 x 2; choose one of its columns"));
-    CHECK(contains(made.refusal("tall:0"), "2 columns, counted from 1"));
-    CHECK(contains(made.refusal("tall:3"), "2 columns, counted from 1"));
-    CHECK(contains(made.refusal("square:1"), "has the shape 2 x 2"));
-    CHECK(contains(file->contents(), "tall (3 x 2; tall:1 to tall:2)"));
+    check_contains(made.refusal("tall"), "tall is a matrix of 3 x 2; choose one of its columns");
+    check_contains(made.refusal("tall:0"), "2 columns, counted from 1");
+    check_contains(made.refusal("tall:3"), "2 columns, counted from 1");
+    check_contains(made.refusal("square:1"), "has the shape 2 x 2");
+    check_contains(file->contents(), "tall (3 x 2; tall:1 to tall:2)");
 }
 
 TEST_CASE("Datasets that are not columns of numbers do not prevent reading, and are named") {
@@ -274,8 +259,8 @@ TEST_CASE("Datasets that are not columns of numbers do not prevent reading, and 
     CHECK(file->find({"time", "sensor", false}).empty());
     REQUIRE(file->notes().size() == 1);
     CHECK(file->notes()[0] == "time (text) is not a column of numbers; it is not used");
-    CHECK(contains(made.refusal("pairs"), "pairs (compound) is not a column of numbers"));
-    CHECK(contains(file->contents(), "pairs (compound), sensor (6), time (text)"));
+    check_contains(made.refusal("pairs"), "pairs (compound) is not a column of numbers");
+    check_contains(file->contents(), "pairs (compound), sensor (6), time (text)");
 }
 
 TEST_CASE("A file of 20,000 datasets is read, and its list is short") {
@@ -291,7 +276,7 @@ TEST_CASE("A file of 20,000 datasets is read, and its list is short") {
         const auto file = made.open();
         CHECK(file->find({"sensor"}) == "sensor");
         CHECK(file->read("sensor") == kSix);
-        CHECK(contains(file->contents(), "and 19981 more"));
+        check_contains(file->contents(), "and 19981 more");
         CHECK(file->contents().size() < 400);
     }
 }
@@ -301,17 +286,12 @@ TEST_CASE("Files that cannot be opened as HDF5 are refused with the true reason"
     const std::string path = folder.file("a.h5");
     const auto refusal = [&](const std::string& bytes) {
         write_bytes(path, bytes);
-        try {
-            static_cast<void>(mc::open_signal_file(path)->names());
-        } catch (const mc::SignalError& error) {
-            return std::string(error.what());
-        }
-        return std::string();
+        return error_in([&] { static_cast<void>(mc::open_signal_file(path)->names()); });
     };
     const Made made([](hid_t file) { mc::write_numbers(file, "sensor", {6}, kSix); }, true);
     std::string bytes = bytes_of(made.path());
     CHECK(refusal(bytes).empty());
-    CHECK(contains(refusal(bytes.substr(0, bytes.size() - 20)), "is truncated"));
+    check_contains(refusal(bytes.substr(0, bytes.size() - 20)), "is truncated");
     // Superblock version 3: a flag states that the file is open for writing. Its checksum follows
     // from the other bytes, so the flag alone is set by the library.
     {
@@ -323,16 +303,70 @@ TEST_CASE("Files that cannot be opened as HDF5 are refused with the true reason"
         bytes = bytes_of(made.path());
     }
     const std::string unclosed = refusal(bytes);
-    CHECK(contains(unclosed, "the program that wrote it did not close it"));
-    CHECK(contains(unclosed, "h5clear -s " + path));
-    CHECK(contains(refusal(std::string("CDF\x01", 4) + std::string(200, '\0')),
-                   "netCDF classic: nccopy"));
-    CHECK(contains(refusal("\x0e\x03\x13\x01" + std::string(200, 'x')), "is not an HDF5 file"));
-    CHECK(contains(refusal(""), "is empty"));
-    CHECK(contains(refusal(std::string(2000, '\0')), "begins with zeros"));
-    CHECK(contains(refusal("time,sensor\n"), "is not an HDF5 file"));
+    check_contains(unclosed, "the program that wrote it did not close it");
+    check_contains(unclosed, "h5clear -s " + path);
+    check_contains(refusal(std::string("CDF\x01", 4) + std::string(200, '\0')),
+                   "netCDF classic: nccopy");
+    check_contains(refusal("\x0e\x03\x13\x01" + std::string(200, 'x')), "is not an HDF5 file");
+    check_contains(refusal(""), "is empty");
+    check_contains(refusal(std::string(2000, '\0')), "begins with zeros");
+    check_contains(refusal("time,sensor\n"), "is not an HDF5 file");
 }
 
-}  // namespace
+TEST_CASE("Links out of an HDF5 file are refused by name and not opened") {
+    const Folder folder;
+    const std::string pipe = folder.file("pipe.h5");  // opening it would block
+    REQUIRE(mkfifo(pipe.c_str(), 0600) == 0);
+    const auto linked = [](auto add) {
+        return Made([&](hid_t file) {
+            mc::write_numbers(file, "time", {3}, {0.0, 1.0, 2.0});
+            add(file);
+        });
+    };
+    const auto external = [&](const char* from, const char* to) {
+        return linked([&](hid_t file) {
+            H5Lcreate_external(pipe.c_str(), from, file, to, H5P_DEFAULT, H5P_DEFAULT);
+        });
+    };
+    check_contains(external("/sensor", "sensor").refusal("sensor"),
+                   "sensor is stored in another file");
+    const Made group = external("/", "signals");
+    CHECK(group.refusal("sensor").empty());
+    CHECK(group.refusal("time").empty());
+    check_contains(group.refusal("signals"), "signals is stored in another file");
+    CHECK(group.open()->contents() == "signals (in another file), time (3)");
+    const Made raw = linked([](hid_t file) {
+        const hsize_t count = 3;
+        const mc::Hdf5Handle space(H5Screate_simple(1, &count, nullptr), H5Sclose, "raw");
+        const mc::Hdf5Handle made(H5Pcreate(H5P_DATASET_CREATE), H5Pclose, "raw");
+        H5Pset_external(made.get(), "/etc/passwd", 0, 24);
+        const mc::Hdf5Handle dataset(H5Dcreate2(file, "sensor", H5T_NATIVE_DOUBLE, space.get(),
+                                                H5P_DEFAULT, made.get(), H5P_DEFAULT),
+                                     H5Dclose, "raw");
+    });
+    check_contains(raw.refusal("sensor"), "sensor is stored in another file");
+    // A link within the file is equivalent to the dataset.
+    const Made soft = linked(
+        [](hid_t file) { H5Lcreate_soft("/time", file, "sensor", H5P_DEFAULT, H5P_DEFAULT); });
+    CHECK(soft.open()->read("sensor") == Values{0.0, 1.0, 2.0});
+}
 
-}  // namespace test_hdf5_recordings
+TEST_CASE("Rate and scale of an HDF5 file may be integers") {
+    const Made made([](hid_t file) {
+        mc::write_numbers(file, "sensor", {3}, {0.0, 1.0, 2.0});
+        const mc::Hdf5Handle scalar(H5Screate(H5S_SCALAR), H5Sclose, "scalar");
+        const auto write = [&](const char* object, const char* name, std::int64_t value) {
+            const mc::Hdf5Handle attribute(
+                H5Acreate_by_name(file, object, name, H5T_STD_I64LE, scalar.get(), H5P_DEFAULT,
+                                  H5P_DEFAULT, H5P_DEFAULT),
+                H5Aclose, name);
+            H5Awrite(attribute.get(), H5T_NATIVE_INT64, &value);
+        };
+        write("/", "sampling_Hz", 5000);
+        write("sensor", "scale", 2);
+    });
+    CHECK(made.open()->sampling_Hz() == 5000.0);
+    CHECK(made.open()->read("sensor") == Values{0.0, 2.0, 4.0});
+}
+
+}  // namespace gearpod::test_hdf5_recordings

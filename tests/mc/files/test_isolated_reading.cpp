@@ -1,22 +1,15 @@
 // Checks that failures in the child process that reads a file do not affect the program.
 #include <sys/wait.h>
 
-#include <catch2/catch.hpp>
 #include <cerrno>
 #include <csignal>
-#include <cstdlib>
-#include <stdexcept>
-#include <vector>
 
 #include "mc/files/isolated_reading.hpp"
 #include "tests/mc/program.hpp"
 
-namespace test_isolated_reading {
+namespace gearpod::test_isolated_reading {
 
-using namespace gearpod;
-using namespace gearpod::test;
-
-namespace {
+using namespace test;
 
 TEST_CASE("A reader that crashes, or requests all memory, does not survive") {
     const Folder folder;
@@ -35,6 +28,4 @@ TEST_CASE("A reader that crashes, or requests all memory, does not survive") {
     CHECK(errno == ECHILD);
 }
 
-}  // namespace
-
-}  // namespace test_isolated_reading
+}  // namespace gearpod::test_isolated_reading

@@ -1,11 +1,8 @@
 // Checks SHA-256 with the test vectors of FIPS 180-4.
-#include <catch2/catch.hpp>
-
 #include "mc/files/sha256.hpp"
+#include "tests/test.hpp"
 
-namespace test_sha256 {
-
-using namespace gearpod;
+namespace gearpod::test_sha256 {
 
 TEST_CASE("Hashes are SHA-256 (FIPS 180-4; vectors of NIST's examples)") {
     CHECK(mc::sha256("") == "e3b0c44298fc1c149afbf4c8996fb92427ae41e4649b934ca495991b7852b855");
@@ -17,4 +14,4 @@ TEST_CASE("Hashes are SHA-256 (FIPS 180-4; vectors of NIST's examples)") {
     CHECK(mc::file_sha256("/nonexistent/file").empty());
 }
 
-}  // namespace test_sha256
+}  // namespace gearpod::test_sha256

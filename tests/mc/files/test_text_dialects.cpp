@@ -2,21 +2,12 @@
 // the form, or the reason why a file is refused.
 #include <zlib.h>
 
-#include <catch2/catch.hpp>
-#include <fstream>
-#include <string>
-#include <vector>
-
-#include "mc/files/signal_file.hpp"
 #include "mc/files/text/text_table.hpp"
-#include "tests/mc/program.hpp"
+#include "tests/mc/files/recorded.hpp"
 
-namespace test_text_dialects {
+namespace gearpod::test_text_dialects {
 
-using namespace gearpod;
-using namespace gearpod::test;
-
-namespace {
+using namespace test;
 
 const std::vector<double> kTime{0, 0.25, 0.5, 0.75}, kSensor{2.5, -1.125, 1024, 0.5};
 
@@ -24,8 +15,7 @@ struct Files {
     Folder folder;
 
     std::string written(const std::string& text, const std::string& name = "a.csv") const {
-        std::ofstream(folder.file(name), std::ios::binary) << text;
-        return folder.file(name);
+        return file_with(folder, name, text);
     }
     std::unique_ptr<mc::SignalFile> opened(const std::string& text) const {
         return mc::open_signal_file(written(text));
@@ -34,16 +24,13 @@ struct Files {
     std::string refusal(const std::string& text, const std::string& column = "sensor",
                         const std::string& name = "a.csv") const {
         const std::string path = written(text, name);
-        try {
+        return error_in([&] {
             const auto file = mc::open_signal_file(path);
             if (file->find({column}).empty()) {
-                return "no column";
+                throw mc::SignalError("no column");
             }
             static_cast<void>(file->read(column));
-        } catch (const mc::SignalError& error) {
-            return error.what();
-        }
-        return "";
+        });
     }
 };
 
@@ -300,6 +287,4 @@ TEST_CASE("a text that begins like a formula is escaped in CSV") {
     CHECK(mc::csv_field("a \"b\"") == "\"a \"\"b\"\"\"");
 }
 
-}  // namespace
-
-}  // namespace test_text_dialects
+}  // namespace gearpod::test_text_dialects

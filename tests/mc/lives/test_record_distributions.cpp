@@ -131,7 +131,7 @@ TEST_CASE("Keys of inputs per record are read, written and refused by name") {
     const auto refuses = [&](const std::vector<std::string>& more, const std::string& words) {
         const std::string text = refused(more);
         INFO(text);
-        CHECK(text.find(words) != std::string::npos);
+        CHECK(contains(text, words));
         CHECK(std::ranges::count(text, '\n') == 1);
     };
     refuses({law("gearbox.mesh_damping_ratio", "distribution=\"uniform\",low=0.04,high=0.1")},
@@ -148,15 +148,14 @@ TEST_CASE("Keys of inputs per record are read, written and refused by name") {
         text += mc::format(problem) + "\n";
     }
     INFO(text);
-    CHECK(text.find("the 3 records of a gearbox differ only in their noise") != std::string::npos);
+    CHECK(contains(text, "the 3 records of a gearbox differ only in their noise"));
 }
 
 TEST_CASE("describe shows the law of inputs per record") {
-    const Outcome description =
+    check_mentions(
         require_success("describe " + test::study("planet-crack-ideal.toml") + life_arguments() +
-                        " --set '" + kTorque + "'");
-    check_mentions(description, {"operation.torque_N_m.distribution = \"uniform\"\n",
-                                 "times the study's value"});
+                        " --set '" + kTorque + "'"),
+        {"operation.torque_N_m.distribution = \"uniform\"\n", "times the study's value"});
 }
 
 }  // namespace gearpod::test_record_distributions

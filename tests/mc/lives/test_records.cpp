@@ -35,8 +35,7 @@ TEST_CASE("A recording of all turns, or of twice as many, equals the whole span"
             CHECK(life.values[f][0] == Approx(whole.values[f][0]).epsilon(1e-9));
         }
     }
-    CHECK(plain.life().record.find("each of the 31 teeth with all 81 mating teeth") !=
-          std::string::npos);
+    CHECK(contains(plain.life().record, "each of the 31 teeth with all 81 mating teeth"));
 }
 
 TEST_CASE("Short recordings cover a part of the turns, and many of them all") {
@@ -60,8 +59,7 @@ TEST_CASE("Short recordings cover a part of the turns, and many of them all") {
     CHECK(some < 0.6 * few);  // a quarter, within the scatter of 20 records
     const mc::Scene scene(quiet_study({"life.records=8", "sensor.record_turns=4"}));
     CHECK(scene.life().record.find("10 turns of 31 mesh periods") == 0);
-    CHECK(scene.life().record.find("each of the 31 teeth with 10 of its 81 mating teeth") !=
-          std::string::npos);
+    CHECK(contains(scene.life().record, "each of the 31 teeth with 10 of its 81 mating teeth"));
     // Same duration in seconds, at 8.87 rpm.
     const double seconds = 4.0 * 60.0 / 8.87 + 1e-6;
     const mc::Scene timed(
@@ -186,8 +184,7 @@ TEST_CASE("Invalid records and curves are refused with the key") {
 }
 
 TEST_CASE("describe states which inputs vary per gearbox and which per record") {
-    const Outcome description = require_success("describe " + study("planet-life.toml"));
-    check_mentions(description,
+    check_mentions(require_success("describe " + study("planet-life.toml")),
                    {"random per gearbox", "torque per record",
                     "3 values occur, equally often, and each is integrated", "speed per record"});
     // Random depth from [random] applies to `run`: in a life the crack grows.

@@ -58,14 +58,14 @@ TEST_CASE("a torque 1,000 times too large or too small is noticed in every shipp
         const mc::Problems much = warnings_with(study, 1e3), little = warnings_with(study, 1e-3);
         REQUIRE(much.size() == 1);
         CHECK(much[0].key == "operation.torque_N_m");
-        CHECK(much[0].what.find("more than any gear steel withstands") != std::string::npos);
-        CHECK(much[0].remedy.find("not N mm") != std::string::npos);
+        CHECK(contains(much[0].what, "more than any gear steel withstands"));
+        CHECK(contains(much[0].remedy, "not N mm"));
         REQUIRE(little.size() == 1);
-        CHECK(little[0].what.find("nearly unloaded") != std::string::npos);
-        CHECK(little[0].remedy.find("not kN m") != std::string::npos);
+        CHECK(contains(little[0].what, "nearly unloaded"));
+        CHECK(contains(little[0].remedy, "not kN m"));
         const mc::Problems none = warnings_with(study, 0.0);
         REQUIRE(none.size() == 1);
-        CHECK(none[0].what.find("()") == std::string::npos);
+        CHECK_FALSE(contains(none[0].what, "()"));
     }
 }
 
@@ -81,9 +81,8 @@ TEST_CASE("describe prints tooth stresses, and describe and run warn of the torq
                       small = " --set operation.torque_N_m=0.45";
     CHECK(program("describe" + few + large).mentions("check the unit (N m, not N mm)"));
     CHECK(program("describe" + few + small).mentions("check the unit (N m, not kN m)"));
-    const auto run = program("run" + few + small + " --quiet --out " + folder.file("r.h5"));
-    INFO(run.output);
-    CHECK(run.mentions("operation.torque_N_m: 0.45 N m on the sun leaves the teeth"));
+    check_mentions(program("run" + few + small + " --quiet --out " + folder.file("r.h5")),
+                   {"operation.torque_N_m: 0.45 N m on the sun leaves the teeth"});
 }
 
 // Prints the table of the shipped studies' loads.

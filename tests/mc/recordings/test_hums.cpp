@@ -1,21 +1,11 @@
 // Checks the recordings of the HUMS 2023 challenge, if present
 // (docs/validation/measured-machines.md).
-#include <algorithm>
-#include <catch2/catch.hpp>
-#include <cmath>
-#include <cstdlib>
-#include <filesystem>
-#include <nlohmann/json.hpp>
-
 #include "mc/files/hdf5_data.hpp"
-#include "tests/mc/program.hpp"
+#include "tests/mc/program_json.hpp"
 
-namespace test_hums {
+namespace gearpod::test_hums {
 
-using namespace gearpod;
-using namespace gearpod::test;
-
-namespace {
+using namespace test;
 
 // Report on all recordings; null without the data.
 nlohmann::json report_of(const std::string& options) {
@@ -33,12 +23,10 @@ nlohmann::json report_of(const std::string& options) {
                  (days[i] <= 20 ? "healthy" : "faulty") + "\n";
     }
     write_bytes(folder.file("m.csv"), table);
-    const Outcome outcome = program("features --manifest " + folder.file("m.csv") + " --study " +
-                                    study("bell-206b.toml") + " --samples-per-mesh 117 --quiet " +
-                                    options + " --out " + folder.file("f.h5"));
-    INFO(outcome.output);
-    REQUIRE(outcome.code == 0);
-    return nlohmann::json::parse(program("report " + folder.file("f.h5") + " --json -").output);
+    require_success("features --manifest " + folder.file("m.csv") + " --study " +
+                    study("bell-206b.toml") + " --samples-per-mesh 117 --quiet " + options +
+                    " --out " + folder.file("f.h5"));
+    return json_of("report " + folder.file("f.h5") + " --json -");
 }
 
 // Data: the recordings of the HUMS 2023 challenge, if present
@@ -125,6 +113,4 @@ TEST_CASE("The kurtosis of the change alarms in all later recordings and in no h
     }
 }
 
-}  // namespace
-
-}  // namespace test_hums
+}  // namespace gearpod::test_hums

@@ -1,20 +1,10 @@
 // Checks the rounding of recorded samples: its step, and features that would measure it.
-#include <catch2/catch.hpp>
-#include <cmath>
-#include <fstream>
-#include <nlohmann/json.hpp>
-#include <numbers>
-#include <random>
-
 #include "mc/recordings/quantisation.hpp"
-#include "tests/mc/program.hpp"
+#include "tests/mc/recording_files.hpp"
 
-namespace test_quantisation {
+namespace gearpod::test_quantisation {
 
-using namespace gearpod;
-using namespace gearpod::test;
-
-namespace {
+using namespace test;
 
 constexpr int kTeeth = 11, kPerMesh = 8, kSamples = kTeeth * kPerMesh;
 constexpr double kStep = 2e-3;
@@ -46,21 +36,8 @@ std::vector<double> rounded(std::vector<double> samples, double step) {
 
 nlohmann::json features_of(const std::vector<double>& samples) {
     const Folder folder;
-    {
-        std::ofstream stream(folder.file("s.csv"));
-        stream.precision(17);
-        stream << "sensor [m/s^2]\n";
-        for (const double one : samples) {
-            stream << one << "\n";
-        }
-    }
-    const Outcome outcome =
-        program("features " + folder.file("s.csv") + " --study " + GEARPOD_SOURCE_DIR +
-                "/tests/features/reference/small.toml --samples-per-mesh 8 "
-                "--speed stated --json -");
-    INFO(outcome.output);
-    REQUIRE(outcome.code == 0);
-    return nlohmann::json::parse(outcome.output);
+    return json_of("features " + write_csv(folder.file("s.csv"), "sensor [m/s^2]", {samples}) +
+                   " --study " + kSmallStudy + " --samples-per-mesh 8 --speed stated --json -");
 }
 
 TEST_CASE("The step of rounded samples is found, also of coarse ones, and others have none") {
@@ -118,6 +95,4 @@ TEST_CASE("Mesh lines that are zero apart from double-precision rounding have no
     CHECK(found["features"].contains("fm4"));
 }
 
-}  // namespace
-
-}  // namespace test_quantisation
+}  // namespace gearpod::test_quantisation

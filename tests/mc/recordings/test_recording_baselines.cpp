@@ -1,27 +1,14 @@
 // Checks mean baselines, averages and sustained alarms of synthetic recordings with a known truth:
 // noise, any start angle, a gain that drifts by 20 %, and corrupt recordings.
-#include <algorithm>
-#include <catch2/catch.hpp>
-#include <cmath>
-#include <fstream>
-#include <nlohmann/json.hpp>
-#include <numbers>
-#include <random>
-#include <sstream>
-
 #include "mc/numerics/numerics_choice.hpp"
 #include "mc/recordings/recording_baselines.hpp"
 #include "signals/spectra/alignment.hpp"
-#include "tests/mc/program.hpp"
+#include "tests/mc/recording_files.hpp"
 
-namespace test_recording_baselines {
+namespace gearpod::test_recording_baselines {
 
-using namespace gearpod;
-using namespace gearpod::test;
+using namespace test;
 
-namespace {
-
-const std::string kSmall = std::string(GEARPOD_SOURCE_DIR) + "/tests/features/reference/small.toml";
 constexpr int kTeeth = 11, kPerMesh = 8, kSamples = kTeeth * kPerMesh;
 constexpr int kFaultyTooth = 7;
 
@@ -93,7 +80,7 @@ mc::MeasuredSignal signal_of(std::vector<double> samples) {
 
 TEST_CASE(
     "Recordings with noise, any start and a drifting gain are aligned, a corrupt one is not") {
-    auto study = mc::make_scene(kSmall, mc::read_study(kSmall, {}));
+    auto study = mc::make_scene(kSmallStudy, mc::read_study(kSmallStudy, {}));
     REQUIRE(study.scene);
     Machine machine;
     mc::RecordingList list;
@@ -153,18 +140,13 @@ struct Recorded {
             const auto samples = i == kCorrupt || i == 170
                                      ? machine.corrupt()
                                      : machine.record(1.0 + 0.2 * i / kAll, fault);
-            std::ofstream stream(folder.file(name));
-            stream.precision(17);
-            stream << "sensor [m/s^2]\n";
-            for (const double one : samples) {
-                stream << one << "\n";
-            }
+            write_csv(folder.file(name), "sensor [m/s^2]", {samples});
             table << name << ",A," << 0.1 * i << "," << (i < kHealthy ? "healthy" : "faulty") << ","
                   << i % 2 << "\n";
         }
     }
     Outcome features(const std::string& options) const {
-        return program("features --manifest " + manifest + " --study " + kSmall +
+        return program("features --manifest " + manifest + " --study " + kSmallStudy +
                        " --samples-per-mesh 8 --quiet --set detection.false_alarm_rate=0.01 " +
                        "--set 'features.use=[\"change_kurtosis\",\"baseline_correlation\"]' " +
                        options);
@@ -178,9 +160,7 @@ TEST_CASE("A fault sustains an alarm at its tooth, and a corrupt recording does 
     INFO(measured.output);
     REQUIRE((measured.code == 0 || measured.code == 3));
     CHECK(measured.mentions("baseline of gearbox A: mean of 20 recordings"));
-    const Outcome outcome = program("report " + recorded.results + " --json -");
-    REQUIRE(outcome.code == 0);
-    const auto monitoring = nlohmann::json::parse(outcome.output)["monitoring"];
+    const auto monitoring = json_of("report " + recorded.results + " --json -")["monitoring"];
     // 100 healthy recordings: at most 1 in 101.
     CHECK(monitoring["smallest_rate"].get<double>() <= 1.0 / 99.0);
     bool found = false;
@@ -248,38 +228,31 @@ TEST_CASE("Scaling removes the drift of the gain, and averaging lowers the noise
     CHECK(averaged < 0.75 * single);
     CHECK(scaled < averaged);
     // Conditions: two baselines, each of its own recordings.
-    const Outcome by = recorded.features("--baseline-records 10 --baseline-by load --csv " +
-                                         recorded.folder.file("f.csv"));
-    CHECK(by.mentions("baseline of gearbox A at load 0: mean of 10 recordings"));
-    CHECK(by.mentions("baseline of gearbox A at load 1: mean of 10 recordings"));
+    check_mentions(recorded.features("--baseline-records 10 --baseline-by load --csv " +
+                                     recorded.folder.file("f.csv")),
+                   {"baseline of gearbox A at load 0: mean of 10 recordings",
+                    "baseline of gearbox A at load 1: mean of 10 recordings"});
 }
 
 TEST_CASE("Bad combinations of baseline options are refused with all reasons") {
     const Recorded recorded;
     const std::string csv = "--csv " + recorded.folder.file("f.csv") + " ";
-    Outcome outcome = recorded.features(csv + "--average 5 --baseline-by torque");
-    CHECK(outcome.code == 2);
-    CHECK(outcome.mentions("no baseline is given to align them with"));
-    CHECK(outcome.mentions("--baseline-by torque: the manifest has no such operating condition"));
-    outcome = recorded.features(csv + "--baseline-records 1");
-    CHECK(outcome.code == 2);
-    CHECK(outcome.mentions("a mean has at least two recordings"));
-    outcome = recorded.features(csv + "--baseline-records 20 --baseline " +
-                                recorded.folder.file("r0.csv"));
-    CHECK(outcome.code == 2);
-    CHECK(outcome.mentions("give one baseline"));
+    check_refused(recorded.features(csv + "--average 5 --baseline-by torque"),
+                  {"no baseline is given to align them with",
+                   "--baseline-by torque: the manifest has no such operating condition"});
+    check_refused(recorded.features(csv + "--baseline-records 1"),
+                  {"a mean has at least two recordings"});
+    check_refused(recorded.features(csv + "--baseline-records 20 --baseline " +
+                                    recorded.folder.file("r0.csv")),
+                  {"give one baseline"});
     CHECK(recorded.features(csv + "--set monitoring.average_records=9")
               .mentions("one bad recording is in the averages of 9"));
     write_bytes(recorded.folder.file("marked.csv"),
                 "file,label,baseline\nr1.csv,healthy,yes\nr2.csv,healthy,maybe\n"
                 "r199.csv,faulty,yes\n");
-    outcome = program("features --manifest " + recorded.folder.file("marked.csv") + " --study " +
-                      kSmall + " --samples-per-mesh 8 --csv -");
-    CHECK(outcome.code == 2);
-    CHECK(outcome.mentions("\"maybe\" is neither yes nor no"));
-    CHECK(outcome.mentions("is yes for a faulty recording"));
+    check_refused("features --manifest " + recorded.folder.file("marked.csv") + " --study " +
+                      kSmallStudy + " --samples-per-mesh 8 --csv -",
+                  {"\"maybe\" is neither yes nor no", "is yes for a faulty recording"});
 }
 
-}  // namespace
-
-}  // namespace test_recording_baselines
+}  // namespace gearpod::test_recording_baselines

@@ -2,17 +2,10 @@
 // missing sample is found in every format.
 #include <fmt/format.h>
 
-#include <catch2/catch.hpp>
-#include <cmath>
-#include <functional>
-
 #include "mc/recordings/recording_columns.hpp"
+#include "tests/test.hpp"
 
-namespace test_sample_times {
-
-using namespace gearpod;
-
-namespace {
+namespace gearpod::test_sample_times {
 
 constexpr double kStep = 1.0 / 5120.0;
 
@@ -135,6 +128,4 @@ TEST_CASE("times that are too coarse to show a missing sample are refused as suc
     CHECK(mc::sample_times(written({"", rounded, 0.0, 1e-3}, 2000, 1e-3)).problem == "");
 }
 
-}  // namespace
-
-}  // namespace test_sample_times
+}  // namespace gearpod::test_sample_times

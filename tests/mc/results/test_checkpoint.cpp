@@ -1,13 +1,10 @@
 // Checks the checkpoint: written data are read again, damaged or foreign data are detected.
 #include <fcntl.h>
-#include <sys/resource.h>
 #include <sys/stat.h>
 #include <sys/wait.h>
 
-#include <csignal>
-
 #include "mc/results/checkpoint.hpp"
-#include "tests/mc/program.hpp"
+#include "tests/mc/results/small_results.hpp"
 
 namespace gearpod::mc::test_checkpoint {
 
@@ -31,14 +28,7 @@ BatchRows rows_of(const BatchPlan& plan, std::size_t batch) {
 }
 
 bool same(const BatchRows& a, const BatchRows& b) {
-    const auto bits = [](const BatchRows& rows) {
-        std::vector<std::uint64_t> all;
-        for (const double value : rows.values) {
-            all.push_back(std::bit_cast<std::uint64_t>(value));
-        }
-        return all;
-    };
-    return a.status == b.status && bits(a) == bits(b);
+    return a.status == b.status && bits_of_values(a.values) == bits_of_values(b.values);
 }
 
 void fill(const std::string& path, const std::vector<std::size_t>& batches) {
@@ -51,16 +41,7 @@ void fill(const std::string& path, const std::vector<std::size_t>& batches) {
 
 std::string reason_of(const std::string& path, const RunIdentity& identity = kIdentity,
                       const BatchPlan& plan = kPlan) {
-    try {
-        Checkpoint::resume(path, identity, plan);
-    } catch (const std::runtime_error& error) {
-        return error.what();
-    }
-    return "";
-}
-
-bool contains(const std::string& text, const std::string& part) {
-    return text.find(part) != std::string::npos;
+    return message_of([&] { Checkpoint::resume(path, identity, plan); });
 }
 
 TEST_CASE(
@@ -192,13 +173,7 @@ TEST_CASE("Another study, seed or version is refused with the reason") {
     other.study += "instances = 3\n";
     CHECK(contains(reason_of(path, other), "another study (\"nothing\" there, \"instances = 3\""));
     CHECK(reason_of(path).empty());
-    std::string reason;
-    try {
-        Checkpoint::create(path, kIdentity, kPlan);
-    } catch (const std::runtime_error& error) {
-        reason = error.what();
-    }
-    CHECK(contains(reason, "--resume"));
+    CHECK(contains(message_of([&] { Checkpoint::create(path, kIdentity, kPlan); }), "--resume"));
     CHECK(reason_of(path).empty());
 }
 
@@ -212,12 +187,7 @@ TEST_CASE("Two runs cannot use one checkpoint at the same time") {
         ::gethostname(host.data(), host.size() - 1);
         const std::string worker = "r.h5.part: another run (process " + std::to_string(getppid()) +
                                    " on " + host.data() + " since 20";
-        std::string created;
-        try {
-            Checkpoint::create(path, kIdentity, kPlan);
-        } catch (const std::runtime_error& error) {
-            created = error.what();
-        }
+        const std::string created = message_of([&] { Checkpoint::create(path, kIdentity, kPlan); });
         const std::string resumed = reason_of(path);
         const bool good = contains(resumed, worker) && contains(created, worker) &&
                           contains(created, "is using it") && !contains(created, "delete");
@@ -242,13 +212,10 @@ TEST_CASE("Only one of several competing runs gets a checkpoint") {
                 char byte = 0;
                 ::close(gate[1]);
                 static_cast<void>(::read(gate[0], &byte, 1) == 0);  // until all have started
-                int code = 0;
                 std::unique_ptr<Checkpoint> mine;
-                try {
-                    mine = Checkpoint::create(path, kIdentity, kPlan);
-                } catch (const std::runtime_error& error) {
-                    code = contains(error.what(), "is using it") ? 1 : 2;
-                }
+                const std::string error =
+                    message_of([&] { mine = Checkpoint::create(path, kIdentity, kPlan); });
+                const int code = error.empty() ? 0 : contains(error, "is using it") ? 1 : 2;
                 ::usleep(200000);
                 std::_Exit(code);
             }
@@ -291,9 +258,7 @@ TEST_CASE("For any damaged byte of a checkpoint no damaged batch is used") {
         damaged[i] = static_cast<char>(damaged[i] ^ (1 << (i % 8)));
         write_bytes(path, damaged);
         std::unique_ptr<Checkpoint> checkpoint;
-        try {
-            checkpoint = Checkpoint::resume(path, kIdentity, kPlan);
-        } catch (const std::runtime_error&) {
+        if (!message_of([&] { checkpoint = Checkpoint::resume(path, kIdentity, kPlan); }).empty()) {
             ++refused;
             continue;
         }
@@ -360,22 +325,13 @@ TEST_CASE("A batch at another batch's position is refused") {
 TEST_CASE("A full disk is a write error, and earlier batches remain") {
     const Folder folder;
     const std::string path = folder.file("r.h5.part");
-    std::signal(SIGXFSZ, SIG_IGN);
-    rlimit limit{};
-    REQUIRE(getrlimit(RLIMIT_FSIZE, &limit) == 0);
-    const rlimit small{4096 + 2000, limit.rlim_max};
-    REQUIRE(setrlimit(RLIMIT_FSIZE, &small) == 0);
-    std::string reason;
     std::size_t batch = 0;
-    try {
+    const std::string reason = message_of_full_disk(4096 + 2000, [&] {
         const auto checkpoint = Checkpoint::create(path, kIdentity, kPlan);
         for (; batch < kPlan.batches(); ++batch) {
             checkpoint->write(batch, rows_of(kPlan, batch));
         }
-    } catch (const std::runtime_error& error) {
-        reason = error.what();
-    }
-    REQUIRE(setrlimit(RLIMIT_FSIZE, &limit) == 0);
+    });
     CHECK(contains(reason, "r.h5.part: cannot be written (File too large)"));
     REQUIRE(batch > 0);
     const auto checkpoint = Checkpoint::resume(path, kIdentity, kPlan);

@@ -1,7 +1,7 @@
 // Checks results files with a valid checksum and invalid contents: every reader refuses them with
 // the reason.
 #include "tests/mc/edited_results.hpp"
-#include "tests/mc/program.hpp"
+#include "tests/mc/results/small_results.hpp"
 
 namespace gearpod::test_edited_results {
 
@@ -10,15 +10,9 @@ namespace fs = std::filesystem;
 
 // Results of a small run, computed once: three healthy gearboxes, five graded, two noise levels.
 const std::string& genuine() {
-    static const Folder folder;
-    static const std::string path = [] {
-        const std::string file = folder.file("r.h5");
-        REQUIRE(program("run " + test::study("crack-in-sun.toml") +
-                        " --instances 5 --set ensemble.threshold_instances=3 --quiet --out " + file)
-                    .code == 0);
-        return file;
-    }();
-    return path;
+    static const SmallRun run(test::study("crack-in-sun.toml") +
+                              " --instances 5 --set ensemble.threshold_instances=3");
+    return run.path;
 }
 
 std::string text_of(const std::string& path, const std::string& name) {
@@ -142,8 +136,7 @@ TEST_CASE("Names that are not valid UTF-8 do not prevent a report's JSON") {
     const std::string path = folder.file("caf\xe9.h5");
     fs::copy_file(genuine(), path);
     edit_results(path, [](hid_t root) { replace_text(root, ".", "host", "caf\xe9"); });
-    const Outcome outcome = require_success("report '" + path + "' --json -");
-    CHECK(outcome.mentions("caf\xef\xbf\xbd.h5"));
+    check_mentions(require_success("report '" + path + "' --json -"), {"caf\xef\xbf\xbd.h5"});
 }
 
 }  // namespace gearpod::test_edited_results

@@ -4,7 +4,7 @@
 
 #include "mc/results/layout.hpp"
 #include "tests/mc/edited_results.hpp"
-#include "tests/mc/program.hpp"
+#include "tests/mc/results/small_results.hpp"
 
 namespace gearpod::test_integrity {
 
@@ -15,28 +15,13 @@ constexpr std::size_t kTrailingBytes = 16;
 
 // Results of a run with three gearboxes, computed once.
 const std::string& genuine() {
-    static const Folder folder;
-    static const std::string path = [] {
-        const std::string file = folder.file("r.h5");
-        REQUIRE(program("run " + study("planet-crack-ideal.toml") +
-                        " --instances 2 --set ensemble.threshold_instances=1 --quiet --out " + file)
-                    .code == 0);
-        return file;
-    }();
-    return path;
+    static const SmallRun run(test::study("planet-crack-ideal.toml") +
+                              " --instances 2 --set ensemble.threshold_instances=1");
+    return run.path;
 }
 
 std::string reason(const std::string& path) {
-    try {
-        mc::read_results(path);
-    } catch (const std::runtime_error& error) {
-        return error.what();
-    }
-    return "";
-}
-
-bool contains(const std::string& text, const std::string& part) {
-    return text.find(part) != std::string::npos;
+    return message_of([&] { mc::read_results(path); });
 }
 
 mc::Hdf5Handle open_for_writing(const std::string& path) {
@@ -124,8 +109,8 @@ TEST_CASE("Files of version 2 are read, without their trailing hash with a note"
     { const mc::Hdf5Handle file = open_for_writing(path); }
     CHECK(fs::file_size(path) == size - kTrailingBytes);
     CHECK(mc::check_file_checksum(path) == mc::ChecksumState::missing);
-    const Outcome cut = require_success("report " + path);
-    check_mentions(cut, {"has no integrity hash", "changes of its contents cannot be detected"});
+    check_mentions(require_success("report " + path),
+                   {"has no integrity hash", "changes of its contents cannot be detected"});
     CHECK(bits(path) == bits(genuine()));
     // A damaged byte of a file with the trailing hash is detected.
     write_version_2(path);
@@ -145,21 +130,21 @@ TEST_CASE("`repair` renews the hash of a readable file and of no other") {
         mc::write_text(file.get(), ".", "remark", "rig 7");
         mc::write_number(file.get(), ".", "rig", 7.0);
     }
-    CHECK(program("report " + path).code == 2);
+    check_refused("report " + path);
     const Outcome repaired = require_success("repair " + path);
     CHECK(repaired.mentions("changes of its contents before now cannot be detected"));
-    CHECK(program("report " + path).code == 0);
+    require_success("report " + path);
     CHECK(bits(path) == bits(genuine()));
 
     write_version_2(path);
     { const mc::Hdf5Handle file = open_for_writing(path); }
-    CHECK(program("repair " + path).code == 0);
+    require_success("repair " + path);
     CHECK(mc::check_file_checksum(path) == mc::ChecksumState::intact);
 
     // Missing data, values that no run writes, and other files cannot be repaired.
     const std::string bytes = bytes_of(genuine());
     write_bytes(path, bytes.substr(0, bytes.size() - 100));
-    CHECK(program("repair " + path).code == 2);
+    check_refused("repair " + path);
     CHECK(bytes_of(path).size() == bytes.size() - 100);
     fs::copy_file(genuine(), path, fs::copy_options::overwrite_existing);
     {
@@ -167,10 +152,10 @@ TEST_CASE("`repair` renews the hash of a readable file and of no other") {
         replace_numbers(file.get(), "noise_levels", {1}, {7.0});
     }
     const std::string before = bytes_of(path);
-    CHECK(program("repair " + path).code == 2);
+    check_refused("repair " + path);
     CHECK(bytes_of(path) == before);
     write_bytes(path, "a,b\n1,2\n");
-    CHECK(program("repair " + path).code == 2);
+    check_refused("repair " + path);
 }
 
 }  // namespace gearpod::test_integrity

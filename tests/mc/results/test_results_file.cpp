@@ -1,7 +1,6 @@
 // Checks the results file: complete or absent, readable by other programs, foreign files refused.
 #include <fcntl.h>
 #include <hdf5.h>
-#include <sys/resource.h>
 #include <sys/socket.h>
 #include <sys/stat.h>
 #include <sys/un.h>
@@ -13,7 +12,7 @@
 #include "mc/files/hdf5_data.hpp"
 #include "mc/results/result_rows.hpp"
 #include "mc/results/results_file.hpp"
-#include "tests/mc/program.hpp"
+#include "tests/mc/results/small_results.hpp"
 
 namespace gearpod::mc::test_results_file {
 
@@ -54,16 +53,7 @@ Results example() {
 }
 
 std::string reason_of(const std::string& path) {
-    try {
-        read_results(path);
-    } catch (const std::runtime_error& error) {
-        return error.what();
-    }
-    return "";
-}
-
-bool contains(const std::string& text, const std::string& part) {
-    return text.find(part) != std::string::npos;
+    return message_of([&] { read_results(path); });
 }
 
 TEST_CASE("Results read back as they were written") {
@@ -240,19 +230,7 @@ TEST_CASE("A failed write leaves only the old file") {
     write_results(path, example());
     const std::string before = bytes_of(path);
 
-    // A limit on the file size simulates a full disk.
-    std::signal(SIGXFSZ, SIG_IGN);
-    rlimit limit{};
-    REQUIRE(getrlimit(RLIMIT_FSIZE, &limit) == 0);
-    const rlimit small{1000, limit.rlim_max};
-    REQUIRE(setrlimit(RLIMIT_FSIZE, &small) == 0);
-    std::string reason;
-    try {
-        write_results(path, example());
-    } catch (const std::runtime_error& error) {
-        reason = error.what();
-    }
-    REQUIRE(setrlimit(RLIMIT_FSIZE, &limit) == 0);
+    const std::string reason = message_of_full_disk(1000, [&] { write_results(path, example()); });
     CHECK(contains(reason, path + ": cannot be written (File too large)"));
     CHECK(bytes_of(path) == before);
     CHECK(folder.files() == 1);
@@ -316,12 +294,7 @@ TEST_CASE("An output that is not a regular file is refused and kept") {
     for (const std::string& path : {fifo, socket_path, folder.file("link")}) {
         const fs::file_type before = fs::symlink_status(path).type();
         CHECK(contains(why_not_writable(path), "a regular file is needed"));
-        std::string reason;
-        try {
-            write_results(path, example());
-        } catch (const std::runtime_error& error) {
-            reason = error.what();
-        }
+        const std::string reason = message_of([&] { write_results(path, example()); });
         CHECK(contains(reason, path + ": cannot be written ("));
         CHECK(contains(reason, "a regular file is needed"));
         CHECK(fs::symlink_status(path).type() == before);

@@ -17,18 +17,6 @@ std::vector<double> te_turn(const mc::Scene& scene, std::uint64_t number = 0) {
     return {tile.te_turn.begin(), tile.te_turn.end()};
 }
 
-// Amplitudes by order of the planet turn.
-std::vector<double> orders(const std::vector<double>& turn) {
-    std::vector<std::complex<double>> in(turn.begin(), turn.end()), out(turn.size());
-    kissfft<double> fft(turn.size(), false);
-    fft.transform(in.data(), out.data());
-    std::vector<double> amplitudes;
-    for (std::size_t i = 0; i < out.size() / 2; ++i) {
-        amplitudes.push_back(2.0 * std::abs(out[i]) / static_cast<double>(out.size()));
-    }
-    return amplitudes;
-}
-
 // Largest amplitude at orders that are not multiples of `step`, relative to the largest of all.
 double off_multiples(const std::vector<double>& amplitudes, std::size_t step) {
     double off = 0.0, largest = 0.0;
@@ -37,14 +25,6 @@ double off_multiples(const std::vector<double>& amplitudes, std::size_t step) {
         of = std::max(of, amplitudes[i]);
     }
     return off / largest;
-}
-
-double rms(const std::vector<double>& values) {
-    double sum = 0.0;
-    for (const double value : values) {
-        sum += value * value;
-    }
-    return std::sqrt(sum / static_cast<double>(values.size()));
 }
 
 // Stiffness of a pair at a phase of the planet turn, including a faulty tooth during its passage.
@@ -152,12 +132,12 @@ TEST_CASE("Figs. 9, 10: multiples of 26 in phase; out of phase multiples of 78 o
     const mc::Scene in_phase(shipped_study("published/park-fig-9.toml"));
     const mc::Scene phased(shipped_study("published/park-fig-10.toml"));
     const auto together = te_turn(in_phase), apart = te_turn(phased);
-    CHECK(off_multiples(orders(together), 26) < 1e-10);
-    CHECK(off_multiples(orders(apart), 78) < 1e-10);
-    CHECK(off_multiples(orders(together), 78) > 0.5);
-    const auto amplitudes = orders(together);
+    CHECK(off_multiples(lines(together), 26) < 1e-10);
+    CHECK(off_multiples(lines(apart), 78) < 1e-10);
+    CHECK(off_multiples(lines(together), 78) > 0.5);
+    const auto amplitudes = lines(together);
     CHECK(std::max_element(amplitudes.begin() + 1, amplitudes.end()) - amplitudes.begin() == 26);
-    CHECK(rms(apart) < 0.5 * rms(together));
+    CHECK(rms_of(apart) < 0.5 * rms_of(together));
 }
 
 TEST_CASE("Fig. 11: two unequal spikes half a planet turn apart, low orders and sidebands") {
@@ -174,7 +154,7 @@ TEST_CASE("Fig. 11: two unequal spikes half a planet turn apart, low orders and 
         CHECK(now.centre[1] - now.centre[0] == Approx(13.0).margin(1.0));
         before = now;
     }
-    const auto healthy = orders(te_turn(scene, 0)), faulty = orders(te_turn(scene, 3));
+    const auto healthy = lines(te_turn(scene, 0)), faulty = lines(te_turn(scene, 3));
     CHECK(off_multiples(healthy, 78) < 1e-10);
     CHECK(faulty[78] == Approx(healthy[78]).epsilon(0.02));
     const auto largest = [&](std::ptrdiff_t from, std::ptrdiff_t to) {
@@ -252,8 +232,8 @@ TEST_CASE("All six working conditions: the TE follows from the output's radius a
         }
         INFO("fixed " << static_cast<int>(condition.fixed) << ", input "
                       << static_cast<int>(condition.input));
-        CHECK(worst < 1e-8 * rms(expected));
-        CHECK(off_multiples(orders(te_turn(scene, 0)), 78) < 1e-10);
+        CHECK(worst < 1e-8 * rms_of(expected));
+        CHECK(off_multiples(lines(te_turn(scene, 0)), 78) < 1e-10);
     }
 }
 

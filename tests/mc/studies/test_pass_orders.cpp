@@ -16,9 +16,8 @@ const std::string kSmall = std::string(GEARPOD_SOURCE_DIR) + "/tests/features/re
 std::vector<double> amplitudes(int meshes, const std::string& errors) {
     const Folder folder;
     const std::string path = folder.file("s.h5");
-    REQUIRE(program("simulate " + kSmall + errors + " --instance 2 --meshes " +
-                    std::to_string(meshes) + " --out " + path)
-                .code == 0);
+    require_success("simulate " + kSmall + errors + " --instance 2 --meshes " +
+                    std::to_string(meshes) + " --out " + path);
     const mc::Hdf5Handle file(H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), H5Fclose, path);
     const mc::Hdf5Handle group = mc::open_group(file.get(), "signals");
     const auto samples = mc::read_numbers(group.get(), "sensor", 1000000).values;

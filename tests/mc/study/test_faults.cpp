@@ -155,11 +155,8 @@ TEST_CASE("Text about a fault names its kind and its size") {
         const std::string text = text_with(*kind), words(kind->words());
         const std::string path = folder.file(std::string(kind->name()) + ".toml");
         write_bytes(path, text);
-        const Outcome described = program("describe " + path + " --seconds 0.1");
-        INFO(described.output);
-        CHECK(described.code == 0);
-        CHECK(described.mentions(std::string(kind->title()) + " on the sun"));
-        CHECK(described.mentions("fault origin"));
+        check_mentions(require_success("describe " + path + " --seconds 0.1"),
+                       {std::string(kind->title()) + " on the sun", "fault origin"});
 
         const std::string name = "fault.kind = \"" + std::string(kind->name()) + "\"",
                           size = std::string(kind->size().name);

@@ -1,7 +1,7 @@
 #include "signals/noise/coloured_noise.hpp"
 #include "signals/noise/sensor_noise.hpp"
 #include "signals/spectra/fourier_transform.hpp"
-#include "tests/test.hpp"
+#include "tests/numbers.hpp"
 
 namespace gearpod::signals::test_low_pass_noise {
 
@@ -196,11 +196,8 @@ TEST_CASE("Samples have variance 1, and the rms is the root of the integrated de
     std::mt19937_64 engine(9);
     std::vector<double> samples(1 << 19);
     noise.draw(engine, std::span(samples));
-    double square = 0.0;
-    for (const double value : samples) {
-        square += value * value / static_cast<double>(samples.size());
-    }
-    CHECK(square == Approx(1.0).epsilon(0.02));
+    CHECK(test::sum_of_squares(samples) / static_cast<double>(samples.size()) ==
+          Approx(1.0).epsilon(0.02));
     // Without a low-pass: 0.02^2 (250 + 300 (1 - 1/512) / 3).
     CHECK(kSpectrum.rms_m_s2(1e9) ==
           Approx(0.02 * std::sqrt(250.0 + 100.0 * (1.0 - 1.0 / 512.0))).epsilon(1e-9));

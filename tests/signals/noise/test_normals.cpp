@@ -1,9 +1,8 @@
 #include <boost/math/distributions/normal.hpp>
 
-#include "machine/instruction_sets.hpp"
 #include "signals/noise/normals.hpp"
+#include "tests/numbers.hpp"
 #include "tests/signals/noise/kolmogorov.hpp"
-#include "tests/test.hpp"
 
 namespace gearpod::signals::test_normals {
 
@@ -83,12 +82,7 @@ TEST_CASE("Normal values match Box and Muller's formula in 80 bits") {
 TEST_CASE("Normal values have the same bits on every instruction set") {
     const auto words = some_words();
     const auto reference = normals(words);
-    const auto best = machine::best_instruction_set();
-    for (int set = 0; set <= static_cast<int>(best); ++set) {
-        machine::use_instruction_set(static_cast<machine::InstructionSet>(set));
-        CHECK(normals(words) == reference);
-    }
-    machine::use_instruction_set(best);
+    test::for_each_instruction_set([&] { CHECK(normals(words) == reference); });
     std::vector<double> few(kNormalBlock - 1);
     CHECK_THROWS_AS(normals_from_words(std::span(words).first(few.size()), few),
                     std::invalid_argument);

@@ -2,8 +2,8 @@
 #include <boost/math/distributions/normal.hpp>
 
 #include "signals/noise/sensor_noise.hpp"
+#include "tests/numbers.hpp"
 #include "tests/signals/noise/kolmogorov.hpp"
-#include "tests/test.hpp"
 
 namespace gearpod::signals::test_sensor_noise {
 
@@ -112,10 +112,7 @@ TEST_CASE("A reconstructed noisy signal folds to the noisy bins and its noise is
     for (int i = 0; i < kTurns; ++i) {
         signal[i * kBins] = 0.0;  // a silent bin
     }
-    std::vector<double> folded(kBins, 0.0);
-    for (std::size_t i = 0; i < signal.size(); ++i) {
-        folded[i % kBins] += signal[i] * signal[i];
-    }
+    const std::vector<double> folded = test::folded_squares(signal, kBins);
     NoiseVariates draw;
     SensorNoise(kTurns).draw(engine, kBins, draw);
     const double sigma = 0.5;
@@ -129,17 +126,11 @@ TEST_CASE("A reconstructed noisy signal folds to the noisy bins and its noise is
         noisy[i] += sigma * unit[i];
     }
 
-    std::vector<double> refolded(kBins, 0.0);
-    std::vector<double> noise(signal.size());
-    for (std::size_t i = 0; i < signal.size(); ++i) {
-        refolded[i % kBins] += noisy[i] * noisy[i];
-        noise[i] = (noisy[i] - signal[i]) / sigma;
+    CHECK(test::largest_error(test::folded_squares(noisy, kBins), expected) < 1e-12);
+    std::vector<double> noise = test::difference(noisy, signal);
+    for (double& value : noise) {
+        value /= sigma;
     }
-    double worst = 0.0;
-    for (std::size_t b = 0; b < kBins; ++b) {
-        worst = std::max(worst, std::abs(refolded[b] / expected[b] - 1.0));
-    }
-    CHECK(worst < 1e-12);
 
     const boost::math::normal standard;
     CHECK(kolmogorov(noise, [&](double x) { return cdf(standard, x); }) < 1.95);
@@ -153,10 +144,7 @@ TEST_CASE("A reconstructed noisy signal folds to the noisy bins and its noise is
         }
         CHECK(std::abs(sum / static_cast<double>(noise.size())) < limit);
     }
-    double with_signal = 0.0;
-    for (std::size_t i = 0; i < noise.size(); ++i) {
-        with_signal += noise[i] * signal[i];
-    }
+    const double with_signal = std::inner_product(noise.begin(), noise.end(), signal.begin(), 0.0);
     CHECK(std::abs(with_signal / static_cast<double>(noise.size())) < limit);
 }
 

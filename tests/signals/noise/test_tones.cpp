@@ -1,9 +1,9 @@
 #include "machine/instruction_sets.hpp"
 #include "signals/sensor/sensor_signal.hpp"
 #include "signals/windowing/folded_signal.hpp"
+#include "tests/numbers.hpp"
 #include "tests/signals/direct_signal.hpp"
 #include "tests/signals/random_tile.hpp"
-#include "tests/test.hpp"
 
 namespace gearpod::signals::test_tones {
 
@@ -70,10 +70,7 @@ TEST_CASE("Folded squares with tones equal the sums over all samples of the span
         double worst = 0.0;
         for (int lane = 0; lane < 8; ++lane) {
             const auto signal = direct_signal_with_tones(tile, lane, timeline, layout, tones);
-            std::vector<double> expected(bins, 0.0);
-            for (std::size_t i = 0; i < signal.size(); ++i) {
-                expected[i % bins] += signal[i] * signal[i];
-            }
+            const std::vector<double> expected = test::folded_squares(signal, bins);
             for (std::size_t b = 0; b < bins; ++b) {
                 worst = std::max(worst, std::abs(folded[b * 8 + lane] / expected[b] - 1.0));
             }
@@ -124,11 +121,9 @@ TEST_CASE(
     const FoldPlan plan(event_timeline(31, 2, 4), layout);
     const PathGrid path(path_window("hamming"), 4, 12, layout);
     const Tones tones = rig_tones();
-    const auto best = machine::best_instruction_set();
     machine::AlignedVector reference;
     fold_squares(tile.signals, plan, path, kExponents, tones, reference);
-    for (int set = 0; set <= static_cast<int>(best); ++set) {
-        machine::use_instruction_set(static_cast<machine::InstructionSet>(set));
+    test::for_each_instruction_set([&] {
         machine::AlignedVector folded;
         fold_squares(tile.signals, plan, path, kExponents, tones, folded);
         CHECK(folded == reference);
@@ -142,8 +137,7 @@ TEST_CASE(
                          folded);
             CHECK(folded == lanes_of(reference, first, count));
         }
-    }
-    machine::use_instruction_set(best);
+    });
 }
 
 TEST_CASE(
@@ -158,11 +152,7 @@ TEST_CASE(
     const auto signal = synthesize(tile.signals, LaneId{lane}, timeline, layout, path,
                                    kExponents[lane], 0, layout.meshes(), tones);
     const auto expected = direct_signal_with_tones(tile, lane, timeline, layout, tones);
-    double worst = 0.0;
-    for (std::size_t i = 0; i < signal.size(); ++i) {
-        worst = std::max(worst, std::abs(signal[i] - expected[i]));
-    }
-    CHECK(worst < 1e-10);
+    CHECK(test::largest_difference(signal, expected) < 1e-10);
     const auto part = synthesize(tile.signals, LaneId{lane}, timeline, layout, path,
                                  kExponents[lane], 1000, 70, tones);
     CHECK(std::equal(part.begin(), part.end(), signal.begin() + 6000));

@@ -3,7 +3,7 @@
 #include "signals/path/frequency_response.hpp"
 #include "signals/path/transmission_path.hpp"
 #include "signals/sensor/sensor_signal.hpp"
-#include "tests/test.hpp"
+#include "tests/numbers.hpp"
 
 namespace gearpod::signals::test_housing_response {
 
@@ -233,11 +233,7 @@ TEST_CASE("A low-pass of its own takes the place of the one that was applied") {
         const Complex expected = butterworth(f_Hz / kOwn_Hz);
         CHECK(std::abs(expected) == Approx(1.0 / std::sqrt(1.0 + std::pow(f_Hz / kOwn_Hz, 8.0))));
         const auto reference = sine(f_Hz, expected);
-        double largest = 0.0;
-        for (std::size_t i = 0; i < out.size(); ++i) {
-            largest = std::max(largest, std::abs(out[i] - reference[i]));
-        }
-        CHECK(largest < 1e-9 * std::abs(expected));
+        CHECK(test::largest_difference(out, reference) < 1e-9 * std::abs(expected));
         // The ratio of both Butterworth gains is the amplitude of the chain.
         CHECK(std::abs(chain.at(f_Hz)) ==
               Approx(std::sqrt((1.0 + std::pow(f_Hz / kApplied_Hz, 8.0)) /

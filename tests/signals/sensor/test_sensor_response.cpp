@@ -3,8 +3,8 @@
 #include "signals/sensor/sensor_signal.hpp"
 #include "signals/spectra/synchronous_average.hpp"
 #include "signals/windowing/folded_signal.hpp"
+#include "tests/numbers.hpp"
 #include "tests/signals/random_tile.hpp"
-#include "tests/test.hpp"
 
 namespace gearpod::signals::test_sensor_response {
 
@@ -67,12 +67,7 @@ TEST_CASE(
 
         machine::AlignedVector folded;
         fold_squares(tile.signals, FoldPlan(in_span, kLayout), path, kExponents, tones, folded);
-        REQUIRE(span.folded().size() == folded.size());
-        double worst = 0.0;
-        for (std::size_t i = 0; i < folded.size(); ++i) {
-            worst = std::max(worst, std::abs(span.folded()[i] / folded[i] - 1.0));
-        }
-        CHECK(worst < 1e-14);
+        CHECK(test::largest_error(span.folded(), folded) < 1e-14);
     }
 }
 
@@ -80,9 +75,7 @@ TEST_CASE("A gearbox's signals have the same bits alone, among others and on eve
     const RandomTile tile(8, kPlanets, kPhases, kMeshes);
     const PathGrid path = path_to_sensor();
     const SensorResponse all = recorded_response(tile, path, kExponents, tones_of(0, 8), kMeshes);
-    const auto best = machine::best_instruction_set();
-    for (int set = 0; set <= static_cast<int>(best); ++set) {
-        machine::use_instruction_set(static_cast<machine::InstructionSet>(set));
+    test::for_each_instruction_set([&] {
         for (const auto& [first, count] : {std::pair{0, 4}, {4, 4}, {5, 1}}) {
             const RandomTile part(tile, first, count);
             const SensorResponse some =
@@ -92,8 +85,7 @@ TEST_CASE("A gearbox's signals have the same bits alone, among others and on eve
             CHECK(some.averaged_te() == lanes_of(all.averaged_te(), first, count));
             CHECK(some.signal(LaneId{0}, kMeshes) == all.signal(LaneId{first}, kMeshes));
         }
-    }
-    machine::use_instruction_set(best);
+    });
 }
 
 TEST_CASE("Samples that are not requested are not stored") {

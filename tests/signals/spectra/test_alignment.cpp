@@ -1,7 +1,7 @@
 // Checks the alignment of one record in another: known shifts are recovered, and noise and other
 // signals lower the correlation.
 #include "signals/spectra/alignment.hpp"
-#include "tests/test.hpp"
+#include "tests/numbers.hpp"
 
 namespace gearpod::signals::test_alignment {
 
@@ -17,14 +17,6 @@ std::vector<double> lines(std::size_t n, double shift) {
     return signal;
 }
 
-double farthest(const std::vector<double>& a, const std::vector<double>& b) {
-    double most = 0.0;
-    for (std::size_t i = 0; i < a.size(); ++i) {
-        most = std::max(most, std::abs(a[i] - b[i]));
-    }
-    return most;
-}
-
 TEST_CASE("An integer or fractional shift is found and removed") {
     for (const std::size_t n : {279U, 512U, 31U * 27U}) {
         for (const double shift : {0.0, 17.0, 100.37, static_cast<double>(n) - 0.25}) {
@@ -33,7 +25,7 @@ TEST_CASE("An integer or fractional shift is found and removed") {
             CHECK(found.correlation == Approx(1.0).margin(1e-9));
             CHECK(std::remainder(found.shift.total() - shift, static_cast<double>(n)) ==
                   Approx(0.0).margin(1e-6));
-            CHECK(farthest(shifted(other, found.shift), signal) < 1e-5);
+            CHECK(test::largest_difference(shifted(other, found.shift), signal) < 1e-5);
         }
     }
 }

@@ -1,8 +1,7 @@
 #include <thread>
 
-#include "machine/instruction_sets.hpp"
 #include "signals/spectra/fourier_transform.hpp"
-#include "tests/test.hpp"
+#include "tests/numbers.hpp"
 
 namespace gearpod::signals::test_fourier_transform {
 
@@ -74,12 +73,8 @@ TEST_CASE("The transform and its inverse give the signal times its length") {
 TEST_CASE("Fourier transforms have the same bits on every instruction set") {
     const auto signal = random_signal(31 * 108);
     const auto reference = transformed(signal, FourierTransform::Direction::forward);
-    const auto best = machine::best_instruction_set();
-    for (int set = 0; set <= static_cast<int>(best); ++set) {
-        machine::use_instruction_set(static_cast<machine::InstructionSet>(set));
-        CHECK(transformed(signal, FourierTransform::Direction::forward) == reference);
-    }
-    machine::use_instruction_set(best);
+    test::for_each_instruction_set(
+        [&] { CHECK(transformed(signal, FourierTransform::Direction::forward) == reference); });
 }
 
 TEST_CASE("Transforms that share the factors of a length have the bits of another thread's first") {

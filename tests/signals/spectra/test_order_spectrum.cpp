@@ -1,5 +1,5 @@
 #include "signals/spectra/order_spectrum.hpp"
-#include "tests/test.hpp"
+#include "tests/numbers.hpp"
 
 namespace gearpod::signals::test_order_spectrum {
 
@@ -46,11 +46,7 @@ TEST_CASE(
             std::vector<double> amplitudes(spectrum.orders());
             spectrum.amplitudes(factor, amplitudes);
             REQUIRE(amplitudes.size() == expected.size());
-            double worst = 0.0;
-            for (std::size_t k = 0; k < expected.size(); ++k) {
-                worst = std::max(worst, std::abs(amplitudes[k] - expected[k]));
-            }
-            CHECK(worst < 1e-13);
+            CHECK(test::largest_difference(amplitudes, expected) < 1e-13);
         }
     }
 }
@@ -107,14 +103,6 @@ std::vector<double> sampled(int points, const auto& function) {
     return values;
 }
 
-double largest_difference(std::span<const double> a, std::span<const double> b) {
-    double worst = 0.0;
-    for (std::size_t i = 0; i < a.size(); ++i) {
-        worst = std::max(worst, std::abs(a[i] - b[i]));
-    }
-    return worst;
-}
-
 TEST_CASE("Mesh harmonics, their first sidebands and the rest go to their parts") {
     constexpr int kTeeth = 31, kPoints = 31 * 24;
     const auto harmonics = sampled(kPoints, [](double x) {
@@ -133,9 +121,9 @@ TEST_CASE("Mesh harmonics, their first sidebands and the rest go to their parts"
     }
     MeshSeparation separation(kPoints, kTeeth);
     separation.load(turn);
-    CHECK(largest_difference(separation.regular(), regular) < 1e-12);
-    CHECK(largest_difference(separation.residual(), residual) < 1e-12);
-    CHECK(largest_difference(separation.difference(), rest) < 1e-12);
+    CHECK(test::largest_difference(separation.regular(), regular) < 1e-12);
+    CHECK(test::largest_difference(separation.residual(), residual) < 1e-12);
+    CHECK(test::largest_difference(separation.difference(), rest) < 1e-12);
     CHECK(separation.amplitude()[0] == Approx(5.0));
     CHECK(separation.amplitude()[30] == Approx(0.4));
     CHECK(separation.amplitude()[29] == Approx(0.7));
@@ -158,7 +146,7 @@ TEST_CASE("The parts of any turn add up to it") {
         for (std::size_t i = 0; i < sum.size(); ++i) {
             sum[i] = mean + separation.regular()[i] + separation.difference()[i];
         }
-        CHECK(largest_difference(sum, turn) < 1e-12);
+        CHECK(test::largest_difference(sum, turn) < 1e-12);
     }
     CHECK_THROWS_AS(MeshSeparation(7, 2), std::invalid_argument);
     CHECK_THROWS_AS(MeshSeparation(27, 7), std::invalid_argument);

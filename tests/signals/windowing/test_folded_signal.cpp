@@ -1,21 +1,13 @@
 #include "machine/instruction_sets.hpp"
 #include "signals/sensor/sensor_signal.hpp"
 #include "signals/windowing/folded_signal.hpp"
+#include "tests/numbers.hpp"
 #include "tests/signals/direct_signal.hpp"
 #include "tests/signals/random_tile.hpp"
-#include "tests/test.hpp"
 
 namespace gearpod::signals::test_folded_signal {
 
 const std::vector<double> kExponents{0.1, 0.0, -0.1, 0.25, 0.9, -1.0, 0.13, 0.07};
-
-std::vector<double> direct_fold(const std::vector<double>& signal, std::size_t bins) {
-    std::vector<double> folded(bins, 0.0);
-    for (std::size_t i = 0; i < signal.size(); ++i) {
-        folded[i % bins] += signal[i] * signal[i];
-    }
-    return folded;
-}
 
 // Largest relative difference between the folded squares of the tile and the sample-by-sample sum.
 double fold_error(const RandomTile& tile, const Timeline& timeline, const SpanLayout& layout,
@@ -28,9 +20,9 @@ double fold_error(const RandomTile& tile, const Timeline& timeline, const SpanLa
     double worst = 0.0;
     for (int lane = 0; lane < 8; ++lane) {
         const std::vector<double> expected =
-            direct_fold(direct_signal(tile.signals, lane, timeline, layout, path_window(window),
-                                      kExponents[lane]),
-                        bins);
+            test::folded_squares(direct_signal(tile.signals, lane, timeline, layout,
+                                               path_window(window), kExponents[lane]),
+                                 bins);
         for (std::size_t b = 0; b < bins; ++b) {
             worst = std::max(worst, std::abs(folded[b * 8 + lane] / expected[b] - 1.0));
         }
@@ -73,12 +65,10 @@ TEST_CASE(
     const Timeline timeline = event_timeline(31, 2, 4);
     const FoldPlan plan(timeline, layout);
     const PathGrid path(path_window("hamming"), 4, 12, layout);
-    const auto best = machine::best_instruction_set();
     machine::AlignedVector reference;
     fold_squares(tile.signals, plan, path, kExponents, reference);
 
-    for (int set = 0; set <= static_cast<int>(best); ++set) {
-        machine::use_instruction_set(static_cast<machine::InstructionSet>(set));
+    test::for_each_instruction_set([&] {
         machine::AlignedVector folded;
         fold_squares(tile.signals, plan, path, kExponents, folded);
         CHECK(folded == reference);
@@ -88,8 +78,7 @@ TEST_CASE(
                          folded);
             CHECK(folded == lanes_of(reference, first, count));
         }
-    }
-    machine::use_instruction_set(best);
+    });
 }
 
 // Tile whose other lanes converge more slowly: places of the timeline that are equal for this lane
@@ -130,11 +119,7 @@ TEST_CASE(
                                                   path, kExponents[lane], 0, layout.meshes());
     const std::vector<double> expected = direct_signal(tile.signals, lane, timeline, layout,
                                                        path_window("hamming"), kExponents[lane]);
-    double worst = 0.0;
-    for (std::size_t i = 0; i < signal.size(); ++i) {
-        worst = std::max(worst, std::abs(signal[i] - expected[i]));
-    }
-    CHECK(worst < 1e-12);
+    CHECK(test::largest_difference(signal, expected) < 1e-12);
 
     const std::vector<double> part =
         synthesize(tile.signals, LaneId{lane}, timeline, layout, path, kExponents[lane], 100, 7);
@@ -144,11 +129,8 @@ TEST_CASE(
     fold_squares(tile.signals, FoldPlan(timeline, layout), path, kExponents, folded);
     std::vector<double> bins(folded.size() / 8);
     copy_lane(folded, 8, LaneId{lane}, bins);
-    double sum = 0.0;
-    for (const double y : signal) {
-        sum += y * y;
-    }
-    CHECK(std::accumulate(bins.begin(), bins.end(), 0.0) == Approx(sum).epsilon(1e-12));
+    CHECK(std::accumulate(bins.begin(), bins.end(), 0.0) ==
+          Approx(test::sum_of_squares(signal)).epsilon(1e-12));
 }
 
 TEST_CASE(

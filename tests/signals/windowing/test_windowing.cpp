@@ -1,6 +1,5 @@
-#include "machine/instruction_sets.hpp"
 #include "signals/windowing/windowing.hpp"
-#include "tests/test.hpp"
+#include "tests/numbers.hpp"
 
 namespace gearpod::signals::test_windowing {
 
@@ -49,14 +48,6 @@ std::vector<double> window_and_map(const std::vector<double>& signal, const Span
         rms.push_back(std::sqrt(sum / static_cast<double>(samples)));
     }
     return rms;
-}
-
-std::vector<double> fold(const std::vector<double>& signal, std::size_t bins) {
-    std::vector<double> folded(bins, 0.0);
-    for (std::size_t i = 0; i < signal.size(); ++i) {
-        folded[i % bins] += signal[i] * signal[i];
-    }
-    return folded;
 }
 
 TEST_CASE(
@@ -133,7 +124,7 @@ TEST_CASE("Tooth RMS from the folded squares equals windowing and mapping of the
         }
         Windowing windowing(layout, phases, taper);
         std::vector<double> rms(layout.planet_teeth);
-        windowing.load(fold(signal, 7 * 22));
+        windowing.load(test::folded_squares(signal, 7 * 22));
         const int offset = windowing.search(0.0, rms);
 
         int best = 0;
@@ -148,9 +139,7 @@ TEST_CASE("Tooth RMS from the folded squares equals windowing and mapping of the
         }
         CHECK(offset == best);
         const auto expected = window_and_map(signal, layout, phases, taper, best);
-        for (int j = 0; j < layout.planet_teeth; ++j) {
-            CHECK(rms[j] == Approx(expected[j]).epsilon(1e-12));
-        }
+        test::check_close(rms, expected, 1e-12);
     }
 }
 
@@ -172,11 +161,7 @@ TEST_CASE("Every noise level's windows match its noisy bins, for faint noise or 
                     INFO(teeth << " teeth, " << phases << " phases, taper " << taper << ", noise "
                                << sigma);
                     CHECK(windowing.search(sigma, rms) == expected.offset);
-                    double worst = 0.0;
-                    for (int j = 0; j < teeth; ++j) {
-                        worst = std::max(worst, std::abs(rms[j] / expected.rms[j] - 1.0));
-                    }
-                    CHECK(worst < 1e-14);
+                    CHECK(test::largest_error(rms, expected.rms) < 1e-14);
                     CHECK(windowing.mean_square(sigma) ==
                           Approx(expected.mean_square).epsilon(1e-14));
                 }
@@ -253,21 +238,18 @@ TEST_CASE("The window search gives the same bits on every instruction set") {
     const NoiseVariates noise{random_values(folded.size(), 7, -2.0, 2.0),
                               random_values(folded.size(), 8, 60.0, 90.0)};
     Windowing windowing(layout, 432, 0.1);
-    const auto best = machine::best_instruction_set();
     for (const double sigma : {0.0, 0.3}) {
         std::vector<double> reference(31);
         windowing.load(folded, noise);
         const int offset = windowing.search(sigma, reference);
         const double square = windowing.mean_square(sigma);
-        for (int set = 0; set <= static_cast<int>(best); ++set) {
-            machine::use_instruction_set(static_cast<machine::InstructionSet>(set));
+        test::for_each_instruction_set([&] {
             std::vector<double> rms(31);
             windowing.load(folded, noise);
             CHECK(windowing.search(sigma, rms) == offset);
             CHECK(rms == reference);
             CHECK(windowing.mean_square(sigma) == square);
-        }
-        machine::use_instruction_set(best);
+        });
     }
 }
 

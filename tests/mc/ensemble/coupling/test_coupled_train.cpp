@@ -129,11 +129,11 @@ TEST_CASE("An elastic shaft bears the same torque at both ends", "[coupled-train
 TEST_CASE("A stage whose study drives from the other side turns the other way", "[coupled-train]") {
     // Both suns are driven, so that one of the studies describes the mirrored train.
     const Folder folder;
-    const auto text = require_success(
-        "describe " + kSmall + " " + kOptions + "--set 'sensor.stages=[{name=\"a\", study=\"" +
-        stage_file(folder, "stage.toml") + "\", shaft=\"sun\", stage_shaft=\"sun\"" + shaft(2e3) +
-        "}]'");
-    CHECK(text.mentions("its study is mirrored"));
+    check_mentions(require_success("describe " + kSmall + " " + kOptions +
+                                   "--set 'sensor.stages=[{name=\"a\", study=\"" +
+                                   stage_file(folder, "stage.toml") +
+                                   "\", shaft=\"sun\", stage_shaft=\"sun\"" + shaft(2e3) + "}]'"),
+                   {"its study is mirrored"});
 }
 
 TEST_CASE("A shaft carries lines of the stage to the transmission error", "[coupled-train]") {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "tests/mc/program.hpp"
+#include "tests/numbers.hpp"
 
 namespace gearpod::test {
 
@@ -17,9 +18,15 @@ inline const std::string kFewGearboxes =
 inline mc::Results run_small(const Folder& folder, const std::string& name,
                              const std::string& options) {
     const std::string path = folder.file(name);
-    gearpod::test::require_success("run " + kSmall + kFewGearboxes + "--out " + path + " " +
-                                   options);
+    require_success("run " + kSmall + kFewGearboxes + "--out " + path + " " + options);
     return mc::read_results(path);
+}
+
+// Results of that run without options, computed once.
+inline const mc::Results& plain_small_run() {
+    static const Folder folder;
+    static const mc::Results results = run_small(folder, "plain.h5", "");
+    return results;
 }
 
 // Columns of a CSV table by their names without units.
@@ -45,11 +52,12 @@ inline Columns columns_of(const std::string& path) {
     return columns;
 }
 
-// Signals of gearbox 2 of the study over the 455 mesh periods that repeat.
-inline Columns signals_of_small(const Folder& folder, const std::string& options) {
+// Signals of gearbox 2 of the study; they repeat after 455 mesh periods.
+inline Columns signals_of_small(const Folder& folder, const std::string& options,
+                                int meshes = 455) {
     const std::string path = folder.file("s.csv");
-    gearpod::test::require_success("simulate " + kSmall + " --instance 2 --meshes 455 --out " +
-                                   path + options);
+    require_success("simulate " + kSmall + " --instance 2 --meshes " + std::to_string(meshes) +
+                    " --out " + path + " --force " + options);
     return columns_of(path);
 }
 
@@ -72,16 +80,18 @@ inline const std::vector<double>& values(const std::vector<mc::FeatureResult>& f
     return std::ranges::find(features, name, &mc::FeatureResult::name)->values;
 }
 
-inline void check_close(const std::vector<double>& a, const std::vector<double>& b, double relative,
-                        double margin = 0.0) {
-    REQUIRE(a.size() == b.size());
-    for (std::size_t i = 0; i < a.size(); ++i) {
-        CHECK(a[i] == Approx(b[i]).epsilon(relative).margin(margin));
-    }
-}
-
 inline void check_same_bits(const std::vector<double>& a, const std::vector<double>& b) {
     CHECK(bits_of_values(a) == bits_of_values(b));
+}
+
+// Checks that all features of two runs have the same bits, at the first sensor and the next one.
+inline void check_same_features(const mc::Results& a, const mc::Results& b) {
+    REQUIRE(a.features.size() == b.features.size());
+    for (std::size_t f = 0; f < a.features.size(); ++f) {
+        INFO(a.features[f].name);
+        check_same_bits(a.features[f].values, b.features[f].values);
+        check_same_bits(a.variants[0].features[f].values, b.variants[0].features[f].values);
+    }
 }
 
 // Output of `features` for the exported samples of gearbox 25 of such a run, which has 455 mesh
@@ -89,23 +99,19 @@ inline void check_same_bits(const std::vector<double>& a, const std::vector<doub
 inline Outcome features_of_export(const Folder& folder, const std::string& sensor,
                                   const std::string& options) {
     const std::string signal = folder.file("signal.h5");
-    gearpod::test::require_success("simulate " + kSmall + " --instance 25 --meshes 455 --out " +
-                                   signal + kFewGearboxes + options);
-    const auto measured = gearpod::test::require_success("features " + signal + " --sensor " +
-                                                         sensor + " --study " + kSmall);
-    return measured;
+    require_success("simulate " + kSmall + " --instance 25 --meshes 455 --out " + signal +
+                    kFewGearboxes + options);
+    return require_success("features " + signal + " --sensor " + sensor + " --study " + kSmall);
 }
 
-// Checks that a run with these options has the same bits with other threads, and merged from parts.
+// Checks that a run with these options has the same bits merged from parts of other threads.
 inline void check_equal_bits_over_parts(const std::string& options) {
     const Folder folder;
     const auto whole = bits(run_small(folder, "whole.h5", options));
-    CHECK(bits(run_small(folder, "threads.h5", options + " --set numerics.threads=3")) == whole);
-    run_small(folder, "1.h5", options + " --part 1/2");
-    run_small(folder, "2.h5", options + " --part 2/2");
-    const auto merged =
-        gearpod::test::require_success("merge --out " + folder.file("merged.h5") + " " +
-                                       folder.file("1.h5") + " " + folder.file("2.h5"));
+    run_small(folder, "1.h5", options + " --part 1/2 --set numerics.threads=3");
+    run_small(folder, "2.h5", options + " --part 2/2 --set numerics.threads=1");
+    require_success("merge --out " + folder.file("merged.h5") + " " + folder.file("1.h5") + " " +
+                    folder.file("2.h5"));
     CHECK(bits(folder.file("merged.h5")) == whole);
 }
 

@@ -7,6 +7,7 @@
 #include "tests/mc/ensemble/gearbox/stage_files.hpp"
 #include "tests/mc/liang_signals.hpp"
 #include "tests/mc/study_file.hpp"
+#include "tests/numbers.hpp"
 
 namespace gearpod::test_bearing_forces {
 
@@ -226,9 +227,7 @@ TEST_CASE("All strategies and kinds of excitation carry the forces in bearings")
         INFO(other);
         const mc::Results results = run_small(folder, "other.h5", quiet + "--force " + other);
         const auto& computed = values(results.features, "sensor_rms");
-        for (std::size_t i = 0; i < expected.size(); ++i) {
-            CHECK(computed[i] == Approx(expected[i]).epsilon(5e-3));
-        }
+        test::check_close(computed, expected, 5e-3);
     }
 }
 

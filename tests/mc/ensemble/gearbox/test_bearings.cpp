@@ -28,6 +28,17 @@ mc::Results run(const Folder& folder, const std::string& name, const std::string
     return mc::read_results(path);
 }
 
+// A run with another fault, computed once.
+struct OtherFaultRun {
+    Folder folder;
+    std::string path = folder.file("r.h5");
+    mc::Results results = run(folder, "r.h5", inner_ring("other_fault"));
+};
+const OtherFaultRun& with_other_fault() {
+    static const OtherFaultRun once;
+    return once;
+}
+
 // Values of a feature in the rows of the threshold group.
 std::vector<double> healthy(const mc::Results& results, const mc::FeatureResult& feature) {
     const auto rows = std::ranges::count(results.group, static_cast<int>(mc::Group::threshold)) *
@@ -84,8 +95,7 @@ TEST_CASE("A bearing in the background is added to the sensor's signal") {
 // The same gearboxes with the bearing in all records, which another code path computes.
 TEST_CASE("Another fault changes the healthy gearboxes as a background would") {
     const Folder folder;
-    const mc::Results plain = run(folder, "plain.h5", ""),
-                      other = run(folder, "other.h5", inner_ring("other_fault")),
+    const mc::Results plain = run(folder, "plain.h5", ""), &other = with_other_fault().results,
                       background = run(folder, "background.h5", inner_ring("background"));
     REQUIRE(other.variants.size() == 1);
     CHECK(plain.variants.empty());
@@ -108,8 +118,7 @@ TEST_CASE("Another fault changes the healthy gearboxes as a background would") {
 }
 
 TEST_CASE("Alarms of another fault are counted at the thresholds of the healthy gearboxes") {
-    const Folder folder;
-    const mc::Results results = run(folder, "other.h5", inner_ring("other_fault"));
+    const mc::Results& results = with_other_fault().results;
     const auto alarms = other_fault_alarms(results, mc::ColumnRows(results));
     // The transmission error does not change with a bearing.
     REQUIRE(alarms.size() == static_cast<std::size_t>(std::ranges::count_if(
@@ -130,32 +139,24 @@ TEST_CASE("Alarms of another fault are counted at the thresholds of the healthy 
         any |= one.alarms > one.without;
     }
     CHECK(any);
-    const auto report = program("report " + folder.file("other.h5"));
-    CHECK(report.mentions("a fault of the inner ring of a bearing of the sun"));
+    check_mentions(program("report " + with_other_fault().path),
+                   {"a fault of the inner ring of a bearing of the sun"});
     CHECK(program("describe " + kSmall + " " + inner_ring("other_fault"))
               .mentions("5.400 impulses per shaft turn"));
 }
 
 TEST_CASE("The signal of the other fault is exported on its own") {
     const Folder folder;
-    const auto simulate = [&](const std::string& name, const std::string& role) {
-        require_success("simulate " + kSmall + " --instance 2 --meshes 30 --out " +
-                        folder.file(name) + " " + inner_ring(role));
-    };
-    simulate("other.csv", "other_fault");
-    simulate("background.csv", "background");
-    const auto other = column(folder.file("other.csv"), "other_fault"),
-               without = column(folder.file("other.csv"), "sensor"),
-               with = column(folder.file("background.csv"), "sensor");
-    REQUIRE(other.size() == with.size());
-    for (std::size_t i = 0; i < other.size(); ++i) {
-        CHECK(std::abs(without[i] + other[i] - with[i]) < 1e-9);
-    }
+    const auto other = signals_of_small(folder, inner_ring("other_fault"), 30),
+               background = signals_of_small(folder, inner_ring("background"), 30);
+    auto sum = other.at("sensor");
+    std::ranges::transform(sum, other.at("other_fault"), sum.begin(), std::plus<>());
+    CHECK(largest_difference(sum, background.at("sensor")) < 1e-9);
 }
 
 TEST_CASE("Results whose variants were renamed are refused") {
     const Folder folder;
-    run(folder, "r.h5", inner_ring("other_fault"));
+    std::filesystem::copy_file(with_other_fault().path, folder.file("r.h5"));
     const std::string script = "import h5py; f = h5py.File('" + folder.file("r.h5") +
                                "', 'r+'); f.move('variants/other_fault', 'variants/sensor_side')";
     if (shell("/usr/bin/python3 -c \"" + script + "\"").code != 0) {
@@ -168,49 +169,36 @@ TEST_CASE("Results whose variants were renamed are refused") {
 
 TEST_CASE("A tone of a shaft has its order times the shaft's speed") {
     const Folder folder;
-    const auto simulate = [&](const std::string& name, const std::string& tone) {
-        require_success("simulate " + kSmall + " --instance 2 --meshes 20 --out " +
-                        folder.file(name) + " --set 'sensor.tones=[{" + tone +
-                        ", amplitude_m_s2=0.5}]'");
+    const auto signal = [&](const std::string& tone) {
+        return signals_of_small(folder, "--set 'sensor.tones=[{" + tone + ", amplitude_m_s2=0.5}]'",
+                                20)
+            .at("sensor");
     };
-    simulate("shaft.csv", "shaft=\"sun\", order=2.5");
     // The sun turns (13 + 35) / 13 times as fast as the carrier, at 1 Hz.
-    simulate("hertz.csv", fmt::format("frequency_Hz={:.17g}", 2.5 * 48.0 / 13.0));
-    const auto shaft = column(folder.file("shaft.csv"), "sensor"),
-               hertz = column(folder.file("hertz.csv"), "sensor");
-    REQUIRE(shaft.size() == hertz.size());
-    for (std::size_t i = 0; i < shaft.size(); ++i) {
-        CHECK(std::abs(shaft[i] - hertz[i]) < 1e-9);
-    }
+    CHECK(largest_difference(signal("shaft=\"sun\", order=2.5"),
+                             signal(fmt::format("frequency_Hz={:.17g}", 2.5 * 48.0 / 13.0))) <
+          1e-9);
 }
 
 TEST_CASE("Problems of bearings and tones are all reported at once") {
-    const auto outcome = check_refused(
+    check_refused(
         "describe " + kSmall +
-        " --set 'sensor.bearings=[{fault=\"outr\", shaft=\"ring\", elements=2.5, "
-        "amplitude_m_s2=-1, resonance_Hz=90}, 3, {fault=\"cage\", shaft=\"sun\", shaft_Hz=3, "
-        "elements=9, diameter_ratio=0.2, amplitude_m_s2=1, resonance_Hz=90, ball=4}]'"
-        " --set 'sensor.tones=[{shaft=\"pinion\", order=1, amplitude_m_s2=1}, "
-        "{shaft=\"sun\", frequency_Hz=3, amplitude_m_s2=1}]'");
-    for (const char* text :
-         {"bearing 1: fault: unknown value \"outr\"", "bearing 1: elements must be an integer",
-          "bearing 1 has no diameter_ratio", "bearing 1: amplitude_m_s2 must be > 0",
-          "bearing 2 must be a table, but is an integer", "bearing 3: unknown key ball",
-          "tone 2: has both shaft and frequency_Hz"}) {
-        INFO(outcome.output << "\n" << text);
-        CHECK(outcome.mentions(text));
-    }
-    const auto shafts =
-        check_refused("describe " + kSmall +
+            " --set 'sensor.bearings=[{fault=\"outr\", shaft=\"ring\", elements=2.5, "
+            "amplitude_m_s2=-1, resonance_Hz=90}, 3, {fault=\"cage\", shaft=\"sun\", shaft_Hz=3, "
+            "elements=9, diameter_ratio=0.2, amplitude_m_s2=1, resonance_Hz=90, ball=4}]'"
+            " --set 'sensor.tones=[{shaft=\"pinion\", order=1, amplitude_m_s2=1}, "
+            "{shaft=\"sun\", frequency_Hz=3, amplitude_m_s2=1}]'",
+        {"bearing 1: fault: unknown value \"outr\"", "bearing 1: elements must be an integer",
+         "bearing 1 has no diameter_ratio", "bearing 1: amplitude_m_s2 must be > 0",
+         "bearing 2 must be a table, but is an integer", "bearing 3: unknown key ball",
+         "tone 2: has both shaft and frequency_Hz"});
+    check_refused("describe " + kSmall +
                       " --set 'sensor.bearings=[{fault=\"outer\", shaft=\"ring\", elements=9, "
                       "diameter_ratio=0.2, amplitude_m_s2=1, resonance_Hz=90}]'"
                       " --set 'sensor.tones=[{shaft=\"pinion\", order=1, amplitude_m_s2=1}]'"
-                      " --set ensemble.threshold_records=2");
-    for (const char* text : {"the ring stands still", "this kind of gearbox has no pinion",
-                             "all records of a gearbox would have the same vibration"}) {
-        INFO(shafts.output);
-        CHECK(shafts.mentions(text));
-    }
+                      " --set ensemble.threshold_records=2",
+                  {"the ring stands still", "this kind of gearbox has no pinion",
+                   "all records of a gearbox would have the same vibration"});
 }
 
 }  // namespace gearpod::test_bearings

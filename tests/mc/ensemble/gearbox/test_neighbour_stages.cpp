@@ -99,15 +99,15 @@ TEST_CASE("The common shaft sets the speed of a stage, and the sensor is that of
     const mc::Scene scene(small_study(path, ""));
     CHECK(scene.gearbox().stages[0].gearbox->nominal.speed_rad_s ==
           Approx(13.0 / 48.0 * scene.gearbox().nominal.speed_rad_s).epsilon(1e-6));
-    const auto text =
-        program("describe " + kSmall + " " + stages(path, "") + "--set sensor.low_pass_Hz=100");
-    check_mentions(text, {"0.9091 times as fast as in its own study", "meshes at 9.479 Hz"});
+    check_mentions(
+        program("describe " + kSmall + " " + stages(path, "") + "--set sensor.low_pass_Hz=100"),
+        {"0.9091 times as fast as in its own study", "meshes at 9.479 Hz"});
     // A stage next to a stage: the shaft is the first one's, at its speed.
-    const auto chain =
+    check_mentions(
         program("describe " + kSmall + " --set 'sensor.stages=[{name=\"a\", study=\"" + path +
                 "\", shaft=\"carrier\", stage_shaft=\"sun\"}, {name=\"b\", study=\"" + path +
-                "\", of=\"a\", shaft=\"carrier\", stage_shaft=\"sun\"}]'");
-    CHECK(chain.mentions("meshes at 2.567 Hz"));
+                "\", of=\"a\", shaft=\"carrier\", stage_shaft=\"sun\"}]'"),
+        {"meshes at 2.567 Hz"});
 }
 
 TEST_CASE("A stage that leaves its numerics to a tolerance has them at the speed of the shaft") {
@@ -116,10 +116,9 @@ TEST_CASE("A stage that leaves its numerics to a tolerance has them at the speed
     std::ofstream(path, std::ios::app) << "\n[numerics]\ntolerance = 1e-2\n";
     const auto results = run_small(folder, "t.h5", stages(path, ""));
     CHECK(std::isfinite(results.features[4].values.front()));
-    CHECK(program("simulate " + kSmall + " " + stages(path, "") +
-                  "--set operation.torque_N_m=0 --instance 0 --meshes 40 --out " +
-                  folder.file("s.csv"))
-              .code == 0);
+    require_success("simulate " + kSmall + " " + stages(path, "") +
+                    "--set operation.torque_N_m=0 --instance 0 --meshes 40 --out " +
+                    folder.file("s.csv"));
 }
 
 TEST_CASE("Another fault is that of the stage, in the same records") {
@@ -139,8 +138,8 @@ TEST_CASE("Another fault is that of the stage, in the same records") {
     }
     // Results hold the stage's study.
     std::filesystem::remove(path);
-    const auto report = require_success("report " + folder.file("other.h5"));
-    CHECK(report.mentions("a fault of the neighbouring stage \"slow\""));
+    check_mentions(require_success("report " + folder.file("other.h5")),
+                   {"a fault of the neighbouring stage \"slow\""});
 }
 
 TEST_CASE("Rows next to a stage keep their bits over threads, parts and merging") {

@@ -187,7 +187,8 @@ TEST_CASE("A background needs two frequencies and a density for each") {
         check_refused("describe " + kSmall + options, {text});
     };
     refused(" --set sensor.background_Hz=[10,60]", "sensor.background_Hz is given");
-    refused(" --set sensor.background_density_m_s2_per_sqrt_Hz=[1,2]", "only with sensor.background_Hz");
+    refused(" --set sensor.background_density_m_s2_per_sqrt_Hz=[1,2]",
+            "only with sensor.background_Hz");
     refused(
         " --set sensor.background_Hz=[10] --set "
         "sensor.background_density_m_s2_per_sqrt_Hz=[1]",

@@ -216,13 +216,7 @@ TEST_CASE("The first sensor and sensors without a chain keep their bits") {
                           run_small(folder, "p.h5",
                                     " --set 'sensor.additional=[{name=\"twin\", angle_deg=0}]'"),
                       results = run_small(folder, "r.h5", twins);
-    for (std::size_t f = 0; f < plain.features.size(); ++f) {
-        INFO(plain.features[f].name);
-        CHECK(bits_of_values(results.features[f].values) ==
-              bits_of_values(plain.features[f].values));
-        CHECK(bits_of_values(results.variants[0].features[f].values) ==
-              bits_of_values(plain.variants[0].features[f].values));
-    }
+    check_same_features(results, plain);
     const auto &first = values(results.features, "sensor_rms"),
                &own = values(results.variants[2].features, "sensor_rms");
     for (std::size_t i = 0; i < first.size(); ++i) {
@@ -257,13 +251,11 @@ TEST_CASE("Problems of a measuring chain are reported") {
                 "--set sensor.background_Hz=[60,100] --set "
                 "sensor.background_density_m_s2_per_sqrt_Hz=[0.1,0.1]",
             "passes nothing of the background, which begins at 60 Hz");
-    const auto described =
+    check_mentions(
         program("describe " + kSmall +
-                side("sampling_Hz=110, low_pass_Hz=50, mounting_Hz=70, delay_s=-0.004"));
-    INFO(described.output);
-    CHECK(described.mentions(
-        "sampling rate 110 Hz; low-pass 50 Hz; mounting resonance 70 Hz, damping 0.03; samples "
-        "0.004 s early; noise 0.002 m/s^2 rms"));
+                side("sampling_Hz=110, low_pass_Hz=50, mounting_Hz=70, delay_s=-0.004")),
+        {"sampling rate 110 Hz; low-pass 50 Hz; mounting resonance 70 Hz, damping 0.03; samples "
+         "0.004 s early; noise 0.002 m/s^2 rms"});
 }
 
 TEST_CASE("A sampling rate of its own keeps the samples that the converter takes") {

@@ -182,8 +182,8 @@ TEST_CASE("The length of records changes no other random input, and no results w
         CHECK(Sampler(DrawPlan{whole}).draw(id).random_values ==
               Sampler(DrawPlan{cut}).draw(id).random_values);
     }
-    CHECK(resolved_text(whole).find("record_") == std::string::npos);
-    CHECK(resolved_text(cut).find("record_turns = 4") != std::string::npos);
+    CHECK_FALSE(contains(resolved_text(whole), "record_"));
+    CHECK(contains(resolved_text(cut), "record_turns = 4"));
 }
 
 TEST_CASE("A faster gearbox records more turns in the same time") {
@@ -238,8 +238,8 @@ TEST_CASE("Lengths of records that make no sense are refused, and reports state 
         refused(" --set sensor.record_turns=4 --set 'features.use=[\"sun_window_ratio\"]'").code ==
         2);
     const std::string conditions = run_conditions(ideal_crack_study({"sensor.record_turns=4"}));
-    CHECK(conditions.find("begins at a random tooth position") != std::string::npos);
-    CHECK(conditions.find("10 of the 81 ring teeth that it can meet (12 %)") != std::string::npos);
+    CHECK(contains(conditions, "begins at a random tooth position"));
+    CHECK(contains(conditions, "10 of the 81 ring teeth that it can meet (12 %)"));
     CHECK(run_conditions(ideal_crack_study({})).find("81 of the 81 ring teeth") !=
           std::string::npos);
 }

@@ -5,6 +5,7 @@
 #include "mc/study/study.hpp"
 #include "tests/mc/ensemble/gearbox/small_runs.hpp"
 #include "tests/mc/study_file.hpp"
+#include "tests/numbers.hpp"
 
 namespace gearpod::test_sensor_range {
 
@@ -64,10 +65,7 @@ TEST_CASE("A range lowers the rms, and one that no sample reaches changes no fea
                       clipped = run_small(folder, "clipped.h5", kClipped);
     for (std::size_t f = 0; f < free.features.size(); ++f) {
         INFO(free.features[f].name);
-        for (std::size_t i = 0; i < free.features[f].values.size(); ++i) {
-            CHECK(wide.features[f].values[i] ==
-                  Approx(free.features[f].values[i]).epsilon(1e-8).margin(1e-10));
-        }
+        test::check_close(wide.features[f].values, free.features[f].values, 1e-8, 1e-10);
     }
     const auto &before = values(free.features, "sensor_rms"),
                &after = values(clipped.features, "sensor_rms");
@@ -85,13 +83,7 @@ TEST_CASE("A range of one sensor leaves the features of the others unchanged") {
         return run_small(folder, name, kNoise + "--set 'sensor.additional=[" + sensors + "]'");
     };
     const mc::Results plain = run("plain.h5", other), results = run("own.h5", other + own);
-    for (std::size_t f = 0; f < plain.features.size(); ++f) {
-        INFO(plain.features[f].name);
-        CHECK(bits_of_values(results.features[f].values) ==
-              bits_of_values(plain.features[f].values));
-        CHECK(bits_of_values(results.variants[0].features[f].values) ==
-              bits_of_values(plain.variants[0].features[f].values));
-    }
+    check_same_features(results, plain);
     const auto &free = values(results.variants[0].features, "sensor_rms"),
                &clipped = values(results.variants[1].features, "sensor_rms");
     for (std::size_t i = 0; i < free.size(); ++i) {

@@ -5,6 +5,7 @@
 #include "mc/plan/calibration_plan.hpp"
 #include "mc/recordings/calibration/simulated_sets.hpp"
 #include "tests/mc/program.hpp"
+#include "tests/numbers.hpp"
 
 namespace gearpod::test_tone_level {
 
@@ -64,9 +65,7 @@ TEST_CASE("Calibration uses the given level") {
     const auto by_amplitude = values(loud, {}, {});
     REQUIRE(by_level.size() == 2 * used.size());
     REQUIRE(by_level.size() == by_amplitude.size());
-    for (std::size_t i = 0; i < by_level.size(); ++i) {
-        CHECK(by_level[i] == Approx(by_amplitude[i]).epsilon(1e-12));
-    }
+    test::check_close(by_level, by_amplitude, 1e-12);
     const std::vector<mc::CalibratedInput> usual =
         make_calibration_plan(*mc::read_study(kStudy, random).study, "").default_inputs(2.0);
     const auto level =

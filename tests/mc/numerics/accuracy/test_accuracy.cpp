@@ -1,14 +1,12 @@
 // Checks the error and cost of solver settings: errors against closed forms and an independent
 // method, and the choice of numerics.tolerance.
-#include <nlohmann/json.hpp>
-
 #include "mc/library/run/run_options.hpp"
 #include "mc/numerics/accuracy/report.hpp"
 #include "mc/numerics/numerical_error.hpp"
 #include "mc/numerics/numerics_choice.hpp"
 #include "mc/numerics/pilot.hpp"
 #include "mc/numerics/solver_setting.hpp"
-#include "tests/mc/program.hpp"
+#include "tests/mc/program_json.hpp"
 #include "tests/mc/study_file.hpp"
 
 namespace gearpod::mc::test_accuracy {
@@ -236,7 +234,7 @@ TEST_CASE("accuracy lists every solver setting, marks the frontier and reports w
     INFO(run.output);
     REQUIRE(run.code == kDone);
     CHECK(run.mentions("not possible: the explicit method would need"));
-    const auto json = nlohmann::json::parse(bytes_of(folder.file("accuracy.json")));
+    const auto json = json_of_file(folder.file("accuracy.json"));
     CHECK(json["reference"]["agreement"]["sensor"].get<double>() < 1e-7);
     CHECK(json["explicit_limit"]["refused"].get<bool>());
     CHECK(json["explicit_limit"]["steps"].get<double>() > 8e5);
@@ -272,7 +270,7 @@ TEST_CASE("accuracy lists every solver setting, marks the frontier and reports w
     for (const char* shown : {"Figure 1. Error of the worst feature against time", "te_rms",
                               "rk4 at its stability limit, refused", "Detection rates were not"}) {
         INFO(shown);
-        CHECK(page.find(shown) != std::string::npos);
+        CHECK(contains(page, shown));
     }
     // A tolerance of 1e-3 is met with fewer steps and fewer run-in mesh periods than the study's
     // own.
@@ -297,7 +295,7 @@ TEST_CASE("an error is compared with the scatter of its feature between gearboxe
     const PilotError& own = report.settings[0].error;
     CHECK(std::isnan(report.share_of_scatter(own, 1)));
     CHECK(report.fastest_within(0.2) == -1);
-    CHECK(accuracy_headline(report).find("was not measured") != std::string::npos);
+    CHECK(contains(accuracy_headline(report), "was not measured"));
 
     // A feature without scatter, e.g. of equal gearboxes without noise, has no share.
     report.scatter = {0.0, 0.0, 0.05, 0.1};
@@ -309,10 +307,11 @@ TEST_CASE("an error is compared with the scatter of its feature between gearboxe
     CHECK(report.fastest_within(1e-4) == -1);
     const std::string headline = accuracy_headline(report);
     INFO(headline);
-    CHECK(headline.find("takes 3 ms of integration per gearbox; its worst feature, window_ratio, "
-                        "has an error of 2.0e-03 of its value") != std::string::npos);
-    CHECK(headline.find("exceeds 3.0e-03 of a feature's scatter") != std::string::npos);
-    CHECK(headline.find(": 2 ms of integration.") != std::string::npos);
+    CHECK(contains(headline,
+                   "takes 3 ms of integration per gearbox; its worst feature, window_ratio, "
+                   "has an error of 2.0e-03 of its value"));
+    CHECK(contains(headline, "exceeds 3.0e-03 of a feature's scatter"));
+    CHECK(contains(headline, ": 2 ms of integration."));
 }
 
 TEST_CASE("the cost of an effect is the change of the pilot without it", "[accuracy]") {
@@ -371,7 +370,7 @@ TEST_CASE("accuracy omits what it has no time for, and reports this", "[accuracy
         "detection rates"};
     for (const std::string& what : expected_text) {
         INFO(what);
-        CHECK(text.find(what) != std::string::npos);
+        CHECK(contains(text, what));
     }
 }
 

@@ -270,7 +270,7 @@ TEST_CASE("A study's description ends with a forecast and writes nothing") {
     const test::Outcome run = test::program("run " + stiff + " --out " + folder.file("r.h5"));
     CHECK(described.code == 2);
     CHECK(run.code == 2);
-    CHECK(described.output.find(run.output) != std::string::npos);
+    CHECK(test::contains(described.output, run.output));
 }
 
 }  // namespace gearpod::mc::test_forecast

@@ -1,25 +1,14 @@
 // Checks that calibration recovers the inputs from which synthetic recordings were made.
 #include <fmt/format.h>
 
-#include <catch2/catch.hpp>
-#include <fstream>
-#include <nlohmann/json.hpp>
-#include <random>
-#include <sstream>
-
 #include "mc/numerics/numerics_choice.hpp"
 #include "mc/recordings/calibration/calibrate.hpp"
 #include "mc/recordings/calibration/healthy_records.hpp"
-#include "tests/mc/program.hpp"
+#include "tests/mc/recording_files.hpp"
 
-namespace test_calibrate {
+namespace gearpod::mc::test_calibrate {
 
-using namespace gearpod;
-using namespace gearpod::test;
-
-namespace {
-
-using namespace mc;
+using namespace test;
 
 // Ten times the speed of the study and a tenth of the steps: one gearbox with real teeth takes 5
 // ms.
@@ -27,8 +16,6 @@ const std::vector<std::string> kFast{
     "operation.carrier_speed_rpm=600", "sensor.sampling_Hz=2800",
     "sensor.low_pass_Hz=1200",         "sensor.encoder_sampling_Hz=1400",
     "numerics.precision=single",       "numerics.settle_tolerance=1e-5"};
-const std::string kSmallStudy =
-    std::string(GEARPOD_SOURCE_DIR) + "/tests/features/reference/small.toml";
 const std::vector<std::string> kPriors{"gearbox.tooth_quality=3:10", "sensor.noise_m_s2=0.5:20:log",
                                        "sensor.gain=0.5:2:log"};
 const std::vector<std::string> kUsed{
@@ -140,13 +127,11 @@ struct Exported {
 
     explicit Exported(int count) {
         for (int i = 0; i < count; ++i) {
-            const Outcome outcome = program(fmt::format(
+            require_success(fmt::format(
                 "simulate {}{} --set gearbox.tooth_quality=6 --set sensor.noise_m_s2=4 --set "
                 "ensemble.instances=10 --set features.use='[\"sensor_rms\"]' --instance {} "
                 "--meshes 385 --out {}",
                 kSmallStudy, fast(), i, folder.file(fmt::format("r{}.csv", i))));
-            INFO(outcome.output);
-            REQUIRE(outcome.code == 0);
         }
     }
     Outcome calibrate(const std::string& options, const std::string& before = "") const {
@@ -156,12 +141,6 @@ struct Exported {
     std::string records() const { return "--healthy '" + folder.file("r*.csv") + "' "; }
 };
 
-std::string text_of(const std::string& path) {
-    std::ostringstream text;
-    text << std::ifstream(path).rdbuf();
-    return text.str();
-}
-
 TEST_CASE("Exported recordings give a study file that runs, independent of the number of threads") {
     const Exported exported(4);
     const std::string prior =
@@ -169,21 +148,18 @@ TEST_CASE("Exported recordings give a study file that runs, independent of the n
         "--prior sensor.noise_m_s2=0.5:20:log "
         "--prior sensor.encoder_noise_arcsec=0.1:10:log ";
     const auto& folder = exported.folder;
-    const Outcome outcome =
+    const Outcome outcome = require_success(
         exported.calibrate(exported.records() + prior + "--out " + folder.file("c.toml") +
                                " --json " + folder.file("1.json"),
-                           "OMP_NUM_THREADS=1");
-    INFO(outcome.output);
-    REQUIRE(outcome.code == 0);
-    CHECK(outcome.mentions("4 record(s) of 4 gearbox(es)"));
-    CHECK(outcome.mentions("s of processor time"));
+                           "OMP_NUM_THREADS=1"));
+    check_mentions(outcome, {"4 record(s) of 4 gearbox(es)", "s of processor time"});
     CHECK(exported
               .calibrate(exported.records() + prior + "--quiet --json " + folder.file("3.json"),
                          "OMP_NUM_THREADS=3")
               .code == 0);
-    CHECK(text_of(folder.file("1.json")) == text_of(folder.file("3.json")));
+    CHECK(bytes_of(folder.file("1.json")) == bytes_of(folder.file("3.json")));
 
-    const auto json = nlohmann::json::parse(text_of(folder.file("1.json")));
+    const auto json = json_of_file(folder.file("1.json"));
     const auto& inputs = json["inputs"];
     REQUIRE(inputs.size() == 4);
     const std::vector<double> truth{6.0, 1.0, 4.0};
@@ -216,20 +192,18 @@ TEST_CASE("Exported recordings give a study file that runs, independent of the n
           Approx(inputs[2]["median"].get<double>())
               .margin(0.1 * (inputs[2]["high"].get<double>() - inputs[2]["low"].get<double>())));
     CHECK(study.study->detection.uncertain_inputs.size() == 4);
-    CHECK(text_of(folder.file("c.toml")).find("THE RECORDINGS DO NOT DETERMINE IT") !=
+    CHECK(bytes_of(folder.file("c.toml")).find("THE RECORDINGS DO NOT DETERMINE IT") !=
           std::string::npos);
-    CHECK(program("run " + folder.file("c.toml") + " --quiet --instances 2 --out " +
-                  folder.file("c.h5"))
-              .code == 0);
+    require_success("run " + folder.file("c.toml") + " --quiet --instances 2 --out " +
+                    folder.file("c.h5"));
 }
 
 TEST_CASE("A table of features calibrates as the recordings from which it was made") {
     const Exported exported(3);
     const auto& folder = exported.folder;
     const std::string table = folder.file("t.csv");
-    REQUIRE(program("features '" + folder.file("r*.csv") + "' --study " + kSmallStudy + fast() +
-                    " --sensor sensor_noise_1 --quiet --csv " + table)
-                .code == 0);
+    require_success("features '" + folder.file("r*.csv") + "' --study " + kSmallStudy + fast() +
+                    " --sensor sensor_noise_1 --quiet --csv " + table);
     const std::string options =
         "--feature sensor_rms --feature window_ratio --feature frms --quiet ";
     const Outcome records =
@@ -240,8 +214,8 @@ TEST_CASE("A table of features calibrates as the recordings from which it was ma
     REQUIRE(records.code == 0);
     REQUIRE(features.code == 0);
     // Numbers of the table have ten digits.
-    const auto a = nlohmann::json::parse(text_of(folder.file("r.json")));
-    const auto b = nlohmann::json::parse(text_of(folder.file("t.json")));
+    const auto a = json_of_file(folder.file("r.json"));
+    const auto b = json_of_file(folder.file("t.json"));
     for (std::size_t p = 0; p < a["inputs"].size(); ++p) {
         CHECK(a["inputs"][p]["median"].get<double>() ==
               Approx(b["inputs"][p]["median"].get<double>()).epsilon(1e-3));
@@ -252,13 +226,12 @@ TEST_CASE("Recordings that no gearbox of the study can reproduce are reported as
     const Folder folder;
     write_bytes(folder.file("loud.csv"), "sensor_rms,window_ratio\n20,40\n");
     // Features of the study that need a baseline are not calibrated.
-    const Outcome outcome =
-        program("calibrate " + kSmallStudy + fast() + " --features " + folder.file("loud.csv") +
-                " --draws 50 --out - --set 'features.use=[\"window_ratio\", "
-                "\"change_window_ratio\"]' --set features.baseline_torque_scatter=0.02");
-    INFO(outcome.output);
-    CHECK(outcome.code == 0);
-    CHECK(outcome.mentions("# NOT REPRODUCED: window_ratio 40, simulated"));
+    check_mentions(
+        require_success("calibrate " + kSmallStudy + fast() + " --features " +
+                        folder.file("loud.csv") +
+                        " --draws 50 --out - --set 'features.use=[\"window_ratio\", "
+                        "\"change_window_ratio\"]' --set features.baseline_torque_scatter=0.02"),
+        {"# NOT REPRODUCED: window_ratio 40, simulated"});
 }
 
 TEST_CASE("Bad input to calibrate gives one message each and exit code 2") {
@@ -293,20 +266,14 @@ TEST_CASE("Bad input to calibrate gives one message each and exit code 2") {
         CHECK(outcome.mentions(one.message));
     }
     write_bytes(folder.file("loud.csv"), "sensor_rms,window_ratio\n20,40\n");
-    const Outcome without_python =
-        shell("GEARPOD_PYTHON=/none " GEARPOD_PROGRAM " calibrate " + kSmallStudy + fast() +
-              " --draws 50 --features " + folder.file("loud.csv"));
-    CHECK(without_python.code == 2);
-    CHECK(without_python.mentions("/none cannot be started"));
+    check_refused(shell("GEARPOD_PYTHON=/none " GEARPOD_PROGRAM " calibrate " + kSmallStudy +
+                        fast() + " --draws 50 --features " + folder.file("loud.csv")),
+                  {"/none cannot be started"});
     // A prior beyond a key's range is a problem of the study.
     write_bytes(folder.file("good.csv"), "sensor_rms,window_ratio\n1,1.2\n1.1,1.3\n");
-    const Outcome outcome = program("calibrate " + kSmallStudy + " --features " +
-                                    folder.file("good.csv") + " --prior sensor.gain=-1:1");
-    INFO(outcome.output);
-    CHECK(outcome.code == 2);
-    CHECK(outcome.mentions("sensor.gain"));
+    check_refused("calibrate " + kSmallStudy + " --features " + folder.file("good.csv") +
+                      " --prior sensor.gain=-1:1",
+                  {"sensor.gain"});
 }
 
-}  // namespace
-
-}  // namespace test_calibrate
+}  // namespace gearpod::mc::test_calibrate

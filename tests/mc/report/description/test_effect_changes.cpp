@@ -16,18 +16,16 @@ TEST_CASE("describe names effects that change nothing and those that a study lac
                    {"omitted; would change no feature by more than 1 %", "extended contact",
                     "omitted; would change", "shear of the teeth"});
     // With a tolerance above all changes no effect is needed.
-    const auto loose = program("describe " + study("published/tian-fig-4-9.toml") +
-                               " --seconds 30 --set numerics.tolerance=0.9");
-    INFO(loose.output);
-    check_mentions(loose,
+    check_mentions(program("describe " + study("published/tian-fig-4-9.toml") +
+                           " --seconds 30 --set numerics.tolerance=0.9"),
                    {"changes no feature by more than 90 %", "so the study does not need it"});
 }
 
 TEST_CASE("describe measures effects on short records where every mesh period is integrated") {
-    const auto description =
+    check_mentions(
         require_success("describe " + study("published/yang-pitch-errors.toml") + measuring_for(3) +
-                        " --set ensemble.instances=8 --set ensemble.threshold_instances=20");
-    check_mentions(description, {"s: 3 turns of ", "tooth errors"});
+                        " --set ensemble.instances=8 --set ensemble.threshold_instances=20"),
+        {"s: 3 turns of ", "tooth errors"});
 }
 
 }  // namespace gearpod::test_effect_changes

@@ -1,11 +1,8 @@
 // Checks gearpod sweep: a study at every combination of given values.
-#include <nlohmann/json.hpp>
-#include <random>
-
 #include "analysis/report/wording.hpp"
 #include "mc/report/sweep/summaries.hpp"
 #include "tests/mc/lives/life_example.hpp"
-#include "tests/mc/program.hpp"
+#include "tests/mc/program_json.hpp"
 
 namespace gearpod::test_sweep_command {
 
@@ -25,25 +22,24 @@ std::string sweep(const Folder& folder, const std::string& rest, int instances =
 TEST_CASE("A sweep's points are runs with the same gearboxes, and are computed once") {
     const Folder folder;
     const std::string vary = "--vary sensor.noise_m_s2=[1,3] ";
-    const Outcome first = require_success(sweep(folder, vary + "--json " + folder.file("s.json")));
-    CHECK(first.mentions("2 of 2, noise_m_s2=3: started"));
+    check_mentions(require_success(sweep(folder, vary + "--json " + folder.file("s.json"))),
+                   {"2 of 2, noise_m_s2=3: started"});
     const std::string one = folder.file("s/noise_m_s2=1.h5"),
                       three = folder.file("s/noise_m_s2=3.h5");
     for (const auto& [file, value] : {std::pair{one, "1"}, std::pair{three, "3"}}) {
-        REQUIRE(program("run " + kStudy + " --quiet --force --set sensor.noise_m_s2=" + value +
-                        " --out " + folder.file("run.h5"))
-                    .code == 0);
+        require_success("run " + kStudy + " --quiet --force --set sensor.noise_m_s2=" + value +
+                        " --out " + folder.file("run.h5"));
         CHECK(bits(file) == bits(folder.file("run.h5")));
     }
     // Paired as in `compare`: the same seed, gearboxes and fault sizes.
     CHECK(program("compare " + one + " " + three).mentions("22 test gearboxes that are the same"));
 
-    const auto json = nlohmann::json::parse(bytes_of(folder.file("s.json")));
+    const auto json = json_of_file(folder.file("s.json"));
     REQUIRE(json["points"].size() == 2);
     CHECK(json["points"][1]["values"]["sensor.noise_m_s2"] == "3");
     CHECK(json["points"][0]["gearboxes"] == 42);
     CHECK(json["points"][0]["results"] == one);
-    const auto report = nlohmann::json::parse(program("report " + one + " --json -").output);
+    const auto report = json_of("report " + one + " --json -");
     int found = 0;
     for (const auto& feature : json["points"][0]["features"]) {
         for (const auto& reported : report["reliability"]["features"]) {
@@ -59,9 +55,9 @@ TEST_CASE("A sweep's points are runs with the same gearboxes, and are computed o
     CHECK(found == 35);  // seven features at five noise levels
 
     const std::string before = bytes_of(one);
-    const Outcome again = require_success(sweep(folder, "--vary sensor.noise_m_s2=[1,2,3] "));
-    check_mentions(again, {"1 of 3, noise_m_s2=1: finished before", "2 of 3, noise_m_s2=2: started",
-                           "3 of 3, noise_m_s2=3: finished before"});
+    check_mentions(require_success(sweep(folder, "--vary sensor.noise_m_s2=[1,2,3] ")),
+                   {"1 of 3, noise_m_s2=1: finished before", "2 of 3, noise_m_s2=2: started",
+                    "3 of 3, noise_m_s2=3: finished before"});
     CHECK(bytes_of(one) == before);
     CHECK(fs::exists(folder.file("s/noise_m_s2=2.h5")));
 }
@@ -69,18 +65,17 @@ TEST_CASE("A sweep's points are runs with the same gearboxes, and are computed o
 TEST_CASE("A stopped sweep resumes, and can be extended by gearboxes") {
     const Folder folder;
     const std::string vary = "--vary sensor.gain=[1,2] ";
-    REQUIRE(program(sweep(folder, vary + "--quiet")).code == 0);
+    require_success(sweep(folder, vary + "--quiet"));
     const auto whole = bits(folder.file("s/gain=2.h5"));
     const std::string part =
         "run " + kStudy + " --quiet --set sensor.gain=2 --out " + folder.file("s/gain=2.h5");
     fs::remove(folder.file("s/gain=2.h5"));
     CHECK(program(part + " --time-limit 00:00:00").code == 4);
-    const Outcome on = require_success(sweep(folder, vary));
-    check_mentions(on, {"1 of 2, gain=1: finished before", "2 of 2, gain=2: continued"});
+    check_mentions(require_success(sweep(folder, vary)),
+                   {"1 of 2, gain=1: finished before", "2 of 2, gain=2: continued"});
     CHECK(bits(folder.file("s/gain=2.h5")) == whole);
 
-    const Outcome more = require_success(sweep(folder, vary, 33));
-    CHECK(more.mentions("1 of 2, gain=1: continued"));
+    check_mentions(require_success(sweep(folder, vary, 33)), {"1 of 2, gain=1: continued"});
     CHECK(mc::read_results(folder.file("s/gain=1.h5")).status.size() == 53);
 }
 
@@ -91,20 +86,20 @@ TEST_CASE("A sweep reports every problem once before it starts") {
                       {"--vary: sensor.nois: unknown key", "--vary: sensor.gain: must be > 0"});
     CHECK(std::count(bad.output.begin(), bad.output.end(), '\n') == 2);
     CHECK(folder.empty());
-    CHECK(program(sweep(folder, "--vary sensor.gain=2")).code == 2);
-    CHECK(program("sweep " + kStudy).code == 2);
+    check_refused(sweep(folder, "--vary sensor.gain=2"));
+    check_refused("sweep " + kStudy);
 }
 
 TEST_CASE("A sweep does not overwrite another study's results, and refuses one without a scene") {
     const Folder folder;
     const std::string vary = "--quiet --vary sensor.gain=[1,2] ";
-    REQUIRE(program(sweep(folder, vary)).code == 0);
+    require_success(sweep(folder, vary));
     const std::string before = bytes_of(folder.file("s/gain=1.h5"));
     check_refused(sweep(folder, vary + "--set numerics.steps_per_mesh=1"),
                   {"numerics.steps_per_mesh: 1 steps are too few"});
     check_refused(sweep(folder, vary + "--set operation.torque_N_m=300"));
     CHECK(bytes_of(folder.file("s/gain=1.h5")) == before);
-    CHECK(program(sweep(folder, vary + "--set operation.torque_N_m=300 --force")).code == 0);
+    require_success(sweep(folder, vary + "--set operation.torque_N_m=300 --force"));
     CHECK(bytes_of(folder.file("s/gain=1.h5")) != before);
 }
 
@@ -117,19 +112,15 @@ TEST_CASE("A sweep of lives has the lives of the command, and resumes") {
         return program("sweep --lives " + study + "--out " + folder.file("s") +
                        " --vary life.interval_h=" + values + " --json -");
     };
-    const Outcome first = swept("[5,10]");
-    INFO(first.output);
-    REQUIRE(first.code == 0);
+    const Outcome first = require_success(swept("[5,10]"));
     const auto json = nlohmann::json::parse(first.output.substr(first.output.find('{')));
     CHECK(json["kind"] == "lives-sweep");
     REQUIRE(json["points"].size() == 2);
     for (const auto& point : json["points"]) {
         const std::string hours = point["values"]["life.interval_h"];
-        const Outcome alone =
-            require_success("lives " + study + "--quiet --force --set life.interval_h=" + hours +
-                            " --out " + folder.file("l.h5") + " --json -");
-        CHECK(bits(point["results"]) == bits(folder.file("l.h5")));
-        auto monitored = nlohmann::json::parse(alone.output)["monitored"];
+        auto monitored =
+            json_of("lives " + study + "--quiet --force --set life.interval_h=" + hours +
+                    " --out " + folder.file("l.h5") + " --json -")["monitored"];
         for (auto& one : monitored) {
             one.erase("alarm_h");
         }

@@ -66,8 +66,7 @@ TEST_CASE("new writes studies of real gear sets, or refuses what no kernel integ
             CHECK(made.text.empty());
             REQUIRE(made.problems.size() == 1);
             CHECK(made.problems[0].key == "--helix, --face-width");
-            CHECK(made.problems[0].what.find("tooth pairs of a gear pair touch at once") !=
-                  std::string::npos);
+            CHECK(contains(made.problems[0].what, "tooth pairs of a gear pair touch at once"));
             continue;
         }
         REQUIRE(made.problems.empty());
@@ -90,15 +89,12 @@ TEST_CASE("The studies of real gear sets detect a crack through half of the root
         const std::string file = folder.file("set.toml"), results = folder.file("set.h5");
         const mc::NewStudy made = new_planetary(set.data, "new planetary");
         std::ofstream(file) << with_half_crack(made.text, deepest_mm_of(made.text));
-        CHECK(program("describe " + file).code == 0);
-        const auto run = program("run " + file +
-                                 " --quiet --instances 40 --set "
-                                 "ensemble.threshold_instances=40 --out " +
-                                 results);
-        INFO(run.output);
-        REQUIRE(run.code == 0);
-        const auto report = program("report " + results + " --json -");
-        REQUIRE(report.code == 0);
+        require_success("describe " + file);
+        const auto run = require_success("run " + file +
+                                         " --quiet --instances 40 --set "
+                                         "ensemble.threshold_instances=40 --out " +
+                                         results);
+        const auto report = require_success("report " + results + " --json -");
         const Detection best = best_detection(nlohmann::json::parse(report.output));
         fmt::print("| {} | {} | {:.2f} | {} |\n", set.name, best.feature, best.pd, set.missed);
         CHECK((best.pd >= kDetected) == set.missed.empty());

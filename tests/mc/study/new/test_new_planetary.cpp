@@ -44,7 +44,7 @@ TEST_CASE("A study from a datasheet has its gears, their load and bodies of stee
     // Every rule of thumb has its source or is marked as chosen.
     for (const char* word : {"Shigley", "AGMA 2001", "Kraemer", "Kasuba", "ISO 286", "chosen"}) {
         INFO(word);
-        CHECK(made.text.find(word) != std::string::npos);
+        CHECK(contains(made.text, word));
     }
 }
 
@@ -102,8 +102,8 @@ TEST_CASE("Tip circles recommended by a message are available as options") {
     data.speed_rpm = 500;
     const std::string refused = all_of(new_planetary(data, "new planetary").problems);
     INFO(refused);
-    CHECK(refused.find("tip circles given") != std::string::npos);
-    CHECK(refused.find("--ring-tip") != std::string::npos);
+    CHECK(contains(refused, "tip circles given"));
+    CHECK(contains(refused, "--ring-tip"));
     data.ring_tip_mm = 141;
     const mc::NewStudy made = new_planetary(data, "new planetary");
     INFO(format(made.problems));
@@ -117,7 +117,7 @@ TEST_CASE("Tip circles recommended by a message are available as options") {
     data.ring_shift = -0.1;
     const std::string text = new_planetary(data, "new planetary").text;
     for (const char* key : {"addendum_coefficient = 0.9", "shift = 0.1", "shift = -0.1"}) {
-        CHECK(text.find(key) != std::string::npos);
+        CHECK(contains(text, key));
     }
 }
 
@@ -141,18 +141,18 @@ TEST_CASE("Impossible geometry is refused with the relevant numbers, all at once
         return all_of(made.problems);
     };
     const auto ring = refused([](auto& data) { data.ring = 98; });
-    CHECK(ring.find("--ring") != std::string::npos);
-    CHECK(ring.find("99") != std::string::npos);  // the number that is possible
+    CHECK(contains(ring, "--ring"));
+    CHECK(contains(ring, "99"));  // the number that is possible
     const auto crowded = refused([](auto& data) { data.planets = 7; });
     INFO(crowded);
-    CHECK(crowded.find("new planetary: --") != std::string::npos);
-    CHECK(crowded.find("(at most 4 planets)") != std::string::npos);
+    CHECK(contains(crowded, "new planetary: --"));
+    CHECK(contains(crowded, "(at most 4 planets)"));
     CHECK(std::count(crowded.begin(), crowded.end(), '\n') == 1);
     const auto undercut = refused([](auto& data) {
         data.sun = 9;
         data.ring = 87;
     });
-    CHECK(undercut.find("--sun") != std::string::npos);
+    CHECK(contains(undercut, "--sun"));
     const auto two = refused([](auto& data) {
         data.ring = 98;
         data.speed_rpm.reset();
@@ -161,14 +161,14 @@ TEST_CASE("Impossible geometry is refused with the relevant numbers, all at once
     const auto module = refused([](auto& data) { data.module_mm = -3; });
     CHECK(module == "new planetary: --module: must be > 0, but is -3\n");
     const auto huge = refused([](auto& data) { data.planet = 2000000000; });
-    CHECK(huge.find("--planet: must be between") != std::string::npos);
+    CHECK(contains(huge, "--planet: must be between"));
     const auto heavy = refused([](auto& data) { data.torque_N_m = 1e300; });
-    CHECK(heavy.find("--torque") != std::string::npos);
+    CHECK(contains(heavy, "--torque"));
     const auto nothing = refused([](auto& data) {
         data.torque_N_m.reset();
         data.power_kW = 1e-320;
     });
-    CHECK(nothing.find("--torque") != std::string::npos);
+    CHECK(contains(nothing, "--torque"));
 }
 
 TEST_CASE("The study written by new is described and run unchanged") {
@@ -178,42 +178,31 @@ TEST_CASE("The study written by new is described and run unchanged") {
         "new planetary --sun 19 --planet 23 --ring 65 --module 3.2 --torque 429 --speed 400 "
         "--out " +
         file;
-    const auto written = program(command);
-    INFO(written.output);
-    REQUIRE(written.code == 0);
-    CHECK(written.mentions("gearpod run " + file));
-    CHECK(bytes_of(file).find("/studies/study.schema.json\n# A planetary gearbox") !=
-          std::string::npos);
-    CHECK(bytes_of(file).find("--module 3.2 --torque 429") != std::string::npos);
-    const auto again = program(command);
-    CHECK(again.code == 2);
-    CHECK(again.mentions("--force"));
-    CHECK(program(command + " --force").code == 0);
+    check_mentions(require_success(command), {"gearpod run " + file});
+    CHECK(contains(bytes_of(file), "/studies/study.schema.json\n# A planetary gearbox"));
+    CHECK(contains(bytes_of(file), "--module 3.2 --torque 429"));
+    check_refused(command, {"--force"});
+    require_success(command + " --force");
 
-    const auto described = program("describe " + file);
-    INFO(described.output);
-    CHECK(described.code == 0);
-    CHECK(described.mentions("% of the largest possible size"));
+    const auto described = require_success("describe " + file);
+    check_mentions(described, {"% of the largest possible size"});
     CHECK(!described.mentions("  damping  "));
 
-    const auto run = program("run " + file +
-                             " --quiet --instances 7 --set "
-                             "ensemble.threshold_instances=4 --out " +
-                             folder.file("p.h5"));
-    INFO(run.output);
-    CHECK(run.code == 0);
+    require_success("run " + file +
+                    " --quiet --instances 7 --set "
+                    "ensemble.threshold_instances=4 --out " +
+                    folder.file("p.h5"));
 }
 
 TEST_CASE("new refuses inputs that are no gear set and writes nothing") {
     const Folder folder;
-    const auto refusal = program(
+    check_refused(
         "new planetary --sun 21 --planet 39 --ring 98 --module 12 --torque 5 "
         "--speed 3 --out " +
-        folder.file("p.toml"));
-    CHECK(refusal.code == 2);
-    CHECK(refusal.mentions("--ring"));
+            folder.file("p.toml"),
+        {"--ring"});
     CHECK(folder.empty());
-    CHECK(program("new bevel --sun 21 --planet 39 --module 12").code == 2);
+    check_refused("new bevel --sun 21 --planet 39 --module 12");
 }
 
 }  // namespace gearpod::test_new_planetary
