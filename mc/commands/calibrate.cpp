@@ -132,17 +132,39 @@ class Command {
                  "give one of --healthy REC..., --manifest T.csv, --features T.csv"});
         }
         inputs_ = read_priors(options_.priors, problems_);
-        if (sources == 1 && options_.features.empty()) {
+        if (sources == 1) {
             try {
+                if (!options_.features.empty()) {
+                    check_feature_table(options_.features, options_.feature, problems_);
+                    return stop_or_go();
+                }
                 list_ = options_.manifest.empty() ? recordings_of(options_.healthy, problems_)
                                                   : read_manifest(options_.manifest, problems_);
                 keep_healthy(list_);
+                check_recordings();
             } catch (const SignalError& error) {
                 problems_.push_back({printable(error.what()), 0, "", "", ""});
             }
         }
+        return stop_or_go();
+    }
+
+    bool stop_or_go() {
         print_problems(problems_);
         return std::exchange(problems_, {}).empty();
+    }
+
+    // Preparing the study may take long, so that columns are checked before.
+    void check_recordings() {
+        for (const Recording& recording : list_.recordings) {
+            SignalColumns columns = options_.columns;
+            columns.row = recording.row;
+            try {
+                check_columns(recording.file, columns);
+            } catch (const SignalError& error) {
+                problems_.push_back({printable(error.what()), 0, "", "", ""});
+            }
+        }
     }
 
     bool outputs_good() const {
