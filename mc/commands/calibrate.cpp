@@ -75,9 +75,21 @@ bool read_sources(const CalibrateOptions& options, std::vector<CalibratedInput>&
                             "give one of --healthy REC..., --manifest T.csv, --features T.csv"});
     }
     inputs = read_priors(options.priors, problems);
-    if (sources == 1 && options.features.empty()) {
+    // Preparing the study may take long, so that columns are checked before.
+    if (sources == 1 && !options.features.empty()) {
+        check_feature_table(options.features, options.feature, problems);
+    } else if (sources == 1) {
         list = list_of(options.manifest, options.healthy, problems);
         keep_healthy(list);
+        for (const Recording& recording : list.recordings) {
+            SignalColumns columns = options.columns;
+            columns.row = recording.row;
+            try {
+                check_columns(recording.file, columns);
+            } catch (const SignalError& error) {
+                problems.push_back({printable(error.what()), 0, "", "", ""});
+            }
+        }
     }
     print_problems(problems);
     return problems.empty();

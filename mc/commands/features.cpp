@@ -130,13 +130,14 @@ int features_command(const FeaturesOptions& options) {
     read.push_back({"the file of --against", options.against});
     read.push_back({"the recording of --baseline", options.baseline});
     const bool writable = can_write({"--json", options.json}, read, {json_output(), options.force});
+    SignalRequest request;
+    request.signal = options.signals.front();
+    request.columns = options.columns;
+    check_columns(request.signal, request.columns);  // preparing the study may take long
     const auto scene = load_scene(options.study).scene;
     if (!scene || !writable) {
         return kBadInput;
     }
-    SignalRequest request;
-    request.signal = options.signals.front();
-    request.columns = options.columns;
     request.healthy = {options.healthy.begin(), options.healthy.end()};
     request.baseline = options.baseline;
     request.noise_level = options.noise_level;

@@ -57,7 +57,7 @@ std::string listed_text(const std::vector<std::string>& texts);
 
 // Opens a file according to its first bytes, or to the extension of its name. Throws SignalError.
 //   .csv, .txt   A header line with names and units in brackets ("sensor [m/s^2]"), then a line
-//                of numbers per sample, in any usual form (text_dialect.hpp); also compressed
+//                of numbers per sample, in any usual form (text_table.hpp); also compressed
 //                with gzip (.csv.gz, .txt.gz). Columns that are not read may contain anything.
 //   .h5, .hdf5   Vectors of numbers, also N x 1, in any group, named by their paths; those in the
 //                group /signals by their names. "data:2" is the second column of a matrix; with

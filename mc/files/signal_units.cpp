@@ -10,6 +10,7 @@
 #include <iterator>
 #include <numbers>
 #include <span>
+#include <sstream>
 #include <utility>
 
 #include "mc/files/input/file_text.hpp"
@@ -21,39 +22,33 @@ namespace {
 constexpr double kDegree = std::numbers::pi / 180.0;  // rad
 constexpr double kGravity = 9.80665;                  // m/s^2, standard gravity (ISO 80000-3)
 
-// Spellings of a symbol, separated by blanks. Those in lower case are read in any case.
-struct Symbol {
-    const char* name;
-    std::string_view spellings;
-};
-constexpr Symbol kSymbols[] = {
-    {"m", "meter meters metre metres"},
-    {"mm", ""},
-    {"cm", ""},
-    {"um", "micron microns"},
-    {"in", "inch inches"},
-    {"ft", "foot feet"},
-    {"s", "sec secs second seconds"},
-    {"ms", "msec msecs millisecond milliseconds"},
-    {"us", "usec usecs microsecond microseconds"},
-    {"min", "mins minute minutes"},
-    {"h", "hr hrs hour hours"},
-    {"rad", "rads radian radians"},
-    {"urad", ""},
-    {"deg", "degs degree degrees °"},
-    {"arcmin", "arcminute arcminutes"},
-    {"arcsec", "arcsecond arcseconds"},
-    {"turns", "turn r tr rev revs revolution revolutions U"},  // German "U/min"
-    {"rpm", ""},
-    {"Hz", "hz hertz rps"},
-    {"kHz", "khz"},
-    {"g", "gn g_n g0"},  // "G" is common for accelerometers
-    {"mg", "mG"},
-    {"V", "v volt volts"},
-    {"mV", "millivolt millivolts"},
-    {"uV", "microvolt microvolts"},
-};
-// Symbols that are another unit in other letter cases.
+// Symbols, each followed by its other spellings. Those in lower case are read in any case, and so
+// are symbols but those in kExact, which are another unit in other letter cases.
+constexpr std::string_view kSymbols[] = {"m meter meters metre metres",
+                                         "mm",
+                                         "cm",
+                                         "um micron microns",
+                                         "in inch inches",
+                                         "ft foot feet",
+                                         "s sec secs second seconds",
+                                         "ms msec msecs millisecond milliseconds",
+                                         "us usec usecs microsecond microseconds",
+                                         "min mins minute minutes",
+                                         "h hr hrs hour hours",
+                                         "rad rads radian radians",
+                                         "urad",
+                                         "deg degs degree degrees °",
+                                         "arcmin arcminute arcminutes",
+                                         "arcsec arcsecond arcseconds",
+                                         "turns turn r tr rev revs revolution revolutions U",
+                                         "rpm",
+                                         "Hz hz hertz rps",
+                                         "kHz khz",
+                                         "g gn g_n g0",
+                                         "mg mG",
+                                         "V v volt volts",
+                                         "mV millivolt millivolts",
+                                         "uV microvolt microvolts"};
 constexpr std::string_view kExact = "mrad mg mV uV";
 
 struct KnownUnit {
@@ -115,11 +110,12 @@ void replace_all(std::string& text, std::string_view from, std::string_view to) 
 
 std::string symbol_of(const std::string& word) {
     const std::string lower = lower_case(word);
-    for (const Symbol& symbol : kSymbols) {
-        if (word == symbol.name || is_among(word, symbol.spellings) ||
-            is_among(lower, symbol.spellings) ||
-            (lower == symbol.name && !is_among(lower, kExact))) {
-            return symbol.name;
+    for (const std::string_view words : kSymbols) {
+        const std::string symbol(words.substr(0, words.find(' ')));
+        const std::string_view others = words.substr(symbol.size());
+        if (word == symbol || is_among(word, others) || is_among(lower, others) ||
+            (lower == symbol && !is_among(lower, kExact))) {
+            return symbol;
         }
     }
     return word;
@@ -162,7 +158,7 @@ std::string one_spelling(std::string_view ascii) {
         replace_all(text, from, to);
     }
     replace_all(text, "^", "");
-    std::string_view plain = without_blanks(text);
+    std::string_view plain = without_outer_blanks(text);
     if (plain.starts_with("1/")) {
         plain.remove_prefix(1);
     }
@@ -183,57 +179,42 @@ std::optional<double> acceleration_factor(std::string_view unit) {
     return factor_in(kAccelerationUnits, unit);
 }
 
+struct QuantityUnits {
+    Quantity quantity;
+    const char *name, *listed;
+    std::span<const KnownUnit> units;
+};
+constexpr QuantityUnits kQuantities[] = {
+    {Quantity::acceleration, "an acceleration",
+     "m/s^2, mm/s^2, cm/s^2, um/s^2, ft/s^2, in/s^2, g, mg", kAccelerationUnits},
+    {Quantity::angle, "an angle", "rad, mrad, urad, deg, arcmin, arcsec, turns", kAngleUnits},
+    {Quantity::time, "a time", "s, ms, us, min, h", kTimeUnits},
+    {Quantity::speed, "a speed of rotation", "rpm, 1/min, Hz, kHz, rad/s, deg/s", kSpeedUnits},
+    {Quantity::phase, "a number of mesh periods", "mesh periods", kPhaseUnits},
+    {Quantity::voltage, "a voltage", "V, mV, uV", kVoltageUnits}};
+
+const QuantityUnits& units_of(Quantity quantity) {
+    return *std::ranges::find(kQuantities, quantity, &QuantityUnits::quantity);
+}
+
 // Factor of a unit in one_spelling().
-std::optional<double> quantity_factor(Quantity quantity, std::string_view unit) {
-    switch (quantity) {
-        case Quantity::acceleration:
-            return acceleration_factor(unit);
-        case Quantity::angle:
-            return factor_in(kAngleUnits, unit);
-        case Quantity::time:
-            return factor_in(kTimeUnits, unit);
-        case Quantity::speed:
-            return factor_in(kSpeedUnits, unit);
-        case Quantity::voltage:
-            return factor_in(kVoltageUnits, unit);
-        case Quantity::phase:
-            return factor_in(kPhaseUnits, unit);
-        case Quantity::any:
-            break;
-    }
-    return 1.0;
+std::optional<double> quantity_factor(const QuantityUnits& known, std::string_view unit) {
+    return known.quantity == Quantity::acceleration ? acceleration_factor(unit)
+                                                    : factor_in(known.units, unit);
 }
 
 bool is_known(std::string_view unit) {
-    constexpr Quantity kAll[] = {Quantity::acceleration, Quantity::angle,   Quantity::time,
-                                 Quantity::speed,        Quantity::voltage, Quantity::phase};
     return factor_in(kLengthUnits, unit) ||
            kOtherUnits.find(fmt::format(";{};", unit)) != kOtherUnits.npos ||
-           std::ranges::any_of(kAll,
-                               [&](Quantity q) { return quantity_factor(q, unit).has_value(); });
+           std::ranges::any_of(kQuantities, [&](const QuantityUnits& known) {
+               return quantity_factor(known, unit).has_value();
+           });
 }
 
 }  // namespace
 
 bool is_among(std::string_view word, std::string_view words) {
-    while (!words.empty()) {
-        const std::size_t end = std::min(words.find(' '), words.size());
-        if (words.substr(0, end) == word) {
-            return true;
-        }
-        words.remove_prefix(std::min(end + 1, words.size()));
-    }
-    return false;
-}
-
-std::string_view without_blanks(std::string_view text) {
-    while (!text.empty() && text.front() == ' ') {
-        text.remove_prefix(1);
-    }
-    while (!text.empty() && (text.back() == ' ' || text.back() == '\0')) {
-        text.remove_suffix(1);
-    }
-    return text;
+    return fmt::format(" {} ", words).find(fmt::format(" {} ", word)) != std::string::npos;
 }
 
 std::size_t opening_of_last(std::string_view text) {
@@ -253,9 +234,9 @@ std::string ascii_unit(std::string_view bytes) {
     for (const auto& [from, to] : kSpellings) {
         replace_all(text, from, to);
     }
-    std::string_view inner = without_blanks(text);
+    std::string_view inner = without_outer_blanks(text);
     while (inner.size() > 1 && opening_of_last(inner) == 0) {
-        inner = without_blanks(inner.substr(1, inner.size() - 2));
+        inner = without_outer_blanks(inner.substr(1, inner.size() - 2));
     }
     return std::string(inner);
 }
@@ -285,10 +266,10 @@ SplitUnit split_unit(std::string_view text) {
         return split;
     }
     const auto try_at = [&](std::size_t end, std::string_view remark) {
-        const std::string unit(without_blanks(std::string_view(whole).substr(0, end)));
+        const std::string unit(without_outer_blanks(std::string_view(whole).substr(0, end)));
         const std::string spelling = known_spelling(unit);
         if (!spelling.empty()) {
-            split = {unit, std::string(without_blanks(remark)), spelling};
+            split = {unit, std::string(without_outer_blanks(remark)), spelling};
         }
     };
     const std::size_t open = opening_of_last(whole);
@@ -298,7 +279,8 @@ SplitUnit split_unit(std::string_view text) {
     for (std::size_t at = whole.find_first_of(" _,");
          split.spelling.empty() && at != std::string::npos;
          at = whole.find_first_of(" _,", at + 1)) {
-        const std::string rest = lower_case(without_blanks(std::string_view(whole).substr(at + 1)));
+        const std::string rest =
+            lower_case(without_outer_blanks(std::string_view(whole).substr(at + 1)));
         if (is_among(rest, kPeakRemarks) || is_among(rest, kOtherValues) ||
             rest.starts_with("since ")) {
             try_at(at, rest);
@@ -318,39 +300,18 @@ bool states_other_values(const std::string& remark) {
     if (is_among(lower, kPeakRemarks) || lower.starts_with("since ")) {
         return false;
     }
-    std::string words = lower;
+    std::string separated = lower;
     std::ranges::replace_if(
-        words, [](char c) { return c == ',' || c == ';' || c == '.'; }, ' ');
-    for (std::size_t at = 0; at < words.size();) {
-        const std::size_t end = std::min(words.find(' ', at), words.size());
-        if (is_among(std::string_view(words).substr(at, end - at), kOtherValues)) {
+        separated, [](char c) { return c == ',' || c == ';' || c == '.'; }, ' ');
+    std::istringstream words(separated);
+    for (std::string word; words >> word;) {
+        if (is_among(word, kOtherValues)) {
             return true;
         }
-        at = end + 1;
     }
     return lower.find("to peak") != std::string::npos ||
            lower.find("to-peak") != std::string::npos ||
            lower.find_first_of("0123456789*%") != std::string::npos;
-}
-
-const char* quantity_name(Quantity quantity) {
-    switch (quantity) {
-        case Quantity::acceleration:
-            return "an acceleration";
-        case Quantity::angle:
-            return "an angle";
-        case Quantity::time:
-            return "a time";
-        case Quantity::speed:
-            return "a speed of rotation";
-        case Quantity::phase:
-            return "a number of mesh periods";
-        case Quantity::voltage:
-            return "a voltage";
-        case Quantity::any:
-            break;
-    }
-    return "a quantity";
 }
 
 }  // namespace
@@ -367,11 +328,11 @@ UnitReading read_unit(Quantity quantity, std::string_view text) {
         return {std::nullopt, "",
                 fmt::format("unknown unit {}; known units are {}", shown, known_units(quantity))};
     }
-    const auto factor = quantity_factor(quantity, split.spelling);
+    const auto factor = quantity_factor(units_of(quantity), split.spelling);
     if (!factor) {
         return {std::nullopt, "",
                 fmt::format("unit {} is not that of {}; known units are {}", shown,
-                            quantity_name(quantity), known_units(quantity))};
+                            units_of(quantity).name, known_units(quantity))};
     }
     if (states_other_values(split.remark)) {
         return {std::nullopt, "",
@@ -395,23 +356,7 @@ std::string plain_unit(std::string_view unit) {
 }
 
 std::string known_units(Quantity quantity) {
-    switch (quantity) {
-        case Quantity::acceleration:
-            return "m/s^2, mm/s^2, cm/s^2, um/s^2, ft/s^2, in/s^2, g, mg";
-        case Quantity::angle:
-            return "rad, mrad, urad, deg, arcmin, arcsec, turns";
-        case Quantity::time:
-            return "s, ms, us, min, h";
-        case Quantity::speed:
-            return "rpm, 1/min, Hz, kHz, rad/s, deg/s";
-        case Quantity::phase:
-            return "mesh periods";
-        case Quantity::voltage:
-            return "V, mV, uV";
-        case Quantity::any:
-            break;
-    }
-    return "all";
+    return units_of(quantity).listed;
 }
 
 std::optional<double> sensor_sensitivity(std::string_view text) {

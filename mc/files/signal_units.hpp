@@ -14,7 +14,6 @@ std::string ascii_unit(std::string_view bytes);
 // Position of the bracket that the last character closes; npos if it closes none.
 std::size_t opening_of_last(std::string_view text);
 
-std::string_view without_blanks(std::string_view text);
 // True if `word` is one of the words, which are separated by blanks.
 bool is_among(std::string_view word, std::string_view words);
 

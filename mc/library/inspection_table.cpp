@@ -24,6 +24,12 @@ constexpr const char* kUsualSizes[] = {"size", "a", "Size"};
 constexpr const char* kUsualHits[] = {"hit", "hit.miss", "hit_miss", "hitmiss", "Hit"};
 constexpr const char* kUsualValues[] = {"response", "ahat", "a-hat", "a_hat", "a.hat", "value"};
 
+// `line`: of the table, or 0.
+template <class... Args>
+void reject(Problems& problems, int line, fmt::format_string<Args...> form, Args&&... args) {
+    problems.push_back({.line = line, .what = fmt::format(form, std::forward<Args>(args)...)});
+}
+
 // Finds the named columns, or else the first column with a usual name. Reports named columns that
 // do not exist.
 std::vector<std::size_t> columns(const TextTable& table, const std::vector<std::string>& named,
@@ -33,8 +39,7 @@ std::vector<std::size_t> columns(const TextTable& table, const std::vector<std::
         if (const auto at = table.find(name)) {
             found.push_back(*at);
         } else {
-            problems.push_back(
-                {.what = fmt::format("no column {}; its columns are {}", name, table.names())});
+            reject(problems, 0, "no column {}; its columns are {}", name, table.names());
         }
     }
     for (const char* name : usual) {
@@ -55,21 +60,20 @@ struct Columns {
 Columns choose_columns(const TextTable& table, const InspectionOptions& options,
                        Problems& problems) {
     Columns chosen;
-    std::vector<std::string> size;
-    if (!options.size.empty()) {
-        size.push_back(options.size);
-    }
-    const auto sizes = columns(table, size, kUsualSizes, problems);
+    const auto named = [](const std::string& name) {
+        return name.empty() ? std::vector<std::string>() : std::vector{name};
+    };
+    const auto sizes = columns(table, named(options.size), kUsualSizes, problems);
     if (!sizes.empty()) {
         chosen.size = sizes.front();
-    } else if (size.empty()) {
-        problems.push_back({.what = fmt::format("has no column named size; name the column of the "
-                                                "flaw sizes with --size; its columns are {}",
-                                                table.names())});
+    } else if (options.size.empty()) {
+        reject(problems, 0,
+               "has no column named size; name the column of the "
+               "flaw sizes with --size; its columns are {}",
+               table.names());
     }
     if (!options.hits.empty() && !options.values.empty()) {
-        problems.push_back(
-            {.what = "--hit and --response cannot be used together; give one of them"});
+        reject(problems, 0, "--hit and --response cannot be used together; give one of them");
     }
     chosen.responses = !options.values.empty();
     chosen.values = columns(table, chosen.responses ? options.values : options.hits,
@@ -80,18 +84,14 @@ Columns choose_columns(const TextTable& table, const InspectionOptions& options,
         chosen.values = columns(table, {}, kUsualValues, problems);
         chosen.responses = true;
         if (chosen.values.empty()) {
-            problems.push_back(
-                {.what =
-                     fmt::format("no column hit or response; its columns are {}; choose with --hit "
-                                 "or --response",
-                                 table.names())});
+            reject(problems, 0,
+                   "no column hit or response; its columns are {}; choose with --hit "
+                   "or --response",
+                   table.names());
         }
     }
-    if (!options.specimen.empty()) {
-        const auto found = columns(table, {options.specimen}, {}, problems);
-        if (!found.empty()) {
-            chosen.specimen = found.front();
-        }
+    for (const std::size_t found : columns(table, named(options.specimen), {}, problems)) {
+        chosen.specimen = found;
     }
     return chosen;
 }
@@ -105,18 +105,15 @@ Inspections read_inspections(const TextTable& table, const Columns& chosen, Prob
         const auto number = [&](std::size_t c) {
             const auto value = table.number(r, c);
             if (!value || !std::isfinite(*value)) {
-                problems.push_back({.line = line,
-                                    .what = fmt::format("column {}: {}", table.columns[c].name,
-                                                        table.no_number_text(r, c))});
+                reject(problems, line, "column {}: {}", table.columns[c].name,
+                       table.no_number_text(r, c));
             }
             return value.value_or(0.0);
         };
         const double size = number(chosen.size);
         if (size < 0.0) {
-            problems.push_back(
-                {.line = line,
-                 .what = fmt::format("column {}: {:g} is negative; use 0 for no flaw",
-                                     table.columns[chosen.size].name, size)});
+            reject(problems, line, "column {}: {:g} is negative; use 0 for no flaw",
+                   table.columns[chosen.size].name, size);
         }
         const long specimen =
             chosen.specimen
@@ -129,10 +126,8 @@ Inspections read_inspections(const TextTable& table, const Columns& chosen, Prob
             }
             const double value = number(c);
             if (!chosen.responses && value != 0.0 && value != 1.0) {
-                problems.push_back(
-                    {.line = line,
-                     .what = fmt::format("column {}: {:g} is neither 1 (hit) nor 0 (miss)",
-                                         table.columns[c].name, value)});
+                reject(problems, line, "column {}: {:g} is neither 1 (hit) nor 0 (miss)",
+                       table.columns[c].name, value);
             }
             data.size.push_back(size);
             data.value.push_back(value);
@@ -140,15 +135,9 @@ Inspections read_inspections(const TextTable& table, const Columns& chosen, Prob
         }
     }
     if (data.size.empty() && problems.empty()) {
-        problems.push_back({.what = "no line has a value"});
+        reject(problems, 0, "no line has a value");
     }
     return data;
-}
-
-std::vector<bool> log_sizes(const std::string& scale) {
-    return scale == "linear" ? std::vector<bool>{false}
-           : scale == "log"  ? std::vector<bool>{true}
-                             : std::vector<bool>{false, true};
 }
 
 std::vector<double> powers(const std::string& scale, Problems& problems) {
@@ -160,10 +149,10 @@ std::vector<double> powers(const std::string& scale, Problems& problems) {
     }
     const auto power = number_of(scale, false);
     if (!power || !(std::abs(*power) <= 10.0)) {
-        problems.push_back(
-            {.what = fmt::format("--response-scale {}: must be linear, log, box-cox or a power "
-                                 "between -10 and 10",
-                                 scale)});
+        reject(problems, 0,
+               "--response-scale {}: must be linear, log, box-cox or a power "
+               "between -10 and 10",
+               scale);
     }
     return {power.value_or(1.0)};
 }
@@ -173,23 +162,22 @@ void check_options(const InspectionOptions& options, Problems& problems) {
     const auto choice = [&](const char* name, const std::string& given,
                             const std::vector<std::string>& known) {
         if (!given.empty() && std::ranges::count(known, given) == 0) {
-            problems.push_back({.what = fmt::format("{}: must be {}, but is {}", name,
-                                                    fmt::join(known, " or "), given)});
+            reject(problems, 0, "{}: must be {}, but is {}", name, fmt::join(known, " or "), given);
         }
     };
     const auto within = [&](const char* name, std::optional<double> given, double low,
                             double high) {
         if (given && !(*given >= low && *given <= high)) {
-            problems.push_back({.what = fmt::format("{}: must be {:g} to {:g}, but is {:g}", name,
-                                                    low, high, *given)});
+            reject(problems, 0, "{}: must be {:g} to {:g}, but is {:g}", name, low, high, *given);
         }
     };
     choice("--size-scale", options.size_scale, {"linear", "log"});
     choice("--convention", options.convention,
            {"calibrated", "handbook", "one-sided", "two-sided", "joint"});
     if (options.convention == "calibrated" && !options.bounds.empty()) {
-        problems.push_back({.what = "--bounds and --convention calibrated cannot be used together; "
-                                    "calibrated bounds have a method of their own"});
+        reject(problems, 0,
+               "--bounds and --convention calibrated cannot be used together; "
+               "calibrated bounds have a method of their own");
     }
     choice("--bounds", options.bounds, {"likelihood-ratio", "wald"});
     choice("--alarm", options.alarm, {"high", "low"});
@@ -201,8 +189,7 @@ void check_options(const InspectionOptions& options, Problems& problems) {
     within("--floor", options.floor, 0.0, 0.999);
     const auto finite = [&](const char* name, std::optional<double> given) {
         if (given && !std::isfinite(*given)) {
-            problems.push_back(
-                {.what = fmt::format("{}: {:g} is not a finite number", name, *given)});
+            reject(problems, 0, "{}: {:g} is not a finite number", name, *given);
         }
     };
     finite("--threshold", options.threshold);
@@ -210,8 +197,7 @@ void check_options(const InspectionOptions& options, Problems& problems) {
     finite("--right", options.right);
     finite("--target", options.target);
     if (options.target && *options.target <= 0.0) {
-        problems.push_back(
-            {.what = fmt::format("--target: must be > 0, but is {:g}", *options.target)});
+        reject(problems, 0, "--target: must be > 0, but is {:g}", *options.target);
     }
 }
 
@@ -231,7 +217,9 @@ InspectionRequest request_of(const InspectionOptions& options, const Columns& ch
         request.method = options.bounds == "wald" ? analysis::BoundMethod::wald
                                                   : analysis::BoundMethod::likelihood_ratio;
     }
-    request.log_sizes = log_sizes(options.size_scale);
+    if (!options.size_scale.empty()) {
+        request.log_sizes = {options.size_scale == "log"};
+    }
     request.target = options.target;
     if (!options.links.empty()) {
         request.links.clear();
@@ -251,7 +239,7 @@ InspectionRequest request_of(const InspectionOptions& options, const Columns& ch
     request.limits = {options.left.value_or(request.limits.left),
                       options.right.value_or(request.limits.right)};
     if (!(request.limits.left < request.limits.right)) {
-        problems.push_back({.what = "--left must be less than --right"});
+        reject(problems, 0, "--left must be less than --right");
     }
     request.powers = powers(options.response_scale, problems);
     request.accept_failed_checks = !options.size_scale.empty() && !options.response_scale.empty();
@@ -262,10 +250,9 @@ InspectionRequest request_of(const InspectionOptions& options, const Columns& ch
 void refuse_misplaced(const InspectionOptions& options, const Columns& chosen, Problems& problems) {
     const auto refuse = [&](bool given, const char* name) {
         if (given) {
-            problems.push_back(
-                {.what = fmt::format("{} is only for {}, but the table has {}", name,
-                                     chosen.responses ? "hits and misses" : "responses",
-                                     chosen.responses ? "responses" : "hits and misses")});
+            reject(problems, 0, "{} is only for {}, but the table has {}", name,
+                   chosen.responses ? "hits and misses" : "responses",
+                   chosen.responses ? "responses" : "hits and misses");
         }
     };
     if (chosen.responses) {
@@ -274,8 +261,9 @@ void refuse_misplaced(const InspectionOptions& options, const Columns& chosen, P
         refuse(options.fit_ceiling, "--fit-ceiling");
         refuse(options.firth, "--firth");
         if (options.threshold && options.false_call_rate) {
-            problems.push_back({.what = "--threshold and --false-call-rate cannot be used "
-                                        "together; give one of them"});
+            reject(problems, 0,
+                   "--threshold and --false-call-rate cannot be used "
+                   "together; give one of them");
         }
     } else {
         refuse(options.threshold.has_value(), "--threshold");
@@ -285,11 +273,11 @@ void refuse_misplaced(const InspectionOptions& options, const Columns& chosen, P
         refuse(!options.response_scale.empty(), "--response-scale");
         refuse(options.alarm != "high", "--alarm");
         if (options.fit_ceiling && options.bounds == "wald") {
-            problems.push_back({.what = "--fit-ceiling needs --bounds likelihood-ratio"});
+            reject(problems, 0, "--fit-ceiling needs --bounds likelihood-ratio");
         }
         if (options.fit_ceiling && options.firth) {
-            problems.push_back(
-                {.what = "--firth and --fit-ceiling cannot be used together; give one of them"});
+            reject(problems, 0,
+                   "--firth and --fit-ceiling cannot be used together; give one of them");
         }
     }
 }

@@ -146,22 +146,17 @@ class ListMeasurement {
         const std::size_t last = position.number + 1;
         const auto most = static_cast<std::size_t>(comparison_.options.average);
         std::vector<std::size_t> used;
-        std::vector<double> sum(aligned_[index_of(position)]->sensor.size(), 0.0);
+        std::vector<std::span<const double>> signals;
         for (std::size_t p = last - std::min(last, most); p < last; ++p) {
             const std::size_t i = groups_[position.group].recordings[p];
             if (aligned_[i]) {
                 used.push_back(i);
-                for (std::size_t s = 0; s < sum.size(); ++s) {
-                    sum[s] += aligned_[i]->sensor[s];
-                }
+                signals.push_back(aligned_[i]->sensor);
             }
         }
-        for (double& value : sum) {
-            value /= static_cast<double>(used.size());
-        }
+        signal.sensor = mean_signal(signals);
         signal.sensor_meshes =
-            static_cast<int>(sum.size() / static_cast<std::size_t>(plan_.record.samples));
-        signal.sensor = std::move(sum);
+            static_cast<int>(signal.sensor.size() / static_cast<std::size_t>(plan_.record.samples));
         return used;
     }
 

@@ -60,18 +60,12 @@ constexpr const char* kPhase = "mesh_phase";
 constexpr const char* kSpeed = "speed_rpm";
 constexpr double kRadPerSecondPerRpm = 2.0 * std::numbers::pi / 60.0;  // rad/s per rpm
 
-class SignalReader : RecordingColumns {
+// Reads the signals. Throws SignalError if the file cannot be read or lacks a column.
+class SignalsReader : protected RecordingColumns {
   public:
-    SignalReader(const SignalSource& source, const SignalColumns& columns,
-                 const MeasurementPlan& plan)
-        : RecordingColumns(source, columns), plan_(plan), record_(plan.record) {}
+    using RecordingColumns::RecordingColumns;
 
-    // Reads the columns and the mesh phase of every sample.
-    void read_file() {
-        struct Closed {
-            std::unique_ptr<SignalFile>& file;
-            ~Closed() { file.reset(); }
-        } closed{file_};
+    void read_signals() {
         file_ = source_.open(columns_.row);
         sensor_ = chosen(columns_.sensor, kSensor, Quantity::acceleration);
         te_ = chosen(columns_.te, "te", Quantity::angle);
@@ -81,7 +75,31 @@ class SignalReader : RecordingColumns {
                             "choose with --sensor or --te",
                             file_->contents()));
         }
+        for (const std::string& name : {columns_.tachometer, columns_.encoder}) {
+            if (columns_.samples_per_mesh == 0.0 && !name.empty() && found(name, true).empty()) {
+                reject_missing(name);
+            }
+        }
         stop_at_problems();
+    }
+
+  protected:
+    std::vector<double> sensor_, te_;
+};
+
+class SignalReader : SignalsReader {
+  public:
+    SignalReader(const SignalSource& source, const SignalColumns& columns,
+                 const MeasurementPlan& plan)
+        : SignalsReader(source, columns), plan_(plan), record_(plan.record) {}
+
+    // Reads the columns and the mesh phase of every sample.
+    void read_file() {
+        struct Closed {
+            std::unique_ptr<SignalFile>& file;
+            ~Closed() { file.reset(); }
+        } closed{file_};
+        read_signals();
         phase_ = phases(std::max(sensor_.size(), te_.size()), tracking_);
         for (const std::string& text : file_->notes()) {
             notes_.push_back(printable(text));
@@ -297,33 +315,46 @@ class SignalReader : RecordingColumns {
 
     const MeasurementPlan& plan_;
     const RecordPlan& record_;
-    std::vector<double> sensor_, te_, phase_;
+    std::vector<double> phase_;
     std::string tracking_;  // source of the phase
     std::size_t first_sample_ = 0;
     bool counted_ = false;  // true if the phase comes only from sample numbers, times and speed
 };
 
+// Calls `read`, which reads the recording with a reader of its own, by one thread at a time: the
+// libraries that read files are not thread-safe. They may crash on a damaged HDF5 file, so that it
+// is read in a child process first.
+void read_alone(const SignalSource& source, const std::function<void(bool trial)>& read) {
+    static std::mutex reading;
+    const std::lock_guard lock(reading);
+    constexpr std::uintmax_t kMemoryPerByte = 1000;  // compressed values
+    if (!source.columns && file_kind(source.name) == FileKind::hdf5 &&
+        why_not_readable(source.name).empty() &&
+        !survives_reading(
+            source.name, [&] { read(true); }, kMemoryPerByte)) {
+        throw SignalError(source.name +
+                          ": is damaged: reading it crashes, does not finish, or needs more memory "
+                          "than reading a file may use");
+    }
+    read(false);
+}
+
 }  // namespace
+
+void check_columns(const SignalSource& source, const SignalColumns& columns) {
+    read_alone(source, [&](bool) { SignalsReader(source, columns).read_signals(); });
+}
 
 MeasuredSignal read_measured_signal(const SignalSource& source, const SignalColumns& columns,
                                     const MeasurementPlan& plan) {
     SignalReader reader(source, columns, plan);
-    {
-        // The libraries that read files are not thread-safe, and may crash on a damaged HDF5 file.
-        static std::mutex reading;
-        const std::lock_guard lock(reading);
-        constexpr std::uintmax_t kMemoryPerByte = 1000;  // compressed values
-        if (!source.columns && file_kind(source.name) == FileKind::hdf5 &&
-            why_not_readable(source.name).empty() &&
-            !survives_reading(
-                source.name, [&] { SignalReader(source, columns, plan).read_file(); },
-                kMemoryPerByte)) {
-            throw SignalError(source.name +
-                              ": is damaged: reading it crashes, does not finish, or needs more "
-                              "memory than reading a file may use");
+    read_alone(source, [&](bool trial) {
+        if (trial) {
+            SignalReader(source, columns, plan).read_file();
+        } else {
+            reader.read_file();
         }
-        reader.read_file();
-    }
+    });
     return reader.resampled();
 }
 

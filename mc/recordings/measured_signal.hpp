@@ -69,6 +69,10 @@ struct MeasuredSignal {
 MeasuredSignal read_measured_signal(const SignalSource& source, const SignalColumns& columns,
                                     const MeasurementPlan& plan);
 
+// Throws SignalError if the recording cannot be read or lacks a column that is needed. Takes no
+// study, so that commands can check this before they prepare one.
+void check_columns(const SignalSource& source, const SignalColumns& columns);
+
 // A sensor signal aligned with another of the same gearbox.
 struct AlignedSensor {
     std::vector<double> sensor;  // m/s^2

@@ -18,24 +18,6 @@ bool marked(const RecordingList& list) {
     return std::ranges::any_of(list.recordings, &Recording::in_baseline);
 }
 
-std::vector<double> mean_sensor(const std::vector<AlignedSensor>& all,
-                                const std::vector<char>& used) {
-    std::vector<double> mean(all.front().sensor.size(), 0.0);
-    double count = 0.0;
-    for (std::size_t i = 0; i < all.size(); ++i) {
-        if (used[i] != 0) {
-            count += 1.0;
-            for (std::size_t s = 0; s < mean.size(); ++s) {
-                mean[s] += all[i].sensor[s];
-            }
-        }
-    }
-    for (double& value : mean) {
-        value /= count;
-    }
-    return mean;
-}
-
 // Largest number of recordings that are tried as the first reference.
 constexpr std::size_t kCandidates = 5;
 
@@ -78,6 +60,19 @@ std::vector<char> resembling(const std::vector<AlignedSensor>& all) {
 }
 
 }  // namespace
+
+std::vector<double> mean_signal(const std::vector<std::span<const double>>& signals) {
+    std::vector<double> mean(signals.front().size(), 0.0);
+    for (const std::span<const double> signal : signals) {
+        for (std::size_t i = 0; i < mean.size(); ++i) {
+            mean[i] += signal[i];
+        }
+    }
+    for (double& value : mean) {
+        value /= static_cast<double>(signals.size());
+    }
+    return mean;
+}
 
 bool BaselineOptions::any(const RecordingList& list) const {
     return records > 0 || average > 1 || scaled || marked(list);
@@ -204,7 +199,13 @@ GroupBaseline::GroupBaseline(const RecordingGroup& group, const RecordingList& l
             refuse(static_cast<std::size_t>(std::ranges::count(used, 1)));
             return;
         }
-        const std::vector<double> mean = mean_sensor(aligned, used);
+        std::vector<std::span<const double>> similar;
+        for (std::size_t i = 0; i < aligned.size(); ++i) {
+            if (used[i] != 0) {
+                similar.push_back(aligned[i].sensor);
+            }
+        }
+        const std::vector<double> mean = mean_signal(similar);
         for (std::size_t i = 0; i < records.size(); ++i) {
             aligned[i] = aligned_with(mean, records[i], turns, plan.span);
         }
@@ -236,28 +237,21 @@ MeasuredBaseline GroupBaseline::without(std::span<const std::size_t> recordings)
         return mean_;
     }
     MeasuredBaseline baseline{mean_.file, mean_.signal, mean_.scaled};
-    std::vector<double>& sum = baseline.signal.sensor;
-    sum.assign(members_.front().sensor.size(), 0.0);
-    double count = 0.0;
+    std::vector<std::span<const double>> others;
     for (const Member& member : members_) {
         if (std::ranges::find(recordings, member.recording) == recordings.end()) {
-            count += 1.0;
-            for (std::size_t i = 0; i < sum.size(); ++i) {
-                sum[i] += member.sensor[i];
-            }
+            others.push_back(member.sensor);
             baseline.signal.sensor_rounding =
                 std::max(baseline.signal.sensor_rounding, member.rounding);
         }
     }
-    if (count == 0.0) {
+    if (others.empty()) {
         throw SignalError(fmt::format(
             "{}: the recordings averaged are all that it has, so none is left to compare with: "
             "raise --baseline-records, or lower --average",
             mean_.file));
     }
-    for (double& value : sum) {
-        value /= count;
-    }
+    baseline.signal.sensor = mean_signal(others);
     return baseline;
 }
 

@@ -24,6 +24,9 @@ struct BaselineOptions {
     bool any(const RecordingList& list) const;
 };
 
+// Mean of signals of equal length; there must be one.
+std::vector<double> mean_signal(const std::vector<std::span<const double>>& signals);
+
 // Problems with these options for this list. `manifest` names the table.
 Problems baseline_problems(const BaselineOptions& options, const RecordingList& list,
                            const std::string& manifest, bool has_baseline_file);

@@ -82,11 +82,12 @@ std::vector<double> scaled(std::vector<double> values, double factor);
 
 // Reader of one file. Problems are collected and thrown together by stop_at_problems().
 class RecordingColumns {
-  protected:
+  public:
     // Both must outlive the object.
     RecordingColumns(const SignalSource& source, const SignalColumns& columns)
         : source_(source), columns_(columns) {}
 
+  protected:
     void reject(const std::string& what);
     void reject_column(const std::string& name, const std::string& why);
     void stop_at_problems() const;

@@ -29,15 +29,17 @@ inline const char* columns_name(const Results& frame) {
 
 // Column of Results, the dataset that holds it, and its index among the numbers of a row
 // (RowShape).
-template <class Values>
+template <class Values, class Object>
 struct StoredColumn {
     std::string dataset;       // "features/rms"
     std::size_t first, width;  // in a row
     bool by_level;             // if the dataset has the shape rows x levels
     Values& values;
+    Object& object;  // that has the values
 };
-template <class Values>
-StoredColumn(std::string, std::size_t, std::size_t, bool, Values&) -> StoredColumn<Values>;
+template <class Values, class Object>
+StoredColumn(std::string, std::size_t, std::size_t, bool, Values&, Object&)
+    -> StoredColumn<Values, Object>;
 
 // Calls `use` with all columns of Results, in the order of their numbers in a row.
 template <class Frame, class Use>
@@ -46,9 +48,8 @@ void for_each_column(Frame& frame, const Use& use) {
     const auto use_all = [&](const std::string& group, auto& columns, bool by_level) {
         const std::size_t width = by_level ? frame.noise_levels.size() : 1;
         for (auto& column : columns) {
-            using Values = std::remove_reference_t<decltype((column.values))>;
-            use(StoredColumn<Values>{group + "/" + column.name, first, width, by_level,
-                                     column.values});
+            use(StoredColumn{group + "/" + column.name, first, width, by_level, column.values,
+                             column});
             first += width;
         }
     };

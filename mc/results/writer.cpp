@@ -24,25 +24,14 @@ void require(bool condition, const std::string& what) {
 void check_shapes(const Results& results) {
     const std::size_t rows = results.group.size();
     require(results.status.size() == rows, "status and group differ in length");
-    for (const ParameterResult& parameter : results.parameters) {
-        require(parameter.values.size() == rows, parameter.name + " has another number of rows");
-    }
-    for (const FeatureResult& feature : results.features) {
-        require(feature.values.size() == rows * results.noise_levels.size(),
-                feature.name + " is not rows x noise levels");
-    }
-    for (const auto* columns : {&results.contact_loss, &results.integration}) {
-        for (const RowColumn& column : *columns) {
-            require(column.values.size() == rows, column.name + " has another number of rows");
-        }
-    }
+    for_each_column(results, [&](const auto& column) {
+        require(column.values.size() == rows * column.width,
+                column.dataset + (column.by_level ? " is not rows x noise levels"
+                                                  : " has another number of rows"));
+    });
     for (const Variant& variant : results.variants) {
         require(variant.features.size() == results.features.size(),
                 variant.name + " has another number of features");
-        for (const FeatureResult& feature : variant.features) {
-            require(feature.values.size() == rows * results.noise_levels.size(),
-                    variant.name + ": " + feature.name + " is not rows x noise levels");
-        }
     }
     for (const analysis::FeatureDetection& detection : results.detection) {
         for (const analysis::LevelDetection& level : detection.levels) {
@@ -65,68 +54,50 @@ struct Places {
     std::uint64_t group = 0, status = 0;
 };
 
-void create_instances(hid_t root, const Results& frame, hsize_t rows, Places& places) {
-    const Hdf5Handle group = create_group(root, "instances");
-    places.group = create_column(group.get(), "group", {rows}, ColumnKind::integers);
-    write_text(group.get(), "group", "meanings", kGroupMeanings);
-    for (std::size_t p = 0; p < frame.parameters.size(); ++p) {
-        const ParameterResult& parameter = frame.parameters[p];
-        places.numbers.push_back(
-            {create_column(group.get(), parameter.name, {rows}, ColumnKind::numbers), p, 1});
-        write_text(group.get(), parameter.name, "unit", parameter.unit);
-    }
+void describe(hid_t root, const std::string& dataset, const ParameterResult& parameter) {
+    write_text(root, dataset, "unit", parameter.unit);
+}
+void describe(hid_t root, const std::string& dataset, const FeatureResult& feature) {
+    write_text(root, dataset, "unit", feature.unit);
+    write_text(root, dataset, "alarm", analysis::alarm_name(feature.alarm));
+}
+void describe(hid_t root, const std::string& dataset, const RowColumn&) {
+    write_text(root, dataset, "unit", "1");
+    write_text(root, dataset, "description",
+               dataset.starts_with(kContactLoss) ? kContactLossMeaning : kSuperposedMeaning);
+}
+
+// Reserves space for the rows.
+Places create_columns(hid_t root, const Results& frame, hsize_t rows) {
+    Places places;
+    create_group(root, "instances");
+    places.group = create_column(root, "instances/group", {rows}, ColumnKind::integers);
+    write_text(root, "instances/group", "meanings", kGroupMeanings);
     places.status = create_column(root, "status", {rows}, ColumnKind::integers);
     write_text(root, "status", "meanings", kStatusMeanings);
-}
-
-// Columns of features in a group; `first` is the index of the first one's values in a row.
-void create_features(hid_t group, const std::vector<FeatureResult>& features, std::size_t first,
-                     std::size_t levels, hsize_t rows, Places& places) {
-    for (const FeatureResult& feature : features) {
-        places.numbers.push_back(
-            {create_column(group, feature.name, {rows, levels}, ColumnKind::numbers), first,
-             levels});
-        first += levels;
-        write_text(group, feature.name, "unit", feature.unit);
-        write_text(group, feature.name, "alarm", analysis::alarm_name(feature.alarm));
+    write_numbers(root, columns_name(frame), {frame.noise_levels.size()}, frame.noise_levels);
+    create_group(root, "features");
+    if (!frame.contact_loss.empty()) {
+        create_group(root, kContactLoss);
     }
-}
-
-void create_features(hid_t root, const Results& frame, hsize_t rows, Places& places) {
-    const RowShape shape = row_shape(frame);
-    write_numbers(root, columns_name(frame), {shape.levels}, frame.noise_levels);
-    const Hdf5Handle group = create_group(root, "features");
-    create_features(group.get(), frame.features, shape.value_of(0, 0), shape.levels, rows, places);
-}
-
-void create_variants(hid_t root, const Results& frame, hsize_t rows, Places& places) {
-    if (frame.variants.empty()) {
-        return;
+    if (!frame.integration.empty()) {
+        create_group(root, kIntegration);
     }
-    const RowShape shape = row_shape(frame);
-    const Hdf5Handle variants = create_group(root, kVariants);
-    for (std::size_t v = 0; v < shape.variants; ++v) {
-        const Variant& variant = frame.variants[v];
-        const Hdf5Handle group = create_group(variants.get(), variant.name);
-        write_text(variants.get(), variant.name, "description", variant.description);
-        create_features(group.get(), variant.features, shape.variant_value_of(v, 0), shape.levels,
-                        rows, places);
+    if (!frame.variants.empty()) {
+        create_group(root, kVariants);
     }
-}
-
-// Columns of one value per row, from place `first` of a row.
-void create_columns(hid_t root, const char* group_name, const std::vector<RowColumn>& columns,
-                    const char* meaning, std::size_t first, hsize_t rows, Places& places) {
-    if (columns.empty()) {
-        return;
+    for (const Variant& variant : frame.variants) {
+        const std::string name = std::string(kVariants) + "/" + variant.name;
+        create_group(root, name);
+        write_text(root, name, "description", variant.description);
     }
-    const Hdf5Handle group = create_group(root, group_name);
-    for (const RowColumn& column : columns) {
-        places.numbers.push_back(
-            {create_column(group.get(), column.name, {rows}, ColumnKind::numbers), first++, 1});
-        write_text(group.get(), column.name, "unit", "1");
-        write_text(group.get(), column.name, "description", meaning);
-    }
+    for_each_column(frame, [&](const auto& column) {
+        const Shape shape = column.by_level ? Shape{rows, column.width} : Shape{rows};
+        places.numbers.push_back({create_column(root, column.dataset, shape, ColumnKind::numbers),
+                                  column.first, column.width});
+        describe(root, column.dataset, column.object);
+    });
+    return places;
 }
 
 void write_sizes(hid_t group, const std::vector<analysis::SizeGroup>& sizes) {
@@ -237,14 +208,7 @@ Places write_frame(const std::string& path, const Results& frame, std::size_t ro
         for (const auto& [name, value] : frame.provenance) {
             write_text(root.get(), ".", name, value);
         }
-        create_instances(root.get(), frame, rows, places);
-        create_features(root.get(), frame, rows, places);
-        const RowShape shape = row_shape(frame);
-        create_columns(root.get(), kContactLoss, frame.contact_loss, kContactLossMeaning,
-                       shape.contact_loss(), rows, places);
-        create_columns(root.get(), kIntegration, frame.integration, kSuperposedMeaning,
-                       shape.integration_value(), rows, places);
-        create_variants(root.get(), frame, rows, places);
+        places = create_columns(root.get(), frame, rows);
         write_detection(root.get(), frame);
         write_numerical_groups(root.get(), frame);
         write_all_signals(root.get(), frame);

@@ -291,7 +291,11 @@ class OwnFeatures(PythonStudyCase):
                                ('"own.py"', "must be a list of Python files"),
                                ("[1]", "must be a list of files, but contains an integer"),
                                ("[{ name = 'f' }]", "a table needs name, file and sha256"),
-                               ('["none.py", "."]', "none.py: cannot be read")):
+                               ('["none.py", "."]', "none.py: cannot be read"),
+                               ('["/dev/zero"]', "/dev/zero: is not a regular file"),
+                               ('["pipe"]', "pipe: is not a regular file")):
+            if "pipe" in files:
+                os.mkfifo(self.folder / "pipe")
             study = self.study("def f(record):\n    return 1\n", files=files)
             self.program("run", study, code=2)
             self.assertIn(message, self.output)

@@ -7,8 +7,8 @@
 
 #include "machine/no_value.hpp"
 #include "mc/files/signal_file.hpp"
-#include "mc/files/text/text_dialect.hpp"
 #include "mc/files/text/text_fields.hpp"
+#include "mc/files/text/text_table.hpp"
 
 namespace gearpod::mc {
 namespace {

@@ -187,19 +187,6 @@ std::string csv_field(const std::string& text, std::string_view separators) {
 
 namespace {
 
-// Position of the bracket that the one at `close` closes; npos if there is none.
-std::size_t opening_of(std::string_view text, std::size_t close) {
-    const char closing = text[close], opening = closing == ']' ? '[' : '(';
-    int depth = 0;
-    for (std::size_t i = close + 1; i-- > 0;) {
-        depth += text[i] == closing ? 1 : text[i] == opening ? -1 : 0;
-        if (depth == 0) {
-            return i;
-        }
-    }
-    return std::string_view::npos;
-}
-
 // The text without its characters from `first` to `last`, which are a unit.
 std::string without_part(std::string_view text, std::size_t first, std::size_t last) {
     const std::string before(trimmed_field(text.substr(0, first)));
@@ -210,7 +197,7 @@ std::string without_part(std::string_view text, std::size_t first, std::size_t l
 TableColumn split_header(const std::string& text) {
     const std::size_t square = text.rfind(']');
     if (square != std::string::npos) {
-        const std::size_t open = opening_of(text, square);
+        const std::size_t open = opening_of_last(std::string_view(text).substr(0, square + 1));
         const std::string name = open == std::string::npos ? "" : without_part(text, open, square);
         if (!name.empty()) {
             const auto inside = std::string_view(text).substr(open + 1, square - open - 1);
@@ -218,7 +205,7 @@ TableColumn split_header(const std::string& text) {
         }
     }
     if (text.ends_with(')')) {
-        const std::size_t open = opening_of(text, text.size() - 1);
+        const std::size_t open = opening_of_last(text);
         if (open != std::string::npos && open > 0) {
             const auto inside = std::string_view(text).substr(open + 1, text.size() - open - 2);
             const bool number = std::ranges::all_of(
@@ -239,7 +226,7 @@ TableColumn split_header(const std::string& text) {
 
 // The name without a remark in parentheses at its end.
 std::string_view without_remark(std::string_view name) {
-    const std::size_t open = name.ends_with(')') ? opening_of(name, name.size() - 1) : 0;
+    const std::size_t open = name.ends_with(')') ? opening_of_last(name) : 0;
     return open == 0 || open == std::string_view::npos ? name : trimmed_field(name.substr(0, open));
 }
 

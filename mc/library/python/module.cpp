@@ -2,6 +2,8 @@
 // functions): the commands' computations in process, with numpy arrays in and out. Python's lock is
 // released while they compute.
 #include <fmt/format.h>
+#include <pybind11/numpy.h>
+#include <pybind11/pybind11.h>
 #include <pybind11/stl.h>
 
 #include <algorithm>
@@ -24,7 +26,6 @@
 #include "mc/library/inspection_table.hpp"
 #include "mc/library/open_study.hpp"
 #include "mc/library/own_values.hpp"
-#include "mc/library/python/numpy.hpp"
 #include "mc/library/run/run_options.hpp"
 #include "mc/library/signal_features.hpp"
 #include "mc/library/stiffness_modes.hpp"
@@ -32,18 +33,15 @@
 
 namespace gearpod::python {
 
+namespace py = pybind11;
+
+using Doubles = py::array_t<double, py::array::c_style | py::array::forcecast>;
+
 // Failure of a gearbox; the message names its row.
 class GearboxFailed : public std::runtime_error {
   public:
     using std::runtime_error::runtime_error;
 };
-
-// Simulates the gearboxes in these rows of the results. All columns and features have the values of
-// the first row, then those of the second, and so on. `interrupted` is polled by the calling thread
-// between gearboxes; if it returns true, the result is empty. Throws BadInput for rows that do not
-// exist and GearboxFailed. The values do not depend on the number of threads.
-mc::Simulation simulate_rows(mc::OpenStudy& study, const std::vector<long>& rows, long meshes,
-                             const std::function<bool()>& interrupted);
 
 namespace {
 
@@ -61,8 +59,10 @@ void append(mc::Simulation& all, const mc::Simulation& next) {
     append(all.features, next.features);
 }
 
-}  // namespace
-
+// Simulates the gearboxes in these rows of the results. All columns and features have the values of
+// the first row, then those of the second, and so on. `interrupted` is polled by the calling thread
+// between gearboxes; if it returns true, the result is empty. Throws BadInput for rows that do not
+// exist and GearboxFailed. The values do not depend on the number of threads.
 mc::Simulation simulate_rows(mc::OpenStudy& study, const std::vector<long>& rows, long meshes,
                              const std::function<bool()>& interrupted) {
     const auto& [tile, ensemble] = study.plans();
@@ -97,7 +97,51 @@ mc::Simulation simulate_rows(mc::OpenStudy& study, const std::vector<long>& rows
     return all;
 }
 
-namespace {
+// Array that owns the values; they are not copied.
+Doubles array_of(std::vector<double> values, std::vector<py::ssize_t> shape) {
+    auto owner = std::make_unique<std::vector<double>>(std::move(values));
+    const double* data = owner->data();
+    const py::capsule free(owner.release(), [](void* values_of_array) {
+        delete static_cast<std::vector<double>*>(values_of_array);
+    });
+    return Doubles(std::move(shape), data, free);
+}
+
+Doubles array_of(std::vector<double> values) {
+    const auto size = static_cast<py::ssize_t>(values.size());
+    return array_of(std::move(values), {size});
+}
+
+std::vector<double> vector_of(const Doubles& array) {
+    return {array.data(), array.data() + array.size()};
+}
+
+// [(name, unit, array)]; a column has one value per row of `shape`.
+py::list list_of(std::vector<mc::SignalColumn> columns, const std::vector<py::ssize_t>& shape) {
+    py::list list;
+    for (mc::SignalColumn& column : columns) {
+        list.append(
+            py::make_tuple(column.name, column.unit, array_of(std::move(column.values), shape)));
+    }
+    return list;
+}
+
+// Path of a recording, or [(name, unit, array)] of one in memory. `name` is for messages.
+mc::SignalSource source_of(const py::object& signal, const std::string& name) {
+    if (signal.is_none()) {
+        return {};
+    }
+    if (py::isinstance<py::str>(signal)) {
+        return signal.cast<std::string>();
+    }
+    std::vector<mc::SignalColumn> columns;
+    for (const py::handle item : signal) {
+        const auto column = item.cast<py::tuple>();
+        columns.push_back({column[0].cast<std::string>(), column[1].cast<std::string>(),
+                           vector_of(column[2].cast<Doubles>())});
+    }
+    return {name, std::move(columns)};
+}
 
 // Result of a computation without Python's lock.
 template <typename Compute>

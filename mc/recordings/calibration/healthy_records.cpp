@@ -49,17 +49,8 @@ class TableReading {
         : table_(read_text_table(path)), span_(span), problems_(problems) {}
 
     std::vector<HealthyRecord> read() {
-        const auto known = usable_names();
-        for (const TableColumn& column : table_.columns) {
-            any_ = any_ || std::ranges::find(known, column.name) != known.end();
-        }
-        if (!any_) {
-            problems_.push_back({table_.path, 0, "",
-                                 "has no column with the name of a sensor feature",
-                                 "its columns are " + table_.names()});
-        }
         std::vector<HealthyRecord> records;
-        for (row_ = 0; any_ && row_ < table_.rows.size(); ++row_) {
+        for (row_ = 0; row_ < table_.rows.size(); ++row_) {
             if (text("label") == "faulty" || !text("problem").empty()) {
                 continue;
             }
@@ -117,7 +108,6 @@ class TableReading {
     const signals::SpanLayout span_;
     Problems& problems_;
     std::size_t row_ = 0;
-    bool any_ = false;
 };
 
 bool all_have(const std::vector<HealthyRecord>& records, const Feature& feature) {
@@ -179,6 +169,23 @@ std::vector<Value> thinned(std::vector<Value> all, std::size_t most) {
 }
 
 }  // namespace
+
+void check_feature_table(const std::string& path, const std::vector<std::string>& requested,
+                         Problems& problems) {
+    const TextTable table = read_text_table(path);
+    const auto known = usable_names();
+    if (std::ranges::none_of(table.columns, [&](const TableColumn& column) {
+            return std::ranges::count(known, column.name) > 0;
+        })) {
+        problems.push_back({path, 0, "", "has no column with the name of a sensor feature",
+                            "its columns are " + table.names()});
+    }
+    for (const std::string& name : requested) {
+        if (std::ranges::count(known, name) > 0 && !table.find(name)) {
+            problems.push_back({"--feature", 0, name, "is missing from some records", ""});
+        }
+    }
+}
 
 std::vector<HealthyRecord> read_feature_table(const std::string& path,
                                               const signals::SpanLayout& span, Problems& problems) {

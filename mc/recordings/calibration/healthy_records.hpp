@@ -26,6 +26,11 @@ struct HealthyRecord {
     std::vector<double> values;  // in the order of features::record_features(); NaN if missing
 };
 
+// Adds problems with the columns of such a table: none is a sensor feature, or a requested one is
+// missing. Throws SignalError if the table cannot be read.
+void check_feature_table(const std::string& path, const std::vector<std::string>& requested,
+                         Problems& problems);
+
 // Reads a table as written by `features --csv` (text_table.hpp), one record per line. Columns are
 // named after features. Optional columns: gearbox, label (faulty lines are skipped), planet_turns
 // (default: the span's) and problem (lines with a problem are skipped). Problems name the line.

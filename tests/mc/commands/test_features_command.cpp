@@ -166,6 +166,12 @@ TEST_CASE("Every problem of a signal is reported in one message, with exit code 
     refused(folder.file("other.csv") + " --sensor sensr --te angle",
             "no column sensr; its columns are mesh_phase, accel");
     refused(folder.file("other.csv") + " --sensor sensr --te angle", "no column angle");
+    // Before a study is prepared, which may take long.
+    const Outcome early = program("features " + folder.file("other.csv") +
+                                  " --sensor accel --encoder angle --study none.toml");
+    CHECK(early.code == 2);
+    CHECK(early.mentions("no column angle"));
+    CHECK(!early.mentions("none.toml"));
     refused(folder.file("other.csv") + " --sensor accel",
             "too short for every feature: 10 mesh periods of sensor signal and 0 of transmission "
             "error; record at least 11");

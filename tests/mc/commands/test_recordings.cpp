@@ -1,4 +1,6 @@
 // Checks gearpod features of many recordings, and the report on them.
+#include <sys/stat.h>
+
 #include "mc/results/results_file.hpp"
 #include "tests/mc/recording_files.hpp"
 
@@ -268,6 +270,11 @@ TEST_CASE("Invalid manifest entries are reported with their line, all at once") 
          "m.csv:4: label: healthy contradicts the size", "m.csv:5: size: is negative",
          "m.csv:5: torque: \"one\" is not a finite number"});
     CHECK(refused("name\na\n").mentions("has no column file"));
+    REQUIRE(::mkfifo(folder.file("pipe").c_str(), 0600) == 0);
+    for (const char* name : {"pipe", "/dev/zero"}) {
+        CHECK(refused(std::string("file\n") + name + "\n")
+                  .mentions("m.csv:2: file: is not a regular file"));
+    }
     CHECK(refused("file,load,load\na.csv,1,2\n").mentions("is the name of two columns"));
     write_bytes(manifest, ",file,label,load [N]\n0,a.csv,healthy,\"1,5\"\n1,=b.csv,NA,2\n");
     program("features --manifest " + manifest + " --study " + kSmall + " --csv " +
