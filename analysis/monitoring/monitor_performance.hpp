@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "analysis/monitoring/false_alarms.hpp"
+#include "machine/fields.hpp"
 
 namespace gearpod::analysis {
 
@@ -67,6 +68,9 @@ struct MonitorPerformance {
     // Time of the first alarm after the crack's effect for each cracked life; NaN if there is none.
     std::vector<double> alarm_hours;
 };
+GEARPOD_FIELDS(MonitorPerformance, threshold_, false_alarms_, expected_, effect_depth_m,
+               early_hours, early_alarms, ended, found, share, share_bounds, share_by_chance,
+               share_at_stated_rate, size_50_, size_90_, warning_50_h, warning_90_h, alarm_h_)
 
 // Evaluates a detector: threshold from `setting`, false alarms from `healthy`, everything else from
 // `cracked`. An alarm before the record at which the crack reaches the size of its effect counts as

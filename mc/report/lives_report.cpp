@@ -315,35 +315,26 @@ analysis::Report lives_report(const LifeMonitor& monitor, bool shows_withheld) {
 
 nlohmann::json life_result_json(const MonitoredFeature& one) {
     const analysis::MonitorPerformance& a = one.performance;
-    return {{"feature", one.feature},
-            {"detector", one.detector},
-            {"threshold", analysis::number(a.threshold.value)},
-            {"threshold_hours", a.threshold.hours},
-            {"false_alarms",
-             {{"count", a.false_alarms.alarms},
-              {"hours", a.false_alarms.hours},
-              {"per_1000_h", analysis::number(a.false_alarms.per_1000_h)},
-              {"bounds", analysis::json_of(a.false_alarms.bounds)},
-              {"dispersion", a.false_alarms.dispersion},
-              {"expected", analysis::json_of(a.expected_per_1000_h)}}},
-            {"ended", a.ended},
-            {"found", a.found},
-            {"share", analysis::number(a.share)},
-            {"share_bounds", analysis::json_of(a.share_bounds)},
-            {"share_by_chance", analysis::number(a.share_by_chance)},
-            {"share_at_stated_rate", analysis::number(a.share_at_stated_rate)},
-            {"net_share", analysis::number(analysis::net_share(a))},
-            {"unranked", analysis::text_or_null(one.unranked)},
-            {"best_of_feature", one.best_of_feature},
-            {"effect_depth_m", analysis::number(a.effect_size)},
-            {"early_alarms", a.early_alarms},
-            {"early_hours", a.early_hours},
-            {"depth_50_m", analysis::number(a.size_50.value)},
-            {"depth_50_bound_m", analysis::number(a.size_50.bound)},
-            {"depth_90_m", analysis::number(a.size_90.value)},
-            {"depth_90_bound_m", analysis::number(a.size_90.bound)},
-            {"warning_50_h", analysis::number(a.warning_50)},
-            {"warning_90_h", analysis::number(a.warning_90)}};
+    nlohmann::json json = analysis::fields_json(a);
+    json.update({{"feature", one.feature},
+                 {"detector", one.detector},
+                 {"threshold", analysis::number(a.threshold.value)},
+                 {"threshold_hours", a.threshold.hours},
+                 {"false_alarms",
+                  {{"count", a.false_alarms.alarms},
+                   {"hours", a.false_alarms.hours},
+                   {"per_1000_h", analysis::number(a.false_alarms.per_1000_h)},
+                   {"bounds", analysis::json_of(a.false_alarms.bounds)},
+                   {"dispersion", a.false_alarms.dispersion},
+                   {"expected", analysis::json_of(a.expected_per_1000_h)}}},
+                 {"net_share", analysis::number(analysis::net_share(a))},
+                 {"unranked", analysis::text_or_null(one.unranked)},
+                 {"best_of_feature", one.best_of_feature},
+                 {"depth_50_m", analysis::number(a.size_50.value)},
+                 {"depth_50_bound_m", analysis::number(a.size_50.bound)},
+                 {"depth_90_m", analysis::number(a.size_90.value)},
+                 {"depth_90_bound_m", analysis::number(a.size_90.bound)}});
+    return json;
 }
 
 nlohmann::json lives_json(const LifeMonitor& monitor, bool shows_withheld) {

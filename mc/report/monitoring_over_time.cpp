@@ -199,78 +199,45 @@ GearboxSeries series_of(const Results& frame, const GearboxRecords& gearbox) {
     return series;
 }
 
+// Deviations of a feature, or of several combined, from the gearbox's first recordings.
+std::vector<double> deviations_of(const Results& frame, const GearboxRecords& gearbox,
+                                  const std::vector<std::size_t>& features, std::size_t baseline) {
+    if (features.size() == 1) {
+        return analysis::baseline_deviations(gearbox.values[features[0]], gearbox.torque, baseline,
+                                             frame.features[features[0]].alarm);
+    }
+    std::vector<std::vector<double>> values;
+    std::vector<analysis::Alarm> alarms;
+    for (const std::size_t f : features) {
+        values.push_back(gearbox.values[f]);
+        alarms.push_back(frame.features[f].alarm);
+    }
+    return analysis::fused_deviations(values, gearbox.torque, baseline, alarms);
+}
+
 // Monitors every feature separately, and the study's features combined ("fused").
-class RecordingMonitor {
-  public:
-    RecordingMonitor(const Results& frame, const MeasuringFacts& facts,
-                     const std::vector<GearboxRecords>& gearboxes, MonitoringOverTime& monitoring)
-        : frame_(frame), facts_(facts), gearboxes_(gearboxes), monitoring_(monitoring) {}
-
-    std::vector<RecordingMonitorResult> all() {
-        std::vector<RecordingMonitorResult> watched;
-        for (const GearboxRecords& gearbox : gearboxes_) {
-            monitoring_.gearboxes.push_back(series_of(frame_, gearbox));
-        }
-        for (std::size_t f = 0; f < frame_.features.size(); ++f) {
-            add(frame_.features[f].name, {f}, watched);
-        }
-        std::vector<std::size_t> used;
-        for (std::size_t f = 0; f < frame_.features.size(); ++f) {
-            if (in_study(frame_.features[f].name)) {
-                used.push_back(f);
-            }
-        }
-        if (baseline() > 0 && used.size() > 1) {
-            add(kFused, used, watched);
-        }
-        return watched;
-    }
-
-  private:
-    std::size_t baseline() const {
-        return static_cast<std::size_t>(facts_.monitoring.baseline_records);
-    }
-    bool in_study(const std::string& feature) const {
-        return std::ranges::count(facts_.features, feature) > 0;
-    }
-
-    std::vector<double> deviations(const GearboxRecords& gearbox,
-                                   const std::vector<std::size_t>& features) const {
-        if (features.size() == 1) {
-            return analysis::baseline_deviations(gearbox.values[features[0]], gearbox.torque,
-                                                 baseline(), frame_.features[features[0]].alarm);
-        }
-        std::vector<std::vector<double>> values;
-        std::vector<analysis::Alarm> alarms;
-        for (const std::size_t f : features) {
-            values.push_back(gearbox.values[f]);
-            alarms.push_back(frame_.features[f].alarm);
-        }
-        return analysis::fused_deviations(values, gearbox.torque, baseline(), alarms);
-    }
-
-    void add(const std::string& name, const std::vector<std::size_t>& features,
-             std::vector<RecordingMonitorResult>& watched) {
-        std::vector<std::vector<double>> of_gearbox;
+void monitor_all(const Results& frame, const MeasuringFacts& facts,
+                 const std::vector<GearboxRecords>& gearboxes, MonitoringOverTime& monitoring) {
+    const auto baseline = static_cast<std::size_t>(facts.monitoring.baseline_records);
+    const double stated = frame.request.false_alarm_rate, confidence = frame.request.confidence;
+    const auto add = [&](const std::string& name, const std::vector<std::size_t>& features,
+                         bool shown) {
+        std::vector<std::vector<double>> deviations;
         std::vector<analysis::HealthyLife> lives;
-        for (const GearboxRecords& gearbox : gearboxes_) {
-            of_gearbox.push_back(deviations(gearbox, features));
-            lives.push_back(healthy_life(gearbox, of_gearbox.back()));
-        }
-        if (name == kFused || in_study(name)) {
-            monitoring_.shown.push_back(name);
-            for (std::size_t g = 0; g < gearboxes_.size(); ++g) {
-                monitoring_.gearboxes[g].deviations.push_back(of_gearbox[g]);
+        long records = 0;
+        for (std::size_t g = 0; g < gearboxes.size(); ++g) {
+            deviations.push_back(deviations_of(frame, gearboxes[g], features, baseline));
+            lives.push_back(healthy_life(gearboxes[g], deviations.back()));
+            records += static_cast<long>(lives.back().values.size());
+            if (shown) {
+                monitoring.gearboxes[g].deviations.push_back(deviations.back());
             }
         }
-        long records = 0;
-        for (const analysis::HealthyLife& life : lives) {
-            records += static_cast<long>(life.values.size());
+        if (shown) {
+            monitoring.shown.push_back(name);
         }
-        const double stated = frame_.request.false_alarm_rate;
         const double rate = std::max(stated, analysis::smallest_rate(records));
-        const double confidence = frame_.request.confidence;
-        for (const std::string& text : facts_.monitoring.detectors) {
+        for (const std::string& text : facts.monitoring.detectors) {
             const analysis::Detector detector = *analysis::parse_detector(text);
             RecordingMonitorResult one{name,
                                        text,
@@ -280,20 +247,30 @@ class RecordingMonitor {
                                        0,
                                        held_out_alarms(detector, lives, stated, confidence),
                                        {}};
-            for (std::size_t g = 0; g < gearboxes_.size(); ++g) {
+            for (std::size_t g = 0; g < gearboxes.size(); ++g) {
                 one.gearboxes.push_back(monitor_gearbox(
-                    gearboxes_[g], monitoring_.gearboxes[g], of_gearbox[g], detector,
-                    one.threshold.value, monitoring_.sustained, one.healthy_sustained));
+                    gearboxes[g], monitoring.gearboxes[g], deviations[g], detector,
+                    one.threshold.value, monitoring.sustained, one.healthy_sustained));
             }
-            watched.push_back(std::move(one));
+            monitoring.watched.push_back(std::move(one));
         }
+    };
+    for (const GearboxRecords& gearbox : gearboxes) {
+        monitoring.gearboxes.push_back(series_of(frame, gearbox));
     }
-
-    const Results& frame_;
-    const MeasuringFacts& facts_;
-    const std::vector<GearboxRecords>& gearboxes_;
-    MonitoringOverTime& monitoring_;
-};
+    std::vector<std::size_t> used;
+    for (std::size_t f = 0; f < frame.features.size(); ++f) {
+        const std::string& name = frame.features[f].name;
+        const bool in_study = std::ranges::count(facts.features, name) > 0;
+        if (in_study) {
+            used.push_back(f);
+        }
+        add(name, {f}, in_study);
+    }
+    if (baseline > 0 && used.size() > 1) {
+        add(kFused, used, true);
+    }
+}
 
 // Fewest healthy recordings that set a threshold: with fewer, more than one in ten alarms.
 constexpr long kFewestHealthy = 10;
@@ -465,7 +442,7 @@ std::optional<MonitoringOverTime> monitoring_over_time(const Results& frame,
     }
     monitoring.refusal = refusal_of(gearboxes, requested.baseline_records, monitoring.healthy);
     if (monitoring.refusal.empty()) {
-        monitoring.watched = RecordingMonitor(frame, *facts, gearboxes, monitoring).all();
+        monitor_all(frame, *facts, gearboxes, monitoring);
     }
     return monitoring;
 }
