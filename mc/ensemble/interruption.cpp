@@ -2,23 +2,17 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <array>
 #include <charconv>
 #include <csignal>
+#include <cstring>
 #include <ctime>
 #include <string_view>
-#include <utility>
 
 namespace gearpod::mc {
 namespace {
 
-constexpr std::array<std::pair<int, const char*>, 6> kSignals{{{SIGINT, "SIGINT"},
-                                                               {SIGTERM, "SIGTERM"},
-                                                               {SIGUSR1, "SIGUSR1"},
-                                                               {SIGUSR2, "SIGUSR2"},
-                                                               {SIGXCPU, "SIGXCPU"},
-                                                               {SIGHUP, "SIGHUP"}}};
+constexpr std::array kSignals{SIGINT, SIGTERM, SIGUSR1, SIGUSR2, SIGXCPU, SIGHUP};
 
 volatile std::sig_atomic_t caught = 0;
 // Time of the first signal on the steady clock, in nanoseconds. Signal handlers may only write
@@ -46,10 +40,6 @@ extern "C" void note_signal(int number) {
     caught = number;
 }
 
-const char* name_of(int number) {
-    return std::ranges::find(kSignals, number, &std::pair<int, const char*>::first)->second;
-}
-
 // Leaves SIGHUP ignored, as `nohup` has it.
 void handle(int number, void (*handler)(int)) {
     struct sigaction action {};
@@ -70,21 +60,21 @@ Interruption::Interruption(std::optional<std::chrono::seconds> limit)
       start_(std::chrono::steady_clock::now()),
       end_(limit ? start_ + *limit : std::chrono::steady_clock::time_point::max()) {
     caught = 0;
-    for (const auto& [number, name] : kSignals) {
+    for (const int number : kSignals) {
         handle(number, note_signal);
     }
     handle(SIGXFSZ, SIG_IGN);
 }
 
 Interruption::~Interruption() {
-    for (const auto& [number, name] : kSignals) {
+    for (const int number : kSignals) {
         handle(number, SIG_DFL);
     }
 }
 
 std::string Interruption::reason(std::chrono::duration<double> ahead) const {
     if (caught != 0) {
-        return name_of(caught);
+        return fmt::format("SIG{}", sigabbrev_np(caught));
     }
     const bool over = limit_ && std::chrono::steady_clock::now() - start_ + ahead >= *limit_;
     return over ? "the time limit" : "";
