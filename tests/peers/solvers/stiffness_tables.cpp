@@ -30,10 +30,8 @@ StiffnessTables::StiffnessTables(const mc::Scene& scene, const lockstep::Integra
     }
     for (int l = 0; l < kGearboxes; ++l) {
         for (const int pair : {0, kPlanets}) {
-            factor_[side(pair)][l] =
-                dynamics::mesh_damping_factor(
-                    plan.layout, gearboxes.inputs[static_cast<std::size_t>(l)], PairId{pair})
-                    .factor;
+            factor_[side(pair)][l] = dynamics::mesh_damping_factor(
+                plan.layout, gearboxes.inputs[static_cast<std::size_t>(l)], PairId{pair});
         }
     }
     const auto& steps = plan.grid.steps;
