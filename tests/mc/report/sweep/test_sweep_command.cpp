@@ -1,4 +1,6 @@
 // Checks gearpod sweep: a study at every combination of given values.
+#include <fmt/format.h>
+
 #include "analysis/report/wording.hpp"
 #include "mc/report/sweep/summaries.hpp"
 #include "tests/mc/lives/life_example.hpp"
@@ -144,42 +146,37 @@ TEST_CASE("A sweep of lives has the lives of the command, and resumes") {
 // Points that are ranked, not ranked, without a known share, or without results.
 TEST_CASE("The headline of a sweep of lives names the worst point and drops none") {
     std::mt19937_64 engine(7);
-    const auto draw = [&](int values) {
-        return std::uniform_int_distribution(0, values - 1)(engine);
-    };
     for (int made = 0; made < 300; ++made) {
-        mc::LivesSweep sweep{"lives", {{"life.recordings", {}}}, {}, {{"te_rms", "single", {}}}};
+        mc::LivesSweep sweep{"lives", {{"life.records", {}}}, {}, {{"te_rms", "single", {}}}};
         std::vector<double> shares;
-        const int points = 1 + draw(4);
-        int unranked = 0;
-        for (int p = 0; p < points; ++p) {
+        const std::size_t points = 1 + engine() % 4;
+        std::size_t unranked = 0;
+        while (sweep.points.size() < points) {
             mc::LivesPoint& point = sweep.points.emplace_back();
-            point.point.labels = {std::to_string(p)};
-            const int kind = draw(4);
-            if (kind == 3) {
-                continue;
+            point.point.labels = {std::to_string(sweep.points.size())};
+            const auto kind = engine() % 4;
+            if (kind < 3) {
+                auto& result = point.monitored.emplace_back(sweep.order.front());
+                result.unranked = kind == 1 ? "no more than chance" : "";
+                result.performance.share = kind == 2 ? NAN : static_cast<double>(engine() % 3) / 16;
             }
-            mc::MonitoredFeature& result = point.monitored.emplace_back(sweep.order.front());
-            result.unranked = kind == 1 ? "no more than chance" : "";
-            result.performance.share = kind == 2 ? NAN : draw(3) / 16.0;
-            unranked += kind == 1;
             if (kind < 2) {
-                shares.push_back(result.performance.share);
+                shares.push_back(point.monitored.front().performance.share);
+                unranked += kind == 1;
             }
         }
-        const analysis::Report report = mc::lives_sweep_report(sweep);
-        const std::string text = without_line_breaks(report_text(report));
+        const std::string text = without_line_breaks(report_text(mc::lives_sweep_report(sweep)));
         INFO(text);
         const auto says = [&](const std::string& part) { return text.find(part) < text.size(); };
-        const std::string all = " of " + std::to_string(points) + " points";
-        CHECK(says("at every point") == (!shares.empty() && *std::ranges::min_element(shares) ==
-                                                                *std::ranges::max_element(shares)));
+        const auto counts = [&](const std::string& what, std::size_t count) {
+            return says(fmt::format("{} at {} of {} points", what, count, points)) == (count > 0);
+        };
+        std::ranges::sort(shares);
+        CHECK(says("at every point") == (!shares.empty() && shares.front() == shares.back()));
         if (!shares.empty()) {
-            CHECK(says(analysis::percent_text(*std::ranges::min_element(shares))));
-            const auto unknown = static_cast<std::size_t>(points) - shares.size();
-            CHECK(says("no share is known at " + std::to_string(unknown) + all) == (unknown > 0));
-            CHECK(says("at every point ") == (unknown > 0 && says("at every point")));
-            CHECK(says("it has no rank at " + std::to_string(unranked) + all) == (unranked > 0));
+            CHECK(says(analysis::percent_text(shares.front())));
+            CHECK(counts("no share is known", points - shares.size()));
+            CHECK(counts("it has no rank", unranked));
         }
     }
 }
