@@ -6,7 +6,7 @@
 namespace gearpod::test_feature_values {
 
 using test::Folder;
-using test::program;
+using test::require_success;
 
 TEST_CASE("Values are printed only without thresholds and for few gearboxes") {
     int with = 0;
