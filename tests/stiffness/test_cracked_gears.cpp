@@ -96,8 +96,6 @@ CrackGrowth growth_of(const Row& row) {
             {0},
             kCrackAngle,
             kCrackAngle,
-            0,
-            0,
             16};
 }
 
@@ -271,8 +269,8 @@ TEST_CASE("a spatial crack of one depth equals the plane crack by fracture mecha
         const CrackedPair pair(tooth, Profile::fillet);
         const double depth_m = 0.3 * pair.cracks.largest_size(), width_m = kLiangSteel.face_width_m;
         const auto spatial = [&](double end_depth_m, double length_m, double height_m) {
-            const CrackGrowth growth{{depth_m},   {end_depth_m}, {length_m}, {height_m}, {height_m},
-                                     kCrackAngle, kCrackAngle,   0,          0,          16};
+            const CrackGrowth growth{{depth_m},  {end_depth_m}, {length_m},  {height_m},
+                                     {height_m}, kCrackAngle,   kCrackAngle, 16};
             const SpatialCrack family(pair.gears.geometry, kLiangSteel, Profile::fillet,
                                       pair.gears.cracked, growth, nullptr,
                                       CrackLaw::fracture_mechanics);

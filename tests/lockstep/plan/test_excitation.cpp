@@ -125,7 +125,8 @@ TEST_CASE("random torque shakes a mass on a spring as the spectra say", "[excita
     state.q.assign(4 * kLanes, 0.0);
     state.v.assign(4 * kLanes, 0.0);
     state.filter.assign(2 * 4 * kLanes, 0.0);
-    const double spacing = 1.0 / knots_per_s(kBand);
+    const double spacing = 0.2275119577344975 / kBand;  // sinc(0.2275...)^8 = 1/2 (excitation.hpp)
+    const double knot_deviation = std::sqrt(315.0 / 151.0);
     const auto knots = static_cast<std::size_t>((kMeshes + kRunIn) * kPeriod / spacing) + 5;
     Excitation excitation;
     Fluctuation noise;
@@ -134,7 +135,7 @@ TEST_CASE("random torque shakes a mass on a spring as the spectra say", "[excita
     noise.knots_per_s.assign(kLanes, 1.0 / spacing);
     noise.first_knot.assign(kLanes, 1.0 + kRunIn * kPeriod / spacing);
     for (std::size_t i = 0; i < knots * kLanes; ++i) {
-        noise.knot.push_back(kRms * knot_deviation() * unit(engine));
+        noise.knot.push_back(kRms * knot_deviation * unit(engine));
     }
     excitation.torque = noise;
     const std::vector<dynamics::GearboxInputs> inputs(kLanes, pair.in);
