@@ -118,6 +118,17 @@ class Rexs(unittest.TestCase):
             "ring_gear 11: face_width: states no unit", "material 90: elastic_modulus: unit mm is not known"])
         self.assertEqual(len(lines), 3)
 
+    def test_a_tip_circle_inside_the_root_circle_is_refused_or_replaced_by_an_option(self):
+        model = planetary()
+        for planet in (21, 22, 23):
+            model.set(planet, "tip_diameter", "mm", 1)
+        lines = self.refused(model, expect=["cylindrical_gear 21: tip_diameter: 1 mm lies inside the root circle, ",
+                                            "remove it from the model, and the rule is used, or give --addendum"])
+        self.assertEqual(len(lines), 1)
+        _, study, notes = self.made(model, "--addendum", "1")
+        self.assertNotIn("planet_tip_mm", study["gearbox"])
+        self.assertIn("replaces the tip diameter of cylindrical_gear 21, 1 mm", " ".join(notes.split()))
+
     def test_contradictions_are_refused_with_both_values_all_at_once(self):
         model = planetary()
         model.set(22, "number_of_teeth", "none", 29)

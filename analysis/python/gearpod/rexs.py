@@ -498,6 +498,20 @@ def check_centre_distance(model, pair, teeth, gear_1, gear_2):
                      "or the shifts (a positive shift makes teeth thicker, also those of a ring: ISO 21771)")
 
 
+def check_tips(model, gears, options):
+    """Rejects tip circles inside the root circle, such as placeholders. The option --addendum replaces tip circles."""
+    for gear in (gear for gear in gears if gear.tip is not None):
+        if "addendum" in options:
+            model.notes.append(f"an option replaces the tip diameter of {gear.component.label}, {gear.tip:g} mm")
+            gear.tip = None
+            continue
+        side = -1 if gear.component.type == "ring_gear" else 1
+        root = (gear.module or 0.0) * (gear.teeth / math.cos(math.radians(gear.helix or 0.0)) + side * (2.0 * (gear.shift or 0.0) - 2.5))
+        if side * (gear.tip - root) <= 0.0:
+            model.reject(gear.component, "tip_diameter", f"{gear.tip:g} mm lies {'in' if side == 1 else 'out'}side the root circle, "
+                         f"{root:.6g} mm", "remove it from the model, and the rule is used, or give --addendum")
+
+
 def teeth_of(model, stage, gears, options):
     """Values that all gears of a stage share. Options replace the model's."""
     pairs = stage.first_pairs + stage.second_pairs
@@ -728,6 +742,7 @@ def stage_values(model, stages, stage, options):
     members = {member: Gear(model, parts) for member, parts in gears.items()}
     values = {member: gear.teeth for member, gear in members.items()}
     values |= teeth_of(model, stage, list(members.values()), options)
+    check_tips(model, members.values(), options)
     if stage.planets:
         check_ring(model, stage)
         values["planets"] = planets_of(model, stage, options)
