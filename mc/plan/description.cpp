@@ -75,7 +75,8 @@ std::string sizes(double amplitude, const std::string& rate, double rms, double 
 
 class Describer {
   public:
-    Describer(const Study& study, const GearboxPlan& gearbox) : study_(study), gearbox_(gearbox) {}
+    Describer(const Study& study, const GearboxPlan& gearbox, double decay_meshes)
+        : study_(study), gearbox_(gearbox), decay_meshes_(decay_meshes) {}
 
     std::vector<DescriptionSection> sections() && {
         begin("gearbox");
@@ -718,6 +719,9 @@ class Describer {
         if (const std::string without = undamped(); !without.empty()) {
             add("damping", "{}", "0 for " + without);
         }
+        add_if(!std::isfinite(decay_meshes_), "",
+               "warning: the vibration is undamped, so no gearbox converges to the periodic "
+               "steady state");
         add_if(!has_tooth_errors(study_), "tooth errors", "all teeth of a gear are identical");
         add_if(study_.gearbox.kind == GearboxKind::planetary && !has_unequal_planets(study_),
                "unequal planets", "exact pin positions, equal bearings and masses");
@@ -750,6 +754,7 @@ class Describer {
 
     const Study& study_;
     const GearboxPlan& gearbox_;
+    const double decay_meshes_;
     std::vector<DescriptionSection> sections_;
 };
 
@@ -794,8 +799,9 @@ DescriptionSection false_alarm_description(const Study& study) {
     return section;
 }
 
-std::vector<DescriptionSection> description_of(const Study& study, const GearboxPlan& gearbox) {
-    return Describer(study, gearbox).sections();
+std::vector<DescriptionSection> description_of(const Study& study, const GearboxPlan& gearbox,
+                                               double decay_meshes) {
+    return Describer(study, gearbox, decay_meshes).sections();
 }
 
 }  // namespace gearpod::mc

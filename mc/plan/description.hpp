@@ -19,7 +19,9 @@ struct DescriptionSection {
     std::string heading;
     std::vector<DescriptionEntry> entries;
 };
-std::vector<DescriptionSection> description_of(const Study& study, const GearboxPlan& gearbox);
+// `decay_meshes`: Stepping::decay_meshes.
+std::vector<DescriptionSection> description_of(const Study& study, const GearboxPlan& gearbox,
+                                               double decay_meshes);
 
 // States whether the number of healthy gearboxes suffices for the false-alarm rate. This needs no
 // plan.

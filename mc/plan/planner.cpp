@@ -172,8 +172,9 @@ std::vector<EffectVariant> Planner::effect_variants() const {
 }
 
 std::vector<DescriptionSection> Planner::description(const Numerics& numerics) const {
-    return description_of(with_numerics(plans_->study, numerics),
-                          plans_->with(numerics)->gearbox());
+    const std::shared_ptr<const Scene> plan = plans_->with(numerics);
+    return description_of(with_numerics(plans_->study, numerics), plan->gearbox(),
+                          plan->solve().stepping().decay_meshes);
 }
 
 LifePlan Planner::life(const LoadNumber& torques, const LoadNumber& speeds) const {

@@ -84,13 +84,7 @@ class StepNeeds {
         }
         const dynamics::GearboxInputs& nominal = gearboxes_[0];
         check_equal_masses();
-        const double decay_1_s =
-            lockstep::slowest_decay_1_s(system(nominal), dynamics::rigid_rotation(layout_));
-        if (decay_1_s == 0.0) {
-            throw SceneError("gearbox", "a vibration without damping has no steady state",
-                             "add damping to the meshes, or to all bearings and couplings");
-        }
-        decay_meshes_ = 1.0 / (decay_1_s * period(nominal));
+        decay_meshes_ = 1.0 / (lockstep::slowest_decay_1_s(system(nominal)) * period(nominal));
         usual_explicit_ = stable_steps(lockstep::kUsualExplicit);
     }
 
@@ -684,7 +678,8 @@ int max_meshes(const SolveSettings& settings, double decay_meshes) {
     const double decay = -2.0 * decay_meshes * std::log(settings.convergence_tolerance);
     return settings.numerics.max_meshes > 0
                ? settings.numerics.max_meshes
-               : static_cast<int>(std::clamp(decay, kFewest, kMost));
+               : static_cast<int>(std::isfinite(decay) ? std::clamp(decay, kFewest, kMost)
+                                                       : kFewest);
 }
 
 // Mesh periods in which the slowest mode of the sensor's low-pass filter decays to 1/e.

@@ -28,7 +28,8 @@ struct Stepping {
     // Smallest number of steps per mesh period. With fewer, the integrator is unstable for some
     // gearbox of the pilot sample or the sensor's low-pass is inaccurate.
     int least = 1;
-    // Number of mesh periods in which a disturbance of the nominal gearbox decays to 1/e.
+    // Number of mesh periods in which a disturbance of the nominal gearbox decays by 1/e; infinite
+    // without damping.
     double decay_meshes = 0.0;
     // Longest step, in mesh periods, at which the integrator is stable with a margin and the
     // sensor's low-pass still accurate.

@@ -14,7 +14,7 @@ PairOfMasses rattling(Integrator integrator, double of_resonance, int steps) {
     PairOfMasses masses(dynamics::MeshLaw::separating, steps, 1.0, 0.0, integrator);
     const double w = masses.natural_rad_s();
     masses.in.mesh_period_s = 2.0 * std::numbers::pi / (of_resonance * w);
-    masses.in.mesh_damping = 2.0 * 0.05 * w * PairOfMasses::kMass;
+    masses.in.mesh_damping = 2.0 * 0.05 * w * PairOfMasses::kMass / PairOfMasses::kStiffness;
     masses.in.force_N[dynamics::sun] =
         kRest_m * PairOfMasses::kStiffness * PairOfMasses::kSun / PairOfMasses::kMass;
     auto& nodes = masses.plan.nodes;
@@ -36,7 +36,7 @@ TEST_CASE("For any sequence of impacts the mean contact force carries the load")
     for (const double of_resonance : {0.9, 1.0, 1.15}) {
         constexpr int kSteps = 800, kRunIn = 100, kMeshes = 300;
         PairOfMasses masses = rattling(integrator, of_resonance, kSteps);
-        const double c = masses.in.mesh_damping;
+        const double c = masses.in.mesh_damping * PairOfMasses::kStiffness;
         double impulse = 0.0, apart = 0.0, largest = 0.0, before = 0.0;
         for (int mesh = 0; mesh < kRunIn + kMeshes; ++mesh) {
             if (mesh == kRunIn) {

@@ -90,17 +90,23 @@ TEST_CASE("Tails of distributions: bearings a hundred times as stiff, no torque,
     }
 }
 
-TEST_CASE("A gearbox without any damping is refused, because it has no steady state") {
+TEST_CASE("Without any damping no gearbox converges, and none hangs or counts as converged") {
     const Folder folder;
     const Outcome outcome = run_program(
         test::study("planet-crack-ideal.toml"), folder,
         fast_train({"gearbox.mesh_damping_ratio=0", "gearbox.planet.bearing_damping_N_s_m=0",
                     "gearbox.sun.bearing_damping_N_s_m=0", "gearbox.ring.bearing_damping_N_s_m=0",
-                    "gearbox.carrier.bearing_damping_N_s_m=0",
-                    "gearbox.support_damping_N_s_m=0"}));
+                    "gearbox.carrier.bearing_damping_N_s_m=0", "gearbox.support_damping_N_s_m=0",
+                    "numerics.max_meshes=50"}));
     INFO(outcome.output);
-    CHECK(outcome.code == 2);
-    CHECK(outcome.mentions("gearbox: a vibration without damping has no steady state"));
+    CHECK(outcome.code == 3);
+    CHECK(outcome.mentions("16 of 16 failed"));
+    const mc::Results r = mc::read_results(folder.file("r.h5"));
+    for (const auto& feature : r.features) {
+        for (const double value : feature.values) {
+            CHECK(std::isnan(value));
+        }
+    }
 }
 
 TEST_CASE("A crack through the whole tooth still gives results") {

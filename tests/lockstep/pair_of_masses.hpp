@@ -35,8 +35,8 @@ struct PairOfMasses {
         plan.nodes.pairs = 2;
         for (std::size_t i = 0; i < nodes; ++i) {
             plan.nodes.stiffness.insert(plan.nodes.stiffness.end(), {kStiffness, 0.0});
-            // Shape 1 makes the damping constant.
-            plan.nodes.damping_shape.insert(plan.nodes.damping_shape.end(), {1.0, 0.0});
+            // The shape of the mean stiffness makes the damping constant.
+            plan.nodes.damping_shape.insert(plan.nodes.damping_shape.end(), {kStiffness, 0.0});
         }
         plan.low_pass_rad_s = 1000.0;
         plan.te_weight = {0.0, 0.0, 1.0, 1.0};  // d itself
@@ -46,7 +46,7 @@ struct PairOfMasses {
         }
         in.inertia_over_r2_kg[dynamics::sun] = kSun;
         in.inertia_over_r2_kg[dynamics::planet] = kPlanet;
-        in.mesh_damping = damping_N_s_m;
+        in.mesh_damping = damping_N_s_m / kStiffness;
         in.mesh_period_s = period_s;
         state.q.assign(4, 0.0);
         state.v.assign(4, 0.0);

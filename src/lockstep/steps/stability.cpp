@@ -38,28 +38,19 @@ Eigen::VectorXcd modes(const dynamics::GearboxMatrices& m) {
     return dynamics::eigenvalues(state_matrix(m));
 }
 
-// Map of (q, v) that keeps no rigid rotation `turn` in the q and v that it results in. Its
-// eigenvalues are 0, twice, and those of the elastic modes.
-Eigen::MatrixXd without_rotation(Eigen::MatrixXd map, const Eigen::MatrixXd& mass,
-                                 const Eigen::VectorXd& turn) {
-    const Eigen::VectorXd weighted = mass * turn;
-    const Eigen::RowVectorXd rotation = (weighted / weighted.dot(turn)).transpose();
-    const Eigen::Index n = turn.size();
-    map.topRows(n) -= (turn * (rotation * map.topRows(n))).eval();
-    map.bottomRows(n) -= (turn * (rotation * map.bottomRows(n))).eval();
-    return map;
+// Rate below which a mode counts as the rigid rotation. Its exact rate is 0; rounding and the
+// linearized centrifugal term add a small one. Both scale with the stiffest spring, never with the
+// dampers.
+double rigid_rate(const dynamics::GearboxMatrices& m) {
+    const Eigen::VectorXd rates2 =
+        (m.stiffness.diagonal().array() / m.mass.diagonal().array()).matrix();
+    return 1e-4 * std::sqrt(rates2.maxCoeff());
 }
 
-// Undamped rate of the degree of freedom with the stiffest springs.
-double stiffest_rate(const dynamics::GearboxMatrices& m) {
-    return std::sqrt((m.stiffness.diagonal().array() / m.mass.diagonal().array()).maxCoeff());
-}
-
-// Eigenvalues of all modes but the rigid rotation and those that grow by themselves. The exact rate
-// of the rotation is 0. Rounding and the linearized centrifugal term add a small one.
+// Eigenvalues of all modes but the rigid rotation and those that grow by themselves.
 std::vector<std::complex<double>> decaying_modes(const dynamics::GearboxMatrices& m) {
     std::vector<std::complex<double>> decaying;
-    const double rigid = 1e-4 * stiffest_rate(m);
+    const double rigid = rigid_rate(m);
     for (const std::complex<double> lambda : modes(m)) {
         const double size = std::abs(lambda);
         if (size >= rigid && lambda.real() <= 1e-9 * size) {
@@ -81,18 +72,10 @@ Eigen::MatrixXd state_matrix(const dynamics::GearboxMatrices& m) {
     return system;
 }
 
-double slowest_decay_1_s(const dynamics::GearboxMatrices& m,
-                         const Eigen::VectorXd& rigid_rotation) {
-    // Share of the stiffest spring's rate. Rounding stays far below, slow elastic modes far above.
-    constexpr double kRounding = 1e-8;
-    const double rounding = kRounding * stiffest_rate(m);
+double slowest_decay_1_s(const dynamics::GearboxMatrices& m) {
     double slowest = std::numeric_limits<double>::infinity();
-    for (const std::complex<double> lambda :
-         dynamics::eigenvalues(without_rotation(state_matrix(m), m.mass, rigid_rotation))) {
-        const double size = std::abs(lambda), decay = -lambda.real();
-        if (size >= rounding && decay >= -1e-9 * size) {
-            slowest = std::min(slowest, decay > 1e-9 * size ? decay : 0.0);
-        }
+    for (const std::complex<double> lambda : decaying_modes(m)) {
+        slowest = std::min(slowest, std::max(0.0, -lambda.real()));
     }
     return slowest;
 }
@@ -195,14 +178,21 @@ double growth(const IntegrationPlan& plan, const Eigen::MatrixXd& mass,
     if (!map.allFinite()) {
         return std::numeric_limits<double>::infinity();
     }
-    const auto elastic = without_rotation(map, mass, dynamics::rigid_rotation(plan.layout));
-    return dynamics::eigenvalues(elastic).cwiseAbs().maxCoeff();
+    const Eigen::VectorXd turn = dynamics::rigid_rotation(plan.layout);
+    const Eigen::VectorXd weighted = mass * turn;
+    const Eigen::RowVectorXd rotation = (weighted / weighted.dot(turn)).transpose();
+    const Eigen::Index n = turn.size();
+    Eigen::MatrixXd kept = map;
+    kept.topRows(n) -= (turn * (rotation * map.topRows(n))).eval();
+    kept.bottomRows(n) -= (turn * (rotation * map.bottomRows(n))).eval();
+    return dynamics::eigenvalues(kept).cwiseAbs().maxCoeff();
 }
 
 // Factor that scales displacements to the magnitude of velocities. Without it, the map's
 // eigenvalues would lose as many digits as the vibration's rate has.
 double velocity_scale(const dynamics::GearboxMatrices& m) {
-    const double rate = stiffest_rate(m);
+    const double rate =
+        std::sqrt((m.stiffness.diagonal().array() / m.mass.diagonal().array()).maxCoeff());
     return rate > 0.0 ? rate : 1.0;
 }
 

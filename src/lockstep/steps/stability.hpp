@@ -20,10 +20,8 @@ Eigen::MatrixXd state_matrix(const dynamics::GearboxMatrices& matrices);
 // of the undamped rates.
 double longest_stable_step(const dynamics::GearboxMatrices& matrices, Integrator integrator);
 
-// Smallest decay rate (1/s) of the modes without dynamics::rigid_rotation() that do not grow by
-// themselves; 0 if one of them is undamped.
-double slowest_decay_1_s(const dynamics::GearboxMatrices& matrices,
-                         const Eigen::VectorXd& rigid_rotation);
+// Smallest decay rate (1/s) of those modes; 0 without damping.
+double slowest_decay_1_s(const dynamics::GearboxMatrices& matrices);
 
 // Cause of a gearbox's stiffness: its fastest mode, and the spring or damper that dominates it.
 struct StiffPart {

@@ -245,8 +245,6 @@ TEST_CASE("Bad combinations of baseline options are refused with all reasons") {
     check_refused(recorded.features(csv + "--baseline-records 20 --baseline " +
                                     recorded.folder.file("r0.csv")),
                   {"give one baseline"});
-    CHECK(recorded.features(csv + "--set monitoring.average_records=9")
-              .mentions("one bad recording is in the averages of 9"));
     write_bytes(recorded.folder.file("marked.csv"),
                 "file,label,baseline\nr1.csv,healthy,yes\nr2.csv,healthy,maybe\n"
                 "r199.csv,faulty,yes\n");

@@ -354,7 +354,7 @@ TEST_CASE("An empty file lacks each section with required keys") {
                   return p.key == section && p.what == "the section is missing";
               }) == 1);
     }
-    CHECK(format(reading.problems).find("torque_N_m and one of sun_speed_rpm") !=
+    CHECK(format(reading.problems).find("torque_N_m and sun_speed_rpm or carrier_speed_rpm") !=
           std::string::npos);
 }
 

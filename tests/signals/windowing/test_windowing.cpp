@@ -161,7 +161,7 @@ TEST_CASE("Every noise level's windows match its noisy bins, for faint noise or 
                     INFO(teeth << " teeth, " << phases << " phases, taper " << taper << ", noise "
                                << sigma);
                     CHECK(windowing.search(sigma, rms) == expected.offset);
-                    CHECK(test::largest_error(rms, expected.rms) < 1e-14);
+                    test::check_close(rms, expected.rms, 1e-14);
                     CHECK(windowing.mean_square(sigma) ==
                           Approx(expected.mean_square).epsilon(1e-14));
                 }

@@ -112,8 +112,8 @@ TEST_CASE("What needs samples that are not clipped refuses a range") {
                 " --set sensor.range_m_s2=1 --out " +
                 folder.file("l.h5"),
             "sensor.range_m_s2: records are superpositions of parts, which are not clipped");
-    refused("calibrate " + kSmall + kClipped + "--features " + kSmall + " --out " +
-                folder.file("c.toml"),
+    refused("calibrate " + kSmall + kClipped + "--features " +
+                study("published/liang-rig-healthy.csv") + " --out " + folder.file("c.toml"),
             "sensor.range_m_s2: calibration does not clip the samples");
     run_small(folder, "r.h5", kClipped);
     refused("misses " + folder.file("r.h5") + " --feature window_ratio --size 0.4",
