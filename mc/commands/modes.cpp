@@ -13,7 +13,6 @@
 #include "mc/library/stiffness_modes.hpp"
 #include "mc/numerics/numerics_choice.hpp"
 #include "mc/plan/gearbox_plan.hpp"
-#include "mc/plan/scene_error.hpp"
 #include "mc/study/gears.hpp"
 
 namespace gearpod::mc {
