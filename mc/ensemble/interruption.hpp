@@ -11,15 +11,17 @@
 namespace gearpod::mc {
 
 // Handles SIGINT, SIGTERM and a batch queue's warnings (SIGUSR1, SIGUSR2, SIGXCPU, SIGHUP unless it
-// is ignored) during its lifetime: the first signal asks the run to end and save. A second SIGINT or SIGTERM ends the program at once, unless
-// it follows the first within kSameRequest. `timeout` and batch queues send a signal to a program
-// and then to its process group. Computations are cancelled (CancellationSource) one second after
-// the first signal, or at the time limit. SIGXFSZ is ignored, so that writing beyond a limit on the
-// file size is a write error. Only one object may exist at a time.
+// is ignored) during its lifetime: the first signal asks the run to end and save. A second SIGINT
+// or SIGTERM ends the program at once, unless it follows the first within kSameRequest. `timeout`
+// and batch queues send a signal to a program and then to its process group. Computations are
+// cancelled (CancellationSource) kGrace after the first signal, or at the time limit. SIGXFSZ is
+// ignored, so that writing beyond a limit on the file size is a write error. Only one object may
+// exist at a time.
 class Interruption final : public machine::CancellationSource {
   public:
-    // Time for computations that are about to finish when a signal arrives.
-    static constexpr std::chrono::seconds kGrace{1};
+    // Time for computations that are about to finish when a signal arrives. Open MPI kills
+    // processes one second after SIGTERM to `mpirun`, and the rest of it is for saving.
+    static constexpr std::chrono::milliseconds kGrace{250};
     // Further signals within this time after the first count as the same request.
     static constexpr std::chrono::milliseconds kSameRequest{500};
 

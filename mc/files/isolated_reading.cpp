@@ -18,7 +18,7 @@ namespace gearpod::mc {
 namespace {
 
 constexpr std::uintmax_t kTrialMemory = std::uintmax_t{256} << 20;
-constexpr std::uintmax_t kTrial_s = 20, kTrialBytes_s = 10000000, kLongestTrial_s = 3600;
+constexpr std::uintmax_t kTrial_s = 10, kTrialBytes_s = 10000000, kLongestTrial_s = 3600;
 
 // Limits of the child process: the memory is the present use plus `more_memory` bytes, core files
 // are disabled, signals have their default actions, and the process ends with its parent.

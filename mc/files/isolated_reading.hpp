@@ -9,7 +9,7 @@ namespace gearpod::mc {
 
 // Calls `read`, which reads the file at `path`, in a forked child process. Returns true if it ends,
 // with or without an exception. Returns false if the library crashes, takes more than 256 MB plus
-// this many bytes per byte of the file, or does not end within 20 s plus one second per ten
+// this many bytes per byte of the file, or does not end within 10 s plus one second per ten
 // megabytes. True if no process can be created. Not thread-safe.
 bool survives_reading(const std::string& path, const std::function<void()>& read,
                       std::uintmax_t memory_per_byte = 8);

@@ -1,7 +1,8 @@
 """Links of the documentation: check_links.py SOURCES [HTML]
 
 Every relative link of a README or another Markdown file of the sources leads to a file, and every
-link of the built pages to a page and an anchor. Links to other sites are not followed.
+link of the built pages to a page and an anchor. Links to other sites are not followed. The tests
+that hold the promises of the pages exist.
 """
 
 import html.parser
@@ -33,6 +34,18 @@ def broken_sources(sources):
         made = any(target == (sources / name).resolve() for name in MADE)
         if not target.exists() and not made:
             yield f"{path.relative_to(sources)}: {link} leads nowhere"
+
+
+def missing_tests(sources):
+    """Tests that the table of promises names and the sources lack."""
+    page = sources / "docs/developer/testing.md"
+    for path, titles in re.findall(r"`([^`]+\.cpp)`((?:[:,] \"[^\"]+\")*)",
+                                   page.read_text(encoding="utf-8").split("## Promises")[1]
+                                   .split("## ")[0]):
+        text = (sources / "tests" / path).read_text(encoding="utf-8")
+        for title in re.findall(r"\"([^\"]+)\"", titles):
+            if not re.search(r"TEST_CASE\(\s*\"" + re.escape(title), text):
+                yield f"{page.relative_to(sources)}: {path} has no test \"{title}...\""
 
 
 class Page(html.parser.HTMLParser):
@@ -76,7 +89,7 @@ def loaded_from_elsewhere(folder):
 
 
 def main(sources, pages=None):
-    found = list(broken_sources(sources))
+    found = [*broken_sources(sources), *missing_tests(sources)]
     if pages is None:
         print("\n".join(found) or "all links lead somewhere")
         return 1 if found else 0

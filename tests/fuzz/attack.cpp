@@ -1,8 +1,8 @@
 // Attacks the built program with mutated studies, damaged files with valid checksums, hostile
 // signals, files in two roles and hostile options. Checks: no signal, no hang, no memory above 2
 // GB, only documented exit codes, no NaN or infinity among the numbers of a success, no input
-// overwritten. Usage: attack PROGRAM study|results|checkpoint|signal|table|roles|options SEED
-// SECONDS [MOST]
+// overwritten, no refusal that names neither a file nor a key nor an option. Usage:
+// attack PROGRAM all|study|results|checkpoint|signal|table|rexs|roles|options SEED SECONDS [MOST]
 #include "attack.hpp"
 
 #include <fcntl.h>
@@ -22,6 +22,7 @@
 #include <iterator>
 #include <map>
 #include <mutex>
+#include <regex>
 #include <thread>
 
 #include "tests/mc/recording_bytes.hpp"
@@ -36,7 +37,7 @@ using Clock = std::chrono::steady_clock;
 
 constexpr rlim_t kMemory = rlim_t{2} << 30;
 // A call that needs more processor time, or does nothing for so long, does not end.
-constexpr rlim_t kLongestProcessor_s = 25;
+constexpr rlim_t kLongestProcessor_s = 20;
 constexpr double kLongest_s = 600.0;
 constexpr std::uint64_t kNumbersOfSeed = 1000000000;
 
@@ -99,6 +100,17 @@ bool names_no_number(std::string text) {
     return text.find(" nan ") != std::string::npos || text.find(" inf ") != std::string::npos;
 }
 
+// True if a message names an argument of the call, a file, an option or a key of a study.
+bool names_its_cause(const std::string& message, const Attack& attack) {
+    static const std::regex option_or_key("--[a-z]|[a-z_]+\\.[a-z_]+|\\[[a-z_]+\\]");
+    return std::ranges::any_of(attack.arguments,
+                               [&](const std::string& argument) {
+                                   return !argument.empty() &&
+                                          message.find(argument) != std::string::npos;
+                               }) ||
+           std::regex_search(message, option_or_key);
+}
+
 // Description of a violated promise, or "".
 std::string verdict(const Ending& ending, const Attack& attack) {
     if (ending.hung || (WIFSIGNALED(ending.status) && WTERMSIG(ending.status) == SIGXCPU)) {
@@ -119,6 +131,9 @@ std::string verdict(const Ending& ending, const Attack& attack) {
     if (code == 2 && ending.output.empty()) {
         return "refuses and says nothing";
     }
+    if (code == 2 && !names_its_cause(ending.output, attack)) {
+        return "refuses and names neither a file nor a key";
+    }
     if (code == 0 && attack.prints_numbers && names_no_number(ending.output)) {
         return "prints a number that is none";
     }
@@ -130,8 +145,8 @@ using Maker = Attack (*)(const Arsenal&, const std::string&, std::uint64_t);
 const std::map<std::string, Maker> kKinds{
     {"study", attack_by_study},           {"results", attack_by_results},
     {"checkpoint", attack_by_checkpoint}, {"signal", attack_by_signal},
-    {"table", attack_by_table},           {"roles", attack_by_roles},
-    {"options", attack_by_options}};
+    {"table", attack_by_table},           {"rexs", attack_by_rexs},
+    {"roles", attack_by_roles},           {"options", attack_by_options}};
 
 // Runs attacks first, first + 1, ... in several threads until the time is over or all are done.
 class Campaign {
@@ -174,7 +189,8 @@ class Campaign {
         for (const std::string& input : attack.inputs) {
             before.push_back(bytes_of(input));
         }
-        const Ending ending = call(arsenal_.program, attack.arguments, folder + "/log");
+        const Ending ending = call(attack.program.empty() ? arsenal_.program : attack.program,
+                                   attack.arguments, folder + "/log");
         std::string what = verdict(ending, attack);
         for (std::size_t i = 0; i < before.size(); ++i) {
             if (bytes_of(attack.inputs[i]) != before[i]) {
@@ -247,6 +263,17 @@ bool arm(Arsenal& arsenal) {
                                               tdms.property("unit_string", "g")})},
                                 tdms.reals(sensor));
     arsenal.uff = uff_bytes(sensor, 1.0 / 280, "g", UffForm::text_single);
+    for (const char* model : {"planetary", "two_pairs"}) {
+        const Ending printed = call("/usr/bin/python3",
+                                    {"-c",
+                                     std::string("import sys; sys.path.insert(0, sys.argv[1]); "
+                                                 "import rexs_models; print(rexs_models.") +
+                                         model + "().text())",
+                                     GEARPOD_SOURCE_DIR "/tests/python"},
+                                    at + "/log");
+        good = good && printed.output.find("</model>") != std::string::npos;
+        arsenal.gear_units.push_back(printed.output);
+    }
     for (const char* table : {"inspections_hits.csv", "inspections_responses.csv"}) {
         arsenal.inspections.push_back(
             bytes_of(std::string(GEARPOD_SOURCE_DIR "/tests/analysis/reference/") + table));
@@ -279,8 +306,8 @@ int main(int argc, char** argv) {
     const std::string all = "all";
     if (argc < 5 || (argv[2] != all && !kKinds.contains(argv[2]))) {
         std::fprintf(stderr,
-                     "attack PROGRAM all|study|results|checkpoint|signal|table|roles|options SEED "
-                     "SECONDS [MOST]\n");
+                     "attack PROGRAM all|study|results|checkpoint|signal|table|rexs|roles|options "
+                     "SEED SECONDS [MOST]\n");
         return 2;
     }
     std::string folder = (fs::temp_directory_path() / "gearpod-attack-XXXXXX").string();

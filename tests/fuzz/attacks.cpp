@@ -216,23 +216,54 @@ Attack attack_by_study(const Arsenal& arsenal, const std::string& folder, std::u
 
 Attack attack_by_results(const Arsenal& arsenal, const std::string& folder, std::uint64_t number) {
     Dice dice(number);
-    const std::string path = folder + "/r.h5";
+    const std::string path = folder + "/r.h5", genuine = folder + "/genuine.h5";
     write(path, arsenal.results);
-    if (dice.below(3) == 0) {
-        write(path, damaged(arsenal.results, dice));
-    } else {
-        edit_results(path, [&](hid_t root) { edit(root, arsenal, number, dice); });
-    }
-    switch (dice.below(5)) {
+    write(genuine, arsenal.results);
+    switch (dice.below(4)) {
         case 0:
-            return {{"run", arsenal.small_study, "--instances", "5", "--resume", "--quiet", "--out",
-                     path}};
+            write(path, damaged(arsenal.results, dice));
+            break;
         case 1:
-            return {{"report", path, "--html", folder + "/r.html"}};
-        case 2:
-            return {{"report", path, "--by", "torque_N_m"}};
+            edit_results(path, [&](hid_t root) { edit(root, arsenal, number, dice); });
+            break;
+        default: {  // changed bytes under a valid checksum
+            std::string bytes = arsenal.results;
+            for (std::size_t i = 0; i < 1 + dice.below(4); ++i) {
+                constexpr std::size_t kUserBlock = 512;
+                // Most of what describes the data lies in the first part.
+                const std::size_t most = dice.below(2) == 0 ? 8192 : bytes.size() - kUserBlock;
+                bytes[kUserBlock + dice.below(std::min(most, bytes.size() - kUserBlock))] =
+                    static_cast<char>(dice.below(256));
+            }
+            write(path, bytes);
+            update_checksum(path);
+        }
+    }
+    const std::vector<std::vector<std::string>> commands{
+        {"run", arsenal.small_study, "--instances", "5", "--resume", "--quiet", "--out", path},
+        {"report", path, "--html", folder + "/r.html"},
+        {"report", path, "--by", "torque_N_m"},
+        {"compare", genuine, path},
+        {"merge", path, "--out", folder + "/m.h5"},
+        {"repair", path},
+        {"report", path, "--dataset", folder + "/dataset"},
+        {"misses", path, "--feature", "te_rms", "--size", "1", "--quiet", "--gearboxes", "2",
+         "--records", "2"},
+        {"rare", path, "--feature", "te_rms", "--rate", "0.1", "--quiet", "--gearboxes", "2"}};
+    switch (dice.below(4)) {
+        case 0:  // the output quotes the mutated study
+            return {{"report", path, "--json", "-"}, false, {genuine}};
+        case 1:
+            return {{"-c",
+                     "import sys; sys.path.insert(0, sys.argv[1]); import gearpod\n"
+                     "try: r = gearpod.open(sys.argv[2]); [r.feature(f) for f in r.features]\n"
+                     "except (ValueError, OSError, KeyError) as e: print(sys.argv[2], e); exit(2)",
+                     GEARPOD_SOURCE_DIR "/analysis/python", path},
+                    false,
+                    {genuine},
+                    "/usr/bin/python3"};
         default:
-            return {{"report", path, "--json", "-"}, false};  // the output quotes the mutated study
+            return {dice.one_of(commands), false, {genuine}};
     }
 }
 
@@ -298,6 +329,30 @@ Attack attack_by_table(const Arsenal& arsenal, const std::string& folder, std::u
     return {{"features", "--manifest", path, "--study", arsenal.small_study, "--quiet", "--out",
              folder + "/f.h5"},
             false};
+}
+
+Attack attack_by_rexs(const Arsenal& arsenal, const std::string& folder, std::uint64_t number) {
+    constexpr std::array kValues{"0",   "1",    "-1",  "1e300", "nan", "true", "9999999", "0.001",
+                                 "1,5", "none", "mum", "deg",   "",    "-8.4", "20 28",   "&#x1;"};
+    Dice dice(number);
+    std::string model = dice.one_of(arsenal.gear_units);
+    for (std::size_t i = 0; i < 1 + dice.below(3); ++i) {
+        const std::size_t from =
+            model.find(dice.below(3) == 0 ? '"' : '>', dice.below(model.size()));
+        const std::size_t to = model.find_first_of("\"<", std::min(from, model.size() - 1) + 1);
+        if (to != std::string::npos) {
+            model.replace(from + 1, to - from - 1, dice.one_of(kValues));
+        }
+    }
+    const std::string path = folder + "/m.rexs";
+    write(path, dice.below(4) == 0 ? damaged(model, dice) : model);
+    Attack attack{{"new", "--rexs", path}, false, {path}};
+    constexpr std::array kOptions{"--torque=100", "--speed=1000", "--addendum=1", "--stage=1",
+                                  "--stage=2",    "--shaft=50",   "--quality=6"};
+    for (std::size_t i = 0; i < dice.below(4); ++i) {
+        attack.arguments.emplace_back(dice.one_of(kOptions));
+    }
+    return attack;
 }
 
 // The same file in two roles, by name or by link.

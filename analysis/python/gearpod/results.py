@@ -87,39 +87,45 @@ class Results:
     def __init__(self, path: PathLike) -> None:
         self.path = pathlib.Path(path)
         if not _survives_reading(self.path):
-            raise ValueError(f"{self.path}: is damaged: the HDF5 library crashes on it")
+            raise ValueError(f"{self.path}: is damaged: the HDF5 library fails on it")
         with h5py.File(self.path, "r") as file:
-            self.attributes: Dict[str, str] = {
-                name: _text(value) for name, value in file.attrs.items()}
-            if self.attributes.get("format") != FORMAT:
-                raise ValueError(f"{self.path}: not a results file of gearpod")
-            if int(self.attributes["format_version"]) > NEWEST:
-                raise ValueError(f"{self.path}: written by a newer gearpod")
-            self.kind: str = self.attributes.get("kind", "run")
-            # Lives have values per record instead.
-            self.noise_levels: Array = (np.empty(0) if self.kind == "lives"
-                                        else file["noise_levels"][()])
-            self.group: Array = file["instances/group"][()]
-            self.status: Array = file["status"][()]
-            self.inputs: List[str] = [name for name in file["instances"] if name != "group"]
-            self.features: List[str] = list(file["features"])
-            # Meshes whose contact loss ratio is known; none where teeth cannot separate.
-            self.meshes: List[str] = list(file.get("contact_loss", {}))
-            self.integration: List[str] = list(file.get("integration", {}))
-            # Other signals of the same gearboxes whose features are stored, by name.
-            self.variants: Dict[str, str] = {
-                name: _text(group.attrs["description"])
-                for name, group in file.get("variants", {}).items()}
-            self.units: Dict[str, str] = {
-                name: _text(file[folder][name].attrs["unit"])
-                for folder, names in (("instances", self.inputs), ("features", self.features))
-                for name in names}
-            # Alarm side of the threshold for each feature: "high" or "low".
-            self.alarms: Dict[str, str] = {
-                name: _text(file["features"][name].attrs["alarm"]) for name in self.features}
-            if self.kind == "lives":
-                self.features = [name for name in self.features if name not in LIFE_COLUMNS]
-            self.size_name: str = _text(file["detection"].attrs["size_name"])
+            try:
+                self._read_frame(file)
+            except (KeyError, RuntimeError, TypeError) as error:
+                raise ValueError(f"{self.path}: is damaged: {error}") from error
+
+    def _read_frame(self, file: Any) -> None:
+        self.attributes: Dict[str, str] = {
+            name: _text(value) for name, value in file.attrs.items()}
+        if self.attributes.get("format") != FORMAT:
+            raise ValueError(f"{self.path}: not a results file of gearpod")
+        if int(self.attributes["format_version"]) > NEWEST:
+            raise ValueError(f"{self.path}: written by a newer gearpod")
+        self.kind: str = self.attributes.get("kind", "run")
+        # Lives have values per record instead.
+        self.noise_levels: Array = (np.empty(0) if self.kind == "lives"
+                                    else file["noise_levels"][()])
+        self.group: Array = file["instances/group"][()]
+        self.status: Array = file["status"][()]
+        self.inputs: List[str] = [name for name in file["instances"] if name != "group"]
+        self.features: List[str] = list(file["features"])
+        # Meshes whose contact loss ratio is known; none where teeth cannot separate.
+        self.meshes: List[str] = list(file.get("contact_loss", {}))
+        self.integration: List[str] = list(file.get("integration", {}))
+        # Other signals of the same gearboxes whose features are stored, by name.
+        self.variants: Dict[str, str] = {
+            name: _text(group.attrs["description"])
+            for name, group in file.get("variants", {}).items()}
+        self.units: Dict[str, str] = {
+            name: _text(file[folder][name].attrs["unit"])
+            for folder, names in (("instances", self.inputs), ("features", self.features))
+            for name in names}
+        # Alarm side of the threshold for each feature: "high" or "low".
+        self.alarms: Dict[str, str] = {
+            name: _text(file["features"][name].attrs["alarm"]) for name in self.features}
+        if self.kind == "lives":
+            self.features = [name for name in self.features if name not in LIFE_COLUMNS]
+        self.size_name: str = _text(file["detection"].attrs["size_name"])
 
     def __repr__(self) -> str:
         return (f"<gearpod results {self.path}: {len(self)} gearboxes, {len(self.inputs)} inputs, "
@@ -307,21 +313,25 @@ class Results:
 
 
 def _survives_reading(path: pathlib.Path) -> bool:
-    """Reads all of a file in a child process: HDF5 may crash on a damaged one, or never finish."""
+    """Reads all of a file in a child process: HDF5 may crash on a damaged one, or never finish. True
+    for a file that cannot be opened, because opening it in this process gives the reason."""
     def read(name: str, item: Any) -> None:
         dict(item.attrs)
-        if isinstance(item, h5py.Dataset) and not name.startswith("signals/"):
+        if isinstance(item, h5py.Dataset):
             item[()]
 
     child = os.fork()
     if child == 0:
+        code = 0
         try:
-            signal.alarm(20 + path.stat().st_size // 10_000_000)
+            signal.alarm(10 + path.stat().st_size // 10_000_000)
             with h5py.File(path, "r") as file:
+                code = 1
                 read("/", file)
                 file.visititems(read)
+                code = 0
         finally:
-            os._exit(0)  # the caller gets the same exception
+            os._exit(code)
     return os.waitstatus_to_exitcode(os.waitpid(child, 0)[1]) == 0
 
 

@@ -19,7 +19,7 @@ import stat
 import sys
 
 LARGEST_FILE, MOST_TAGS, DEEPEST_NESTING = 64 << 20, 2_000_000, 16  # a matrix has seven levels
-MOST_MEMORY, MOST_SECONDS = 4 << 30, 60
+MOST_MEMORY, MOST_SECONDS = 4 << 30, 15
 MOST_PROBLEMS, MOST_STAGES, MOST_PAIRS = 1000, 200, 200
 NEWEST_VERSION = 6  # of 1.x
 LAST_LINE = 65535  # libxml2 counts no further
@@ -788,8 +788,9 @@ def datasheet(model, options):
 
 
 def main():
-    resource.setrlimit(resource.RLIMIT_AS, (MOST_MEMORY, MOST_MEMORY))
-    resource.setrlimit(resource.RLIMIT_CPU, (MOST_SECONDS, MOST_SECONDS))
+    for what, most in ((resource.RLIMIT_AS, MOST_MEMORY), (resource.RLIMIT_CPU, MOST_SECONDS)):
+        hard = resource.getrlimit(what)[1]
+        resource.setrlimit(what, (most if hard == resource.RLIM_INFINITY else min(most, hard), hard))
     model, reply = Model(), {}
     try:
         model.read(sys.argv[1])

@@ -97,12 +97,10 @@ void check_edges_given(StudyDraft& draft, const Distribution& size) {
     const std::string edges_name = edges_key.substr(edges_key.find('.') + 1);
     const std::vector<double>& edges = size_edges(draft.study);
     if (edges.empty()) {
-        draft.reject(
-            edges_key,
-            fmt::format(
-                "missing (random.{} is {}, a continuous distribution, whose sizes must be grouped)",
-                key.path(), size.name()),
-            fmt::format("add {} = [...] to [detection]", edges_name));
+        draft.reject(edges_key,
+                     fmt::format("missing (random.{} is {}, whose sizes must be grouped)",
+                                 key.path(), size.name()),
+                     fmt::format("add {} = [...] to [detection]", edges_name));
         return;
     }
     const Support support = size.in_unit_of_file().support();

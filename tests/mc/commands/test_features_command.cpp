@@ -276,7 +276,7 @@ TEST_CASE("Recordings of a few samples are too short, whatever their format") {
     }
 }
 
-// Regression: a name of two gigabytes in a MATLAB 4 file, found by libFuzzer.
+// Regression: a name of two gigabytes in a MATLAB 4 file.
 TEST_CASE("A MAT file that declares gigabytes is reported as damaged, without allocating them") {
     const Folder folder;
     const std::string file = folder.file("x.mat");

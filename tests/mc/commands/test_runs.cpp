@@ -4,9 +4,11 @@
 
 #include <chrono>
 #include <csignal>
+#include <set>
 #include <thread>
 
 #include "tests/mc/compared_program.hpp"
+#include "tests/mc/lives/life_example.hpp"
 #include "tests/mc/program.hpp"
 
 namespace gearpod::test_runs {
@@ -164,6 +166,75 @@ TEST_CASE("Killed two hundred times with a concurrent rival, a run loses nothing
     INFO(last.output << whole << " times whole in between");
     CHECK(last.code == 0);
     CHECK(bits(out) == reference);
+}
+
+// Bits of a results file, or all files of a folder with their names.
+std::string content(const fs::path& path) {
+    if (path.extension() == ".h5") {
+        const auto all = bits(path.string());
+        return {reinterpret_cast<const char*>(all.data()), all.size() * sizeof(all.front())};
+    }
+    if (!fs::is_directory(path)) {
+        return bytes_of(path.string());
+    }
+    std::string all;
+    for (const fs::path& name : std::set<fs::path>(fs::directory_iterator(path), {})) {
+        all += name.string() + content(name);
+    }
+    return all;
+}
+
+// Half an hour's test, ctest -C long -R kills.
+TEST_CASE("Killed two hundred times, commands that write results lose none and repeat their bits",
+          "[.kills]") {
+    const Folder folder;
+    const std::string ideal = study("planet-crack-ideal.toml"), out = folder.file("out");
+    const auto half = [&](int number) {
+        const std::string file = folder.file(std::to_string(number) + ".h5");
+        require_success(run_of(file) + " --quiet --part " + std::to_string(number) + "/2");
+        return file;
+    };
+    const std::string parts = half(1) + " " + half(2), recording = folder.file("x.csv");
+    require_success("simulate " + ideal + " --instance 0 --meshes 400 --out " + recording);
+    require_success(run_of(folder.file("whole.h5")) + " --quiet");
+    const std::vector<std::pair<std::string, std::string>> commands{
+        {out + ".h5", run_of(out + ".h5") + " --resume --quiet"},
+        {out + ".h5",
+         "lives " + ideal + life_arguments() + " --resume --quiet --out " + out + ".h5"},
+        {out + ".h5", "merge " + parts + " --force --out " + out + ".h5"},
+        {out, "sweep " + ideal +
+                  " --instances 8 --set ensemble.threshold_instances=20 --vary "
+                  "sensor.gain=[1,2] --quiet --out " +
+                  out},
+        {out + ".h5",
+         "features " + recording + " --study " + ideal + " --quiet --force --out " + out + ".h5"},
+        {out, "report " + folder.file("whole.h5") + " --force --dataset " + out}};
+    std::mt19937 engine(34);
+    for (const auto& [result, command] : commands) {
+        INFO(command);
+        const auto before = std::chrono::steady_clock::now();
+        require_success(command);
+        const std::chrono::duration<double> whole = std::chrono::steady_clock::now() - before;
+        const auto reference = content(result);
+        const long files = folder.files();
+        fs::remove_all(result);
+        std::uniform_real_distribution<double> moment(0.0, whole.count());
+        for (int killed = 0; killed < 34;) {
+            const pid_t child = start(command);
+            std::this_thread::sleep_for(std::chrono::duration<double>(moment(engine)));
+            kill(-child, SIGKILL);
+            if (WIFSIGNALED(status_of(child))) {
+                ++killed;
+            } else {
+                CHECK(content(result) == reference);
+                fs::remove_all(result);
+            }
+        }
+        require_success(command);
+        CHECK(content(result) == reference);
+        CHECK(folder.files() == files);
+        fs::remove_all(result);
+    }
 }
 
 TEST_CASE("Signals and the time limit end a run cleanly, save its state and exit with 4") {

@@ -61,7 +61,7 @@ TEST_CASE("The time limit includes the time to finish") {
     CHECK(interruption.reason(1.5s) == "the time limit");
 }
 
-TEST_CASE("Computing stops a second after a signal, at the limit, or on request") {
+TEST_CASE("Computing stops shortly after a signal, at the limit, or on request") {
     {
         const Interruption interruption(1h);
         CHECK_FALSE(interruption.stop());
