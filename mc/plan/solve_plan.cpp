@@ -84,7 +84,9 @@ class StepNeeds {
         }
         const dynamics::GearboxInputs& nominal = gearboxes_[0];
         check_equal_masses();
-        decay_meshes_ = 1.0 / (lockstep::slowest_decay_1_s(system(nominal)) * period(nominal));
+        const double decay_1_s =
+            lockstep::slowest_decay_1_s(system(nominal), dynamics::rigid_rotation(layout_));
+        decay_meshes_ = 1.0 / (decay_1_s * period(nominal));
         usual_explicit_ = stable_steps(lockstep::kUsualExplicit);
     }
 

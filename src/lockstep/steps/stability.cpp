@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <complex>
+#include <functional>
 #include <limits>
 #include <numbers>
+#include <utility>
 #include <vector>
 
 #include "dynamics/gearbox_matrices.hpp"
@@ -72,10 +74,26 @@ Eigen::MatrixXd state_matrix(const dynamics::GearboxMatrices& m) {
     return system;
 }
 
-double slowest_decay_1_s(const dynamics::GearboxMatrices& m) {
+double slowest_decay_1_s(const dynamics::GearboxMatrices& m, const Eigen::VectorXd& rotation) {
+    const dynamics::EigenPairs pairs = dynamics::eigen_pairs(state_matrix(m));
+    const Eigen::Index n = rotation.size();
+    const Eigen::VectorXcd weighted = (m.mass * rotation).cast<std::complex<double>>();
+    std::vector<std::pair<double, Eigen::Index>>
+        likeness;  // share of a mode's inertia that rotates
+    for (Eigen::Index i = 0; i < 2 * n; ++i) {
+        const Eigen::VectorXcd shape = pairs.vectors.col(i).head(n);
+        const double inertia = std::abs(shape.dot(m.mass * shape));
+        likeness.emplace_back(std::norm(weighted.dot(shape)) / inertia, i);
+    }
+    constexpr std::size_t kRigid = 2;  // angle and speed
+    std::ranges::partial_sort(likeness, likeness.begin() + kRigid, std::greater<>());
     double slowest = std::numeric_limits<double>::infinity();
-    for (const std::complex<double> lambda : decaying_modes(m)) {
-        slowest = std::min(slowest, std::max(0.0, -lambda.real()));
+    for (std::size_t i = kRigid; i < likeness.size(); ++i) {
+        const std::complex<double> lambda = pairs.values(likeness[i].second);
+        const double size = std::abs(lambda);
+        if (size >= rigid_rate(m) && lambda.real() <= 1e-9 * size) {
+            slowest = std::min(slowest, std::max(0.0, -lambda.real()));
+        }
     }
     return slowest;
 }

@@ -20,8 +20,11 @@ Eigen::MatrixXd state_matrix(const dynamics::GearboxMatrices& matrices);
 // of the undamped rates.
 double longest_stable_step(const dynamics::GearboxMatrices& matrices, Integrator integrator);
 
-// Smallest decay rate (1/s) of those modes; 0 without damping.
-double slowest_decay_1_s(const dynamics::GearboxMatrices& matrices);
+// Smallest decay rate (1/s) of those modes without the two that are most like
+// dynamics::rigid_rotation(): inertial terms make it grow and decay faster than that limit. 0
+// without damping.
+double slowest_decay_1_s(const dynamics::GearboxMatrices& matrices,
+                         const Eigen::VectorXd& rigid_rotation);
 
 // Cause of a gearbox's stiffness: its fastest mode, and the spring or damper that dominates it.
 struct StiffPart {

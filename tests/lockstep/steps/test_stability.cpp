@@ -90,8 +90,16 @@ TEST_CASE("The step limit of central differences holds for whole gearboxes, rota
     CHECK(central_growth(stage, 1.01 * limit) > 1 + 1e-3);
 }
 
-TEST_CASE("The slowest decay of an oscillator is half its damping rate") {
-    CHECK(slowest_decay_1_s(oscillator(1e8, 500.0)) == Approx(250.0));
+// Two unit masses joined by a spring and damper: relative motion decays at the damper's rate. A
+// centrifugal term makes their common motion grow and decay at 20 1/s.
+TEST_CASE("The slowest decay is that of the elastic modes, without the rigid rotation") {
+    for (const double damping : {500.0, 0.0}) {
+        auto m = dynamics::zero_matrices(2);
+        m.mass.setIdentity();
+        dynamics::add(m, {"shaft", Eigen::Vector2d(1.0, -1.0), 1e8, damping});
+        m.centrifugal.diagonal().setConstant(-400.0);
+        CHECK(slowest_decay_1_s(m, Eigen::Vector2d(1.0, 1.0)) == Approx(damping).margin(1e-6));
+    }
 }
 
 TEST_CASE("The stiff mode of Tian's gearbox is the motor coupling's damper; it requires sdirk3") {

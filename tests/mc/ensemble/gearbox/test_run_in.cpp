@@ -1,4 +1,6 @@
 // Checks the run-in before the first recorded mesh against a much longer run-in.
+#include <fmt/format.h>
+
 #include "lockstep/strategies/solution.hpp"
 #include "mc/ensemble/gearbox/tile_random_inputs.hpp"
 #include "tests/mc/ensemble/gearbox/relative_difference.hpp"
@@ -7,8 +9,11 @@
 namespace gearpod::mc::test_run_in {
 
 // The first recorded mesh of a gearbox with real teeth after so many others.
-lockstep::MeshRecord first_mesh(const Scene& scene, int run_in) {
+lockstep::MeshRecord first_mesh(const Scene& scene, int run_in, bool nominal = false) {
     Realization gearbox = scene.sampler().draw({Group::test, 3});
+    if (nominal) {
+        gearbox.inputs = scene.gearbox().nominal;
+    }
     gearbox.inputs.fault_size = 0.0;
     const dynamics::GearboxInputs inputs = scene.gearbox().inputs(gearbox.inputs);
     const auto errors =
@@ -50,6 +55,32 @@ TEST_CASE("The run-in follows from the slower of gearbox and sensor, and from th
     // Twice the meshes to 1e-2: 45.9 / 2 at 1 Hz.
     CHECK(run_in({"sensor.low_pass_Hz=1", "numerics.settle_tolerance=1e-2"}) == 46);
     CHECK(run_in({"sensor.low_pass_Hz=1", "numerics.settle_tolerance=1e-4"}) == 92);
+}
+
+// Inertial terms make the rigid rotation grow and decay slowly, which does not affect vibration.
+TEST_CASE(
+    "The nominal run-in suffices at 5 to 20,000 rpm of the sun, with and without inertial terms") {
+    for (const double carrier_rpm : {0.95, 57.0, 300.0, 3800.0}) {
+        std::vector<int> run_ins;
+        for (const bool inertial_terms : {false, true}) {
+            const double mesh_Hz = 81 * carrier_rpm / 60;
+            const Scene scene(
+                test::shipped_study("planet-crack-ideal.toml",
+                                    {"gearbox.tooth_quality=6", "numerics.lanes=1",
+                                     fmt::format("effects.inertial_terms={}", inertial_terms),
+                                     fmt::format("operation.carrier_speed_rpm={}", carrier_rpm),
+                                     fmt::format("sensor.low_pass_Hz={}", 4 * mesh_Hz),
+                                     fmt::format("sensor.sampling_Hz={}", 16 * mesh_Hz),
+                                     fmt::format("sensor.encoder_sampling_Hz={}", 16 * mesh_Hz)}));
+            run_ins.push_back(scene.solve().run_in_meshes);
+            const lockstep::MeshRecord own = first_mesh(scene, run_ins.back(), true),
+                                       late = first_mesh(scene, 2 * run_ins.back(), true);
+            INFO(carrier_rpm << " rpm, run-in " << run_ins.back());
+            CHECK(test::relative_difference(own.acceleration, late.acceleration) < 1e-9);
+            CHECK(test::relative_difference(own.te, late.te) < 1e-9);
+        }
+        CHECK(run_ins[1] < 1.2 * run_ins[0]);
+    }
 }
 
 }  // namespace gearpod::mc::test_run_in
