@@ -210,9 +210,10 @@ int merge_command(const MergeOptions& options) {
     const bool existed = Checkpoint::exists(temporary);
     std::unique_ptr<Checkpoint> checkpoint;
     try {
-        checkpoint =
-            open_checkpoint(made.scene->ensemble(), made.scene->ensemble().shape, merge.whole(),
-                            options.out, {.force = options.force, .quiet = options.quiet});
+        // What a killed merge or run of this study left has the same rows.
+        checkpoint = open_checkpoint(
+            made.scene->ensemble(), made.scene->ensemble().shape, merge.whole(), options.out,
+            {.resume = existed, .force = options.force, .quiet = options.quiet});
         merge.fill(*checkpoint);
         checkpoint->sync();
     } catch (const std::exception& error) {
