@@ -1,8 +1,6 @@
 #include "mc/numerics/forecast/forecast.hpp"
 
 #include <algorithm>
-#include <boost/random/normal_distribution.hpp>
-#include <boost/random/uniform_int_distribution.hpp>
 #include <cmath>
 #include <functional>
 #include <future>
@@ -391,133 +389,6 @@ constexpr double kFirstBytesOfValue = 40.0, kBytesOfValue = 22.0, kBytesBeyond =
 // value of its columns (result_rows.hpp), which grow by doubling.
 constexpr double kBytesOfRecord = 60.0, kBytesOfColumns = 16.0;
 
-double sum_of_products(const std::vector<double>& a, const std::vector<double>& b) {
-    return std::inner_product(a.begin(), a.end(), b.begin(), 0.0);
-}
-
-// Least-squares parabola through values over sizes, in terms that are orthogonal over the sizes.
-// Only terms of at least three standard errors are kept: the uncertainty of a few gearboxes must
-// not look like an effect.
-class Trend {
-  public:
-    Trend(const std::vector<double>& sizes, const std::vector<double>& values) {
-        const auto n = static_cast<double>(sizes.size());
-        if (n < 4.0) {
-            return;
-        }
-        mean_ = std::accumulate(sizes.begin(), sizes.end(), 0.0) / n;
-        std::vector<double> linear, square;
-        for (const double size : sizes) {
-            linear.push_back(size - mean_);
-            square.push_back((size - mean_) * (size - mean_));
-        }
-        const double x2 = sum_of_products(linear, linear);
-        if (!(x2 > 0.0)) {
-            return;
-        }
-        square_mean_ = x2 / n;
-        square_slope_ = sum_of_products(linear, square) / x2;
-        for (std::size_t i = 0; i < square.size(); ++i) {
-            square[i] -= square_mean_ + square_slope_ * linear[i];
-        }
-        const double mean = std::accumulate(values.begin(), values.end(), 0.0) / n;
-        const double p2 = sum_of_products(square, square);
-        const double b1 = sum_of_products(linear, values) / x2;
-        const double b2 = p2 > 0.0 ? sum_of_products(square, values) / p2 : 0.0;
-        double residual = 0.0;
-        for (std::size_t i = 0; i < values.size(); ++i) {
-            const double rest = values[i] - mean - b1 * linear[i] - b2 * square[i];
-            residual += rest * rest;
-        }
-        const double least = 9.0 * residual / (n - 3.0);
-        linear_ = b1 * b1 * x2 >= least ? b1 : 0.0;
-        square_ = b2 * b2 * p2 >= least ? b2 : 0.0;
-    }
-
-    // Without the constant term.
-    double at(double size) const {
-        const double x = size - mean_;
-        return linear_ * x + square_ * (x * x - square_mean_ - square_slope_ * x);
-    }
-
-  private:
-    double mean_ = 0.0, square_mean_ = 0.0, square_slope_ = 0.0;
-    double linear_ = 0.0, square_ = 0.0;
-};
-
-// Computed gearboxes of one group, sorted by fault size.
-class Pool {
-  public:
-    Pool(const RunCost& calibration, const RowShape& shape, Group group)
-        : rows_(calibration.rows), shape_(shape) {
-        for (std::size_t row = 0; row < calibration.gearboxes.size(); ++row) {
-            if (calibration.gearboxes[row].group == group) {
-                order_.push_back(row);
-            }
-        }
-        std::sort(order_.begin(), order_.end(),
-                  [&](std::size_t a, std::size_t b) { return size(a) < size(b); });
-    }
-
-    bool empty() const { return order_.empty(); }
-
-    // Random gearbox with this fault size, or any gearbox of the group if there is none.
-    std::size_t draw(double requested, Philox& engine) const {
-        auto [low, high] = std::pair(
-            std::partition_point(order_.begin(), order_.end(),
-                                 [&](std::size_t row) { return size(row) < requested; }),
-            std::partition_point(order_.begin(), order_.end(),
-                                 [&](std::size_t row) { return size(row) <= requested; }));
-        if (low == high) {
-            low = order_.begin();
-            high = order_.end();
-        }
-        return *(low + boost::random::uniform_int_distribution<std::ptrdiff_t>(
-                           0, high - low - 1)(engine));
-    }
-
-    // Trend of a feature over the fault size.
-    Trend trend(std::size_t feature, std::size_t level) const {
-        std::vector<double> sizes, values;
-        for (const std::size_t row : order_) {
-            if (const double found = value(row, feature, level); std::isfinite(found)) {
-                sizes.push_back(size(row));
-                values.push_back(found);
-            }
-        }
-        return {sizes, values};
-    }
-
-    double value(std::size_t row, std::size_t feature, std::size_t level) const {
-        return rows_.values[row * shape_.values() + shape_.value_of(feature, level)];
-    }
-
-    // Standard deviation of the smoothing: that of the values, divided by the fifth root of their
-    // number.
-    double smoothing(std::size_t feature, std::size_t level) const {
-        double sum = 0.0, squares = 0.0, n = 0.0;
-        for (const std::size_t row : order_) {
-            if (const double found = value(row, feature, level); std::isfinite(found)) {
-                sum += found;
-                squares += found * found;
-                n += 1.0;
-            }
-        }
-        const double variance = n > 1.0 ? (squares - sum * sum / n) / (n - 1.0) : 0.0;
-        return std::sqrt(std::max(0.0, variance)) * std::pow(std::max(1.0, n), -0.2);
-    }
-
-    // The last parameter.
-    double size(std::size_t row) const {
-        return rows_.values[row * shape_.values() + shape_.fault_size()];
-    }
-
-  private:
-    const BatchRows& rows_;
-    const RowShape shape_;
-    std::vector<std::size_t> order_;
-};
-
 // Noise levels in order of their distance from the middle one.
 std::vector<std::size_t> level_order(std::size_t levels) {
     std::vector<std::size_t> order(levels);
@@ -550,11 +421,9 @@ double seconds_of_analysis(Results results, int threads, bool assessed) {
 
 }  // namespace
 
-Results synthetic_results(const Sampler& sampler, const EnsemblePlan& ensemble,
-                          const RunCost& calibration, const BatchPlan& plan, std::size_t rows,
-                          const std::vector<std::size_t>& levels) {
-    RowOrder order = sampler.plan().rows;
-    order.records = 1;  // a row for each gearbox
+Results repeated_results(const EnsemblePlan& ensemble, const RunCost& calibration,
+                         const BatchPlan& plan, std::size_t rows,
+                         const std::vector<std::size_t>& levels) {
     const RowShape& shape = ensemble.shape;
     Results results = results_frame(ensemble);
     results.request.threshold_records = 1;
@@ -566,46 +435,25 @@ Results synthetic_results(const Sampler& sampler, const EnsemblePlan& ensemble,
     results.contact_loss.clear();  // not part of the analysis
     results.variants.clear();
 
-    std::array<Pool, 2> pools{Pool(calibration, shape, Group::threshold),
-                              Pool(calibration, shape, Group::test)};
-    // Values of healthy gearboxes scatter as in the threshold sample; without one, as in all
-    // gearboxes.
-    const Pool& scatter = pools[pools[0].empty() ? 1 : 0];
-    std::vector<double> smoothing;
-    std::array<std::vector<Trend>, 2> trends;
-    for (std::size_t f = 0; f < shape.features; ++f) {
-        for (const std::size_t level : levels) {
-            smoothing.push_back(scatter.smoothing(f, level));
-            for (std::size_t g = 0; g < pools.size(); ++g) {
-                trends[g].push_back((pools[g].empty() ? scatter : pools[g]).trend(f, level));
-            }
-        }
+    std::array<std::vector<std::size_t>, 2> computed;
+    for (std::size_t row = 0; row < calibration.gearboxes.size(); ++row) {
+        computed[index_of(calibration.gearboxes[row].group)].push_back(row);
     }
     for (std::size_t i = 0; i < rows; ++i) {
-        const GearboxId id = order.id_of(static_cast<long>(i * gearboxes_of(plan) / rows));
-        const Realization realization = sampler.draw(id);
-        const double size = realization.inputs.fault_size;
-        std::vector<double> parameters;
-        ensemble.append_inputs(realization.random_values, 1.0, parameters);
-        parameters.push_back(size);
-        Philox engine(static_cast<std::uint64_t>(ensemble.seed), id.group, id.index,
-                      StreamPurpose::forecast_rows);
-        boost::random::normal_distribution<double> normal;
-        const Pool& of_group = pools[static_cast<std::size_t>(id.group)];
-        const Pool& pool = of_group.empty() ? scatter : of_group;
-        const std::size_t template_row = pool.draw(size, engine);
-        results.group.push_back(static_cast<int>(id.group));
-        results.status.push_back(calibration.rows.status[template_row]);
+        const bool test = i * gearboxes_of(plan) / rows >= plan.threshold_gearboxes();
+        const std::vector<std::size_t>& of_group = computed[test ? 1 : 0];
+        const std::vector<std::size_t>& found =
+            of_group.empty() ? computed[test ? 0 : 1] : of_group;
+        const std::size_t row = found[i % found.size()];
+        const double* const values = calibration.rows.values.data() + row * shape.values();
+        results.group.push_back(test ? 1 : 0);
+        results.status.push_back(calibration.rows.status[row]);
         for (std::size_t p = 0; p < shape.parameters; ++p) {
-            results.parameters[p].values.push_back(parameters[p]);
+            results.parameters[p].values.push_back(values[p]);
         }
         for (std::size_t f = 0; f < shape.features; ++f) {
-            for (std::size_t l = 0; l < levels.size(); ++l) {
-                const std::size_t column = f * levels.size() + l;
-                const Trend& trend = trends[static_cast<std::size_t>(id.group)][column];
-                results.features[f].values.push_back(
-                    pool.value(template_row, f, levels[l]) + trend.at(size) -
-                    trend.at(pool.size(template_row)) + smoothing[column] * normal(engine));
+            for (const std::size_t level : levels) {
+                results.features[f].values.push_back(values[shape.value_of(f, level)]);
             }
         }
     }
@@ -632,9 +480,8 @@ double assessment_bytes(const RowShape& shape, const BatchPlan& plan) {
                     kBytesOfColumns * at_once + kBytesOfRecord * static_cast<double>(plan.rows()));
 }
 
-AnalysisTrial measure_analysis(const Sampler& sampler, const EnsemblePlan& ensemble,
-                               const RunCost& calibration, const BatchPlan& plan, int threads,
-                               double budget_s) {
+AnalysisTrial measure_analysis(const EnsemblePlan& ensemble, const RunCost& calibration,
+                               const BatchPlan& plan, int threads, double budget_s) {
     AnalysisTrial trial;
     const std::size_t levels = ensemble.shape.levels;
     const bool assessed = values_of(ensemble.shape, plan) <= kMostAssessedValues;
@@ -652,8 +499,7 @@ AnalysisTrial measure_analysis(const Sampler& sampler, const EnsemblePlan& ensem
         std::vector<std::size_t> now(first, first + static_cast<std::ptrdiff_t>(count));
         std::sort(now.begin(), now.end());
         trial.total_s += seconds_of_analysis(
-            synthetic_results(sampler, ensemble, calibration, plan, trial.rows, now), threads,
-            assessed);
+            repeated_results(ensemble, calibration, plan, trial.rows, now), threads, assessed);
         trial.levels += count;
         trial.trial_s = seconds_since(start);
     }

@@ -515,8 +515,7 @@ void print_forecast(const Scene& scene, const Planner& planner, double setup_s, 
     const BatchPlan plan = ensemble.batches();
     const int threads = thread_count(ensemble);
     const RunCost calibration = measure_run_cost(scene.tile(), ensemble, plan, threads, kBudget_s);
-    const AnalysisTrial trial =
-        measure_analysis(scene.sampler(), ensemble, calibration, plan, threads, kBudget_s);
+    const AnalysisTrial trial = measure_analysis(ensemble, calibration, plan, threads, kBudget_s);
     const RunForecast forecast =
         forecast_run(calibration, plan, trial, verification_s(planner, calibration), setup_s);
     if (!ensemble.meshes.empty()) {

@@ -53,7 +53,6 @@ enum class StreamPurpose : std::uint64_t {
     dataset_split = fnv1a("dataset.split"),  // of a gearbox; recorded ones add "." and the name
     // Synthetic data of forecasts.
     forecast_signals = fnv1a("life.made_up.signals"),
-    forecast_rows = fnv1a("analysis.trial"),
 };
 
 // One of several streams of a purpose: the hash of its text and the suffix.

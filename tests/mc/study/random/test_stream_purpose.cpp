@@ -37,7 +37,6 @@ constexpr std::pair<StreamPurpose, std::uint64_t> kStableNumbers[] = {
     {StreamPurpose::calibration_record, 0xc89b1e8c6017d224u},
     {StreamPurpose::dataset_split, 0x04b34233f63f7e05u},
     {StreamPurpose::forecast_signals, 0x534d5b00771b0efdu},
-    {StreamPurpose::forecast_rows, 0xe6c6a33f0b283f05u},
 };
 
 TEST_CASE("Suffixes continue the FNV-1a hash with 64 bits") {
