@@ -28,7 +28,7 @@ struct ReportOptions {
 class Ranks;
 
 struct LivesOptions {
-    RunOptions run;          // without watch, signals and part
+    RunOptions run;          // without signals and part
     std::string json, html;  // "": none; JSON "-": standard output
     bool shows_withheld = false;
 };

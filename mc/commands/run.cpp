@@ -20,7 +20,6 @@ void add_run(CLI::App& app, int& code) {
                     "compute part K of N of the gearboxes, e.g. 2/4; `merge` joins the parts")
         ->type_name("K/N");
     add_progress(command, options);
-    command.add_option("--watch", options.watch, "feature whose detection rate the progress shows");
     command
         .add_option_function<std::vector<std::string>>(
             "--signals",

@@ -63,7 +63,6 @@ class Leader {
     EnsembleOutcome run() {
         const auto start = WallClock::now();
         last_sync_ = start;
-        update_watch();
         while (true) {
             assign_batches();
             if (outstanding_ == 0) {
@@ -168,7 +167,6 @@ class Leader {
             return;
         }
         store([&] { run_.store.write(finished.batch, finished.rows); });
-        update_watch();
         run_.progress.advance(static_cast<long>(finished.rows.count()));
     }
 
@@ -186,14 +184,6 @@ class Leader {
             fail(error.what());
         }
         outcome_.output_s += seconds_since(start);
-    }
-
-    void update_watch() {
-        if (run_.watch == nullptr || stopping_) {
-            return;
-        }
-        store([&] { run_.watch->advance(run_.store); });
-        run_.progress.watch(run_.watch->text());
     }
 
     void checkpoint() {

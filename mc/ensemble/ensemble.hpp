@@ -10,7 +10,6 @@
 #include "mc/ensemble/interruption.hpp"
 #include "mc/ensemble/progress.hpp"
 #include "mc/ensemble/ranks.hpp"
-#include "mc/ensemble/running_pd.hpp"
 #include "mc/results/result_rows.hpp"
 #include "mc/results/results_file.hpp"
 
@@ -22,7 +21,6 @@ struct EnsembleRun {
     RowStore& store;  // rank 0 only; batches in it are not computed again
     Progress& progress;
     const Interruption* interruption = nullptr;
-    RunningPd* watch = nullptr;                  // shown as progress
     double checkpoint_s = 30.0;                  // interval between two syncs of the store
     std::function<void()> checkpointed = [] {};  // called after each sync
 };

@@ -44,10 +44,6 @@ void Progress::advance(long count) {
     }
 }
 
-void Progress::watch(std::string rate) {
-    rate_ = std::move(rate);
-}
-
 void Progress::show(std::chrono::steady_clock::time_point now) {
     const double elapsed = std::chrono::duration<double>(now - start_).count();
     const double rate = static_cast<double>(done_ - before_) / elapsed;
@@ -56,13 +52,10 @@ void Progress::show(std::chrono::steady_clock::time_point now) {
         return show_json(elapsed, rate, left, false);
     }
     const double share = static_cast<double>(done_) / static_cast<double>(total_);
-    std::string numbers =
+    const std::string numbers =
         fmt::format("{} of {} {}, {} per second, {} left", done_, total_, counted_,
                     rate < 10.0 ? fmt::format("{:.2g}", rate) : fmt::format("{:.0f}", rate),
                     duration_text(static_cast<double>(left) / rate));
-    if (!rate_.empty()) {
-        numbers += ", " + rate_;
-    }
     if (terminal_) {
         constexpr int kWidth = 20;
         const int filled = static_cast<int>(share * kWidth);
@@ -82,7 +75,6 @@ void Progress::show_json(double elapsed, double rate, long left, bool finished) 
         {"seconds", elapsed},
         {"per_second", rate},
         {"left_s", rate > 0.0 ? nlohmann::json(static_cast<double>(left) / rate) : nullptr},
-        {"watched", rate_.empty() ? nlohmann::json(nullptr) : nlohmann::json(rate_)},
         {"finished", finished}};
     fmt::print(stderr, "{}\n", line.dump());
     std::fflush(stderr);

@@ -2,7 +2,7 @@
 // programs there is JSON, one object per line, every five seconds and at the end:
 //   {"done": number, "of": total number, "counted": "gearboxes" or other items,
 //    "seconds": since the start, "per_second": number, "left_s": forecast or null,
-//    "watched": text or null, "finished": true in the last line of complete work}
+//    "finished": true in the last line of complete work}
 #pragma once
 
 #include <chrono>
@@ -23,8 +23,6 @@ class Progress {
 
     // Reports that `count` more items are done.
     void advance(long count);
-    // Sets the detection rate to show.
-    void watch(std::string rate);
 
     // Ends the line of the progress bar. `complete`: nothing was interrupted.
     void finish(bool complete = true);
@@ -42,7 +40,6 @@ class Progress {
     std::chrono::steady_clock::time_point shown_;
     const long before_;
     long done_ = 0;
-    std::string rate_;
 };
 
 }  // namespace gearpod::mc

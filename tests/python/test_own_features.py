@@ -391,12 +391,10 @@ class OwnFeatures(PythonStudyCase):
         self.program("features", record, record, "--study", study, "--csv", table)
         self.assertIn("broken: " + str(self.folder / "own.py") + ":2: ZeroDivisionError", self.output)
 
-    def test_sweeps_and_watching(self):
+    def test_sweeps(self):
         study = self.study(COUNTERPARTS)
         self.program("sweep", study, "--vary", "sensor.noise_m_s2=[1,2]", "--out", self.folder / "s",
                      "--instances", "7")
-        self.program("run", study, "--watch", "ratio", "--out", self.folder / "w.h5")
-        self.program("run", study, "--watch", "none", "--out", self.folder / "w.h5", code=2)
 
 
 if __name__ == "__main__":

@@ -56,7 +56,6 @@ class Run {
           part_(read_part(options.part).value().text()),
           plan_(plan_of(options, ensemble_)),
           checkpoint_(std::move(checkpoint)),
-          watch_(ensemble_, plan_, options.watch),
           setup_s_(setup_s) {}
 
     int run(const Interruption& interruption) {
@@ -75,7 +74,6 @@ class Run {
                                                      .store = *checkpoint_,
                                                      .progress = progress,
                                                      .interruption = &interruption,
-                                                     .watch = &watch_,
                                                      .checkpoint_s = ensemble_.checkpoint_s,
                                                      .checkpointed = [&] { snapshot(); }});
         progress.finish(outcome.failure.empty() && outcome.interruption.empty());
@@ -249,7 +247,6 @@ class Run {
     const std::string part_;  // "" for the whole ensemble
     const BatchPlan plan_;
     std::unique_ptr<Checkpoint> checkpoint_;
-    RunningPd watch_;
     const double setup_s_;
     int threads_ = 0;
     std::size_t complete_ = 0;
@@ -302,8 +299,7 @@ int run_study(const RunOptions& options, const Ranks& ranks) {
         const bool writable = check_output(options);
         const bool good_progress = check_progress(options);
         if (scene && writable && good_limit && good_progress &&
-            check_part(options, scene->ensemble()) && check_watch(options, scene->ensemble()) &&
-            check_signals(options, scene->ensemble()) &&
+            check_part(options, scene->ensemble()) && check_signals(options, scene->ensemble()) &&
             check_memory(options, scene->ensemble(), motion_bytes(scene->tile()), ranks)) {
             try {
                 checkpoint =

@@ -24,7 +24,6 @@ struct RunOptions {
     bool resume = false;
     bool force = false;         // overwrite results of another study
     std::string time_limit;     // "hh:mm:ss"; "": none
-    std::string watch;          // feature whose Pd is shown as progress; "": the study's first
     std::vector<long> signals;  // rows whose signals are added to the results
     std::string part;           // "2/4": every fourth batch, starting with the second; "": all
     std::string progress;       // "json": one object per line; "": text

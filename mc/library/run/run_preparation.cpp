@@ -71,15 +71,6 @@ bool check_part(const RunOptions& options, const EnsemblePlan& plan) {
     return true;
 }
 
-bool check_watch(const RunOptions& options, const EnsemblePlan& plan) {
-    if (options.watch.empty() ||
-        std::ranges::count(plan.features, options.watch, &features::Feature::name) > 0) {
-        return true;
-    }
-    fmt::print(stderr, "--watch {}: is not among the study's features.use\n", options.watch);
-    return false;
-}
-
 bool check_signals(const RunOptions& options, const EnsemblePlan& plan) {
     if (!options.part.empty() && !options.signals.empty()) {
         fmt::print(

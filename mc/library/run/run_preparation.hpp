@@ -23,7 +23,6 @@ BatchPlan plan_of(const RunOptions& options, const EnsemblePlan& plan);
 bool check_time_limit(const RunOptions& options, std::optional<std::chrono::seconds>& limit);
 bool check_progress(const RunOptions& options);
 bool check_part(const RunOptions& options, const EnsemblePlan& plan);
-bool check_watch(const RunOptions& options, const EnsemblePlan& plan);
 bool check_signals(const RunOptions& options, const EnsemblePlan& plan);
 // Checks the path of the results, of the temporary file and of the checkpoint.
 bool check_output(const RunOptions& options);
