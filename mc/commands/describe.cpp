@@ -193,14 +193,15 @@ void print_omitted(const char* what, const DescribeOptions& options) {
 void print_fallback(const Planner& planner, bool chosen, double setup_s, int ranks,
                     const PeakMemory& memory) {
     try {
-        const Scene scene = planner.scene(without_tolerance(planner.facts().numerics));
+        const Numerics numerics = without_tolerance(planner.facts().numerics);
+        const TilePlan tile = planner.tile(numerics);
         if (!chosen) {
             print_entry("solver setting", "the default, not the one that a pilot run would choose");
         }
-        if (scene.lives().plan) {
-            print_lives_forecast(scene.tile(), scene.life(), setup_s, ranks, false);
+        if (const StudyLives lives = planner.lives(numerics); lives.plan) {
+            print_lives_forecast(tile, *lives.plan, setup_s, ranks, false);
         } else {
-            print_step_forecast(scene.tile(), scene.ensemble(), memory);
+            print_step_forecast(tile, planner.ensemble(numerics), memory);
         }
     } catch (const SceneError& error) {
         print_problems({{"", 0, error.key(), error.what(), error.remedy()}});

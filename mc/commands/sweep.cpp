@@ -58,12 +58,11 @@ RunOptions run_of(const SweepOptions& options, const SweepPoint& point) {
     return run;
 }
 
-// Adds the reasons why `lives` refuses a study that is read without problems.
-void add_lives_problems(const Study& study, const std::string& file, Problems& problems) {
+// Adds the reasons why `lives` refuses the study `file`.
+void add_lives_problems(const Planner& planner, const std::string& file, Problems& problems) {
     try {
-        const Planner planner(study);
-        const Scene scene = planner.scene(without_tolerance(planner.facts().numerics));
-        std::ranges::move(scene.lives().problems_in(file), std::back_inserter(problems));
+        const StudyLives lives = planner.lives(without_tolerance(planner.facts().numerics));
+        std::ranges::move(lives.problems_in(file), std::back_inserter(problems));
     } catch (const SceneError& error) {
         problems.push_back({file, 0, error.key(), error.what(), error.remedy()});
     }
@@ -78,7 +77,7 @@ Problems problems_of(const SweepOptions& options, const std::vector<VariedKey>& 
         const RunOptions run = run_of(options, point);
         StudyReading reading = read_study(run.study.path, run.study.overrides);
         if (options.lives && reading.study) {
-            add_lives_problems(*reading.study, run.study.path, reading.problems);
+            add_lives_problems(Planner(*reading.study), run.study.path, reading.problems);
         }
         for (Problem& problem : reading.problems) {
             for (const VariedKey& key : keys) {

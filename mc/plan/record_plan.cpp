@@ -52,18 +52,17 @@ void check_covered_features(const RecordLength& length, const FeaturePlan& featu
     for (const features::Feature* feature : features.used) {
         const int least = features.least_meshes(*feature);
         if (least > meshes) {
-            needs.push_back(fmt::format("\"{}\" {} mesh periods", feature->name, least));
+            needs.push_back(fmt::format("\"{}\" needs {} mesh periods", feature->name, least));
             needed = std::max(needed, least);
         }
     }
     if (!needs.empty()) {
         const int teeth = features.span.planet_teeth;
-        throw SceneError(
-            "features.use",
-            fmt::format("a record has {} mesh periods (sensor.{}), but others are needed: {}",
-                        meshes, length.key(), fmt::join(needs, ", ")),
-            fmt::format("remove these features, or record {:.3g} s",
-                        (needed + teeth - 1) / teeth * teeth / mesh_frequency_Hz));
+        throw SceneError("features.use",
+                         fmt::format("{}, but a record has {} (sensor.{})", fmt::join(needs, ", "),
+                                     meshes, length.key()),
+                         fmt::format("remove these features, or record {:.3g} s",
+                                     (needed + teeth - 1) / teeth * teeth / mesh_frequency_Hz));
     }
 }
 

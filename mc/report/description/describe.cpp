@@ -495,6 +495,16 @@ RankForecast forecast_ranks(const RunCost& calibration, const BatchPlan& plan,
     return forecast;
 }
 
+namespace {
+
+// Processor seconds of one thread to integrate the records of a tile.
+double tile_integration_s(const TilePlan& tile) {
+    return tile.solve->integrated_meshes *
+           mesh_period_s(tile.draw(), *tile.gearbox, *tile.solve, tile.record);
+}
+
+}  // namespace
+
 void print_step_forecast(const TilePlan& tile, const EnsemblePlan& ensemble,
                          const PeakMemory& memory) {
     const BatchPlan plan = ensemble.batches();
@@ -504,9 +514,8 @@ void print_step_forecast(const TilePlan& tile, const EnsemblePlan& ensemble,
     print_entry(
         "based on",
         fmt::format("the number of gearboxes and time steps and the time of one mesh period alone; "
-                    "{}signals, features and analysis take more. Raise --seconds to compute some "
-                    "gearboxes instead",
-                    tile.gearbox->stages.empty() ? "" : "neighbouring stages, "));
+                    "signals, features, analysis, and gearboxes that cannot be superposed take "
+                    "more. Raise --seconds to compute some gearboxes instead"));
     print_entry("threads", std::to_string(threads));
     if (tile.solve->settings.quasi_static) {
         print_entry("gearboxes", "not forecast: a quasi-static study integrates nothing");
@@ -515,14 +524,21 @@ void print_step_forecast(const TilePlan& tile, const EnsemblePlan& ensemble,
         const double tiles = std::ceil(static_cast<double>(plan.threshold_gearboxes()) / lanes) +
                              std::ceil(static_cast<double>(plan.test_rows()) / lanes);
         const double meshes = tile.solve->integrated_meshes;
+        // Baseline records are integrated like the test record, and each with its own neighbours.
+        const auto records = static_cast<double>(1 + tile.record.computed_baselines);
+        double record_s = tile_integration_s(tile);
+        for (const StagePlan& stage : tile.gearbox->stages) {
+            record_s += tile_integration_s(*stage.tile) * lanes /
+                        stage.tile->solve->settings.numerics.lanes;
+        }
         print_entry(
             "time integration",
             fmt::format(
-                "{}: {:.0f} tiles of {} gearboxes, about {:.0f} mesh periods of {} steps each",
-                seconds_text(tiles * meshes *
-                             mesh_period_s(tile.draw(), *tile.gearbox, *tile.solve, tile.record) /
-                             static_cast<double>(threads)),
-                tiles, ensemble.lanes, meshes, tile.solve->integration().grid.steps.size()));
+                "at least {}: {:.0f} tiles of {} gearboxes with {:.0f} record{} each, about "
+                "{:.0f} mesh periods of {} steps for each",
+                seconds_text(tiles * records * record_s / static_cast<double>(threads)), tiles,
+                ensemble.lanes, records, records == 1.0 ? "" : "s", meshes,
+                tile.solve->integration().grid.steps.size()));
     }
     const double least_bytes =
         std::max(memory.setup_bytes + least_memory_bytes(motion_bytes(tile), ensemble.shape, plan,
