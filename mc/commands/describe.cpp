@@ -127,7 +127,7 @@ void print_cost(const GearboxPlan& gearbox, const SolvePlan& solve, const Record
                                 solve.convergence.tolerance, numerics.convergence_tolerance));
     }
     print_entry("record", record_length_text(record));
-    if (const std::string shown = record_teeth_text(record, features); !shown.empty()) {
+    if (const std::string shown = shown_teeth_text(record, features); !shown.empty()) {
         print_entry("shown by a record", shown);
     }
     print_entry("mesh periods integrated",

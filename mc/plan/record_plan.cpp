@@ -258,33 +258,27 @@ std::string record_length_text(const RecordPlan& plan) {
         plan.length ? ", from a random tooth position" + shared_text(plan.same_window) : "");
 }
 
-std::string shown_teeth_text(const FeaturePlan& features, int meshes, double mesh_frequency_Hz) {
+std::string shown_teeth_text(const RecordPlan& plan, const FeaturePlan& features) {
+    if (!plan.length || !features.sensor || !features.sun) {
+        return "";
+    }
+    const int meshes = nominal_turns(plan) * plan.span.planet_teeth;
     std::vector<std::string> shown, hidden;
     const auto add = [&](const char* what, int least) {
         (least <= meshes ? shown : hidden)
             .push_back(fmt::format("{} (from {} mesh periods, {:.3g} s)", what, least,
-                                   least / mesh_frequency_Hz));
+                                   least / std::abs(plan.mesh_frequency_Hz)));
     };
     const auto central = [&](Member gear) {
-        return signals::fewest_turns(features.teeth[gear], features.span.carrier_meshes).meshes();
+        return signals::fewest_turns(features.teeth[gear], plan.span.carrier_meshes).meshes();
     };
-    if (!features.sun) {
-        return "";
-    }
-    add("single teeth of the planets", kLeastRecordTurns * features.span.planet_teeth);
+    add("single teeth of the planets", kLeastRecordTurns * plan.span.planet_teeth);
     add("of the ring", central(Member::ring));
     add("of the sun", central(Member::sun));
-    add("frms", 2 * features.span.carrier_meshes);
+    add("frms", 2 * plan.span.carrier_meshes);
     return fmt::format(
         "{}{}", fmt::join(shown, ", "),
         hidden.empty() ? "" : fmt::format("; too short for {}", fmt::join(hidden, ", ")));
-}
-
-std::string record_teeth_text(const RecordPlan& plan, const FeaturePlan& features) {
-    return plan.length && features.sensor
-               ? shown_teeth_text(features, nominal_turns(plan) * plan.span.planet_teeth,
-                                  std::abs(plan.mesh_frequency_Hz))
-               : "";
 }
 
 std::string run_conditions(const Study& study) {

@@ -806,17 +806,11 @@ SolvePlan::SolvePlan(const SolveSettings& given, const GearboxPlan& gearbox,
 
 std::string integrated_records_text(const RecordPlan& record, const SolvePlan& solve) {
     const auto* every_mesh = std::get_if<EveryMeshPeriod>(&solve.strategy);
-    if (!record.length || every_mesh == nullptr) {
-        return "";
-    }
-    if (every_mesh->records_only) {
-        return fmt::format("; only the records, each after a run-in of {}", solve.run_in_meshes);
-    }
-    return record.same_window > 1
-               ? fmt::format(
-                     "; all of the signal, because records with their run-in of {} would "
-                     "save less than half",
-                     solve.run_in_meshes)
+    return !record.length || every_mesh == nullptr ? ""
+           : every_mesh->records_only
+               ? fmt::format("; only the records, each after a run-in of {}", solve.run_in_meshes)
+           : record.same_window > 1
+               ? "; all of the signal, because the records alone would save less than half"
                : "; all of the signal, because fluctuating speed, an elastic shaft or a response "
                  "of "
                  "the housing needs it";

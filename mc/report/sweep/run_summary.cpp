@@ -308,15 +308,6 @@ std::string noise_text(const RunSweep& sweep) {
                                 : "each point at its own noise level";
 }
 
-std::string confidence_text(const RunSweep& sweep) {
-    const auto [least, most] = std::ranges::minmax_element(
-        sweep.points, {}, [](const PointSummary& point) { return point.request.confidence; });
-    return least->request.confidence == most->request.confidence
-               ? percent_text(least->request.confidence)
-               : fmt::format("{} to {}", percent_text(least->request.confidence),
-                             percent_text(most->request.confidence));
-}
-
 std::string headline_text(const RunSweep& sweep) {
     std::vector<const PointSummary*> found;
     std::vector<std::string> none, unknown, featureless;
@@ -363,7 +354,8 @@ std::string headline_text(const RunSweep& sweep) {
     add("no threshold", unknown);
     add("no feature", featureless);
     return fmt::format("Smallest fault found with 90 % probability at {} confidence, {}: {}.",
-                       confidence_text(sweep), noise_text(sweep), fmt::join(parts, "; "));
+                       percent_text(sweep.points.front().request.confidence), noise_text(sweep),
+                       fmt::join(parts, "; "));
 }
 
 // Sentence on the differences of a90 from the smallest one that exceed the scatter.

@@ -202,7 +202,11 @@ TEST_CASE("Features of single teeth need a common multiple of their gear and the
     CHECK(least("sun_window_ratio") == 693);
     CHECK(least("frms") == 198);
     CHECK(least("window_ratio") == 39);
-    const std::string ten_seconds = shown_teeth_text(features, 195, 23.1);
+    RecordPlan record;
+    record.span = features.span;
+    record.mesh_frequency_Hz = 23.1;
+    record.length = RecordLength{"sensor", 10.0, {}};
+    const std::string ten_seconds = shown_teeth_text(record, features);
     CHECK(contains(ten_seconds, "of the ring (from 99 mesh periods, 4.29 s); too short for"));
     CHECK(contains(ten_seconds, "of the sun (from 693 mesh periods, 30 s)"));
 }
