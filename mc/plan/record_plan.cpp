@@ -272,9 +272,9 @@ std::string shown_teeth_text(const RecordPlan& plan, const FeaturePlan& features
     const auto central = [&](Member gear) {
         return signals::fewest_turns(features.teeth[gear], plan.span.carrier_meshes).meshes();
     };
-    add("single teeth of the planets", kLeastRecordTurns * plan.span.planet_teeth);
-    add("of the ring", central(Member::ring));
-    add("of the sun", central(Member::sun));
+    add("planet teeth", kLeastRecordTurns * plan.span.planet_teeth);
+    add("ring teeth", central(Member::ring));
+    add("sun teeth", central(Member::sun));
     add("frms", 2 * plan.span.carrier_meshes);
     return fmt::format(
         "{}{}", fmt::join(shown, ", "),

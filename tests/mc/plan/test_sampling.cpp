@@ -14,6 +14,7 @@
 namespace gearpod::mc::test_sampling {
 
 using namespace tests;
+using tests::samples_of;
 
 Study study_with(const std::vector<std::string>& overrides) {
     return gearpod::test::valid_study(read_study_text(kExampleStudy, "study.toml", overrides));
@@ -101,19 +102,18 @@ TEST_CASE("Random values of each distribution follow its distribution function")
     const boost::math::normal normal;
     const auto phi = [&](double x) { return boost::math::cdf(normal, x); };
 
-    CHECK(kolmogorov_smirnov(drawn_samples("{distribution='uniform', low=-2, high=3}", kSamples),
+    CHECK(kolmogorov_smirnov(samples_of("{distribution='uniform', low=-2, high=3}", kSamples),
                              [](double x) { return (x + 2) / 5; }) < kKsLimit);
-    CHECK(kolmogorov_smirnov(drawn_samples("{distribution='normal', mean=5, sd=2}", kSamples),
+    CHECK(kolmogorov_smirnov(samples_of("{distribution='normal', mean=5, sd=2}", kSamples),
                              [&](double x) { return phi((x - 5) / 2); }) < kKsLimit);
     const boost::math::lognormal lognormal(std::log(3.0), std::sqrt(std::log(1 + 0.4 * 0.4)));
-    CHECK(
-        kolmogorov_smirnov(drawn_samples("{distribution='lognormal', median=3, cv=0.4}", kSamples),
-                           [&](double x) { return boost::math::cdf(lognormal, x); }) < kKsLimit);
+    CHECK(kolmogorov_smirnov(samples_of("{distribution='lognormal', median=3, cv=0.4}", kSamples),
+                             [&](double x) { return boost::math::cdf(lognormal, x); }) < kKsLimit);
     const auto triangular = [](double x) {
         return x <= 1 ? x * x / 4 : 1 - (4 - x) * (4 - x) / 12;
     };
     CHECK(kolmogorov_smirnov(
-              drawn_samples("{distribution='triangular', low=0, mode=1, high=4}", kSamples),
+              samples_of("{distribution='triangular', low=0, mode=1, high=4}", kSamples),
               triangular) < kKsLimit);
     // Truncation around the mean, in the upper tail, in the lower tail.
     const double bounds[][2] = {{-1, 0.5}, {4, 5}, {-9, -6}};
@@ -124,15 +124,14 @@ TEST_CASE("Random values of each distribution follow its distribution function")
         // Differences of small tails, not of values near one.
         const double sign = low >= 0 ? -1.0 : 1.0;
         const double below = phi(sign * low), above = phi(sign * high);
-        CHECK(
-            kolmogorov_smirnov(drawn_samples(text, kSamples), [&, a = below, b = above](double x) {
-                return (phi(sign * x) - a) / (b - a);
-            }) < kKsLimit);
+        CHECK(kolmogorov_smirnov(samples_of(text, kSamples), [&, a = below, b = above](double x) {
+                  return (phi(sign * x) - a) / (b - a);
+              }) < kKsLimit);
     }
 }
 
 TEST_CASE("Moments of the random values are those of the closed forms") {
-    const auto lognormal = drawn_samples("{distribution='lognormal', median=2, cv=0.5}", kSamples);
+    const auto lognormal = samples_of("{distribution='lognormal', median=2, cv=0.5}", kSamples);
     // Mean median sqrt(1 + cv^2), standard deviation cv times the mean; five standard errors.
     const double mean = 2 * std::sqrt(1.25), sd = 0.5 * mean, root = std::sqrt(1.0 * kSamples);
     CHECK(mean_of(lognormal) == Approx(mean).margin(5 * sd / root));
@@ -143,7 +142,7 @@ TEST_CASE("Moments of the random values are those of the closed forms") {
     CHECK(std::sqrt(squares / kSamples) == Approx(sd).epsilon(0.03));
 
     const auto triangular =
-        drawn_samples("{distribution='triangular', low=0, mode=1, high=4}", kSamples);
+        samples_of("{distribution='triangular', low=0, mode=1, high=4}", kSamples);
     CHECK(mean_of(triangular) == Approx(5.0 / 3).margin(5 * 0.85 / root));
 }
 
@@ -166,7 +165,7 @@ TEST_CASE("Truncated normals keep their bounds even far in the tails") {
                              "{distribution='truncated-normal', mean=0, sd=1, low=29, high=1e6}",
                              "{distribution='truncated-normal', mean=0, sd=1, low=-1e6, high=-29}",
                              "{distribution='truncated-normal', mean=1, sd=1e-3, low=0, high=2}"}) {
-        for (const double x : drawn_samples(text, 2000)) {
+        for (const double x : samples_of(text, 2000)) {
             CHECK(std::isfinite(x));
             CHECK(std::abs(x) < 30.01);
         }
@@ -180,7 +179,7 @@ TEST_CASE("Levels and grids alternate in the test group and are 0 in the thresho
         CHECK(sampler.draw({Group::test, i}).inputs.fault_size == Approx(depths_mm[i % 5] * 1e-3));
         CHECK(sampler.draw({Group::threshold, i}).inputs.fault_size == 0.0);
     }
-    const auto grid = drawn_samples("{distribution='grid', low=0, high=1, count=3}", 4);
+    const auto grid = samples_of("{distribution='grid', low=0, high=1, count=3}", 4);
     CHECK(grid == std::vector<double>{0.0, 0.5, 1.0, 0.0});
 }
 

@@ -207,8 +207,8 @@ TEST_CASE("Features of single teeth need a common multiple of their gear and the
     record.mesh_frequency_Hz = 23.1;
     record.length = RecordLength{"sensor", 10.0, {}};
     const std::string ten_seconds = shown_teeth_text(record, features);
-    CHECK(contains(ten_seconds, "of the ring (from 99 mesh periods, 4.29 s); too short for"));
-    CHECK(contains(ten_seconds, "of the sun (from 693 mesh periods, 30 s)"));
+    CHECK(contains(ten_seconds, "ring teeth (from 99 mesh periods, 4.29 s); too short for"));
+    CHECK(contains(ten_seconds, "sun teeth (from 693 mesh periods, 30 s)"));
 }
 
 TEST_CASE("Gearboxes that are computed together have the window of the first one") {
