@@ -33,7 +33,9 @@ int check_study(const StudyOptions& study) {
             print_problems(lives.problems_in(study.path));
             return kBadInput;
         }
-        warn_of_shortage(made.scene->ensemble(), printable(study.path));
+        if (!lives.requested) {
+            warn_of_shortage(made.scene->ensemble(), printable(study.path));
+        }
         fmt::print("{}: can be simulated by `{}`\n", printable(study.path),
                    lives.requested ? "lives" : "run");
         return kDone;
