@@ -81,7 +81,7 @@ void print_python_features(const std::vector<PythonFeature>& all) {
 }
 
 void print_cost(const GearboxPlan& gearbox, const SolvePlan& solve, const RecordPlan& record,
-                const EnsemblePlan& ensemble, const Numerics& numerics,
+                const FeaturePlan& features, const EnsemblePlan& ensemble, const Numerics& numerics,
                 const std::optional<NumericsChoice>& choice) {
     const lockstep::IntegrationPlan& plan = solve.integration();
     print_heading("cost");
@@ -127,9 +127,12 @@ void print_cost(const GearboxPlan& gearbox, const SolvePlan& solve, const Record
                                 solve.convergence.tolerance, numerics.convergence_tolerance));
     }
     print_entry("record", record_length_text(record));
+    if (const std::string shown = shown_teeth_text(record, features); !shown.empty()) {
+        print_entry("shown by a record", shown);
+    }
     print_entry("mesh periods integrated",
-                fmt::format("about {:.0f}; the signals span {}{}{}", solve.integrated_meshes,
-                            record.span.meshes(),
+                fmt::format("about {:.0f}{}; the signals span {}{}{}", solve.integrated_meshes,
+                            integrated_records_text(record, solve), record.span.meshes(),
                             std::holds_alternative<Superposed>(solve.strategy)
                                 ? fmt::format("; {:.0f} without the fault", solve.healthy_meshes)
                                 : "",
@@ -187,16 +190,21 @@ void print_omitted(const char* what, const DescribeOptions& options) {
 
 // Forecast where the budget is used up. `chosen`: false if the pilot run that chooses the solver
 // setting took too long.
-void print_fallback(const Planner& planner, bool chosen, const PeakMemory& memory) {
+void print_fallback(const Planner& planner, bool chosen, double setup_s, int ranks,
+                    const PeakMemory& memory) {
     try {
         const Numerics numerics = without_tolerance(planner.facts().numerics);
         const TilePlan tile = planner.tile(numerics);
         if (!chosen) {
             print_entry("solver setting", "the default, not the one that a pilot run would choose");
         }
-        print_step_forecast(tile, planner.ensemble(numerics), memory);
+        if (const StudyLives lives = planner.lives(numerics); lives.plan) {
+            print_lives_forecast(tile, *lives.plan, setup_s, ranks, false);
+        } else {
+            print_step_forecast(tile, planner.ensemble(numerics), memory);
+        }
     } catch (const SceneError& error) {
-        print_problems({{"", 0, error.key(), error.what(), ""}});
+        print_problems({{"", 0, error.key(), error.what(), error.remedy()}});
     }
 }
 
@@ -237,6 +245,7 @@ int describe_command(const DescribeOptions& options) {
         "gearbox, effects and cost, because a pilot run chooses the solver setting first";
     std::optional<Planner> chosen;  // with the chosen numerics
     PeakMemory memory{.setup_bytes = peak_memory_bytes()};
+    double setup_s = begun_s;
     double before_bytes = std::numeric_limits<double>::infinity();  // before the forecast
     try {
         const Deadline deadline(options.seconds * std::max(1, thread_count(EnsemblePlan(*study))));
@@ -245,7 +254,7 @@ int describe_command(const DescribeOptions& options) {
             print_problems(made.problems);
             return kBadInput;
         }
-        const double setup_s = seconds_since(start);
+        setup_s = begun_s + seconds_since(start);
         const Scene& scene = *made.scene;
         chosen = made.planner;
         memory.setup_bytes = peak_memory_bytes();
@@ -256,17 +265,25 @@ int describe_command(const DescribeOptions& options) {
         }
         print_life(scene.lives());
         missing = "cost";
-        print_cost(scene.gearbox(), scene.solve(), scene.record(), scene.ensemble(), numerics,
-                   made.choice);
+        print_cost(scene.gearbox(), scene.solve(), scene.record(), scene.features(),
+                   scene.ensemble(), numerics, made.choice);
         std::fflush(stdout);
         missing = "computing some gearboxes and their analysis for the forecast";
         before_bytes = peak_memory_bytes();
-        print_forecast(scene, *chosen, begun_s + setup_s, options.ranks);
+        if (scene.lives().plan) {
+            print_lives_forecast(scene.tile(), scene.life(), setup_s, options.ranks, true);
+        } else {
+            print_forecast(scene, *chosen, setup_s, options.ranks);
+        }
+    } catch (const SceneError& error) {  // the records of some gearbox are too short
+        print_problems({{options.study.path, 0, error.key(), error.what(), error.remedy()}});
+        return kBadInput;
     } catch (const machine::Cancelled&) {
         print_omitted(missing, options);
         const double now_bytes = peak_memory_bytes();
         memory.computed_bytes = now_bytes > before_bytes ? now_bytes : 0.0;
-        print_fallback(chosen.value_or(planner), chosen.has_value(), memory);
+        print_fallback(chosen.value_or(planner), chosen.has_value(), setup_s, options.ranks,
+                       memory);
         return kDone;
     }
     std::fflush(stdout);

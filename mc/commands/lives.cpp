@@ -155,9 +155,7 @@ std::optional<InterpolationChoice> prepare_lives(const RunOptions& run, StudySce
     const auto refuse = [&](const SceneError& error) {
         made.problems.push_back({run.study.path, 0, error.key(), error.what(), error.remedy()});
     };
-    for (const SceneError& error : made.scene->lives().problems) {
-        refuse(error);
-    }
+    made.problems = made.scene->lives().problems_in(run.study.path);
     if (made.problems.empty()) {
         try {
             return choose_interpolation(made.scene->tile(), made.scene->life());

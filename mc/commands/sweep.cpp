@@ -20,6 +20,8 @@
 #include "mc/library/run/run.hpp"
 #include "mc/library/run/run_preparation.hpp"
 #include "mc/lives/campaign.hpp"
+#include "mc/plan/planner.hpp"
+#include "mc/plan/scene_error.hpp"
 #include "mc/report/sweep/summaries.hpp"
 #include "mc/results/result_rows.hpp"
 
@@ -56,6 +58,16 @@ RunOptions run_of(const SweepOptions& options, const SweepPoint& point) {
     return run;
 }
 
+// Adds the reasons why `lives` refuses the study `file`.
+void add_lives_problems(const Planner& planner, const std::string& file, Problems& problems) {
+    try {
+        const StudyLives lives = planner.lives(without_tolerance(planner.facts().numerics));
+        std::ranges::move(lives.problems_in(file), std::back_inserter(problems));
+    } catch (const SceneError& error) {
+        problems.push_back({file, 0, error.key(), error.what(), error.remedy()});
+    }
+}
+
 // Problems of all points' studies, without duplicates.
 Problems problems_of(const SweepOptions& options, const std::vector<VariedKey>& keys,
                      const std::vector<SweepPoint>& points) {
@@ -64,10 +76,8 @@ Problems problems_of(const SweepOptions& options, const std::vector<VariedKey>& 
     for (const SweepPoint& point : points) {
         const RunOptions run = run_of(options, point);
         StudyReading reading = read_study(run.study.path, run.study.overrides);
-        if (options.lives && reading.study && !reading.study->life.interval_h) {
-            reading.problems.push_back({run.study.path, 0, "life.interval_h",
-                                        "missing; it is the time between two records of a gearbox",
-                                        "add section [life]"});
+        if (options.lives && reading.study) {
+            add_lives_problems(Planner(*reading.study), run.study.path, reading.problems);
         }
         for (Problem& problem : reading.problems) {
             for (const VariedKey& key : keys) {

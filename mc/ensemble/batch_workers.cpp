@@ -52,9 +52,9 @@ BatchRows BatchWorker::compute(std::span<const GearboxId> ids, std::size_t recor
 // Adds the rows of at most as many gearboxes as there are lanes.
 void BatchWorker::add_rows(std::span<const GearboxId> ids, std::size_t records, BatchRows& rows,
                            Seconds& seconds) {
-    GearboxTile computed =
-        run_gearboxes(task_.tile, ids, task_.tile.solve->settings.numerics.lanes,
-                      {.signal_meshes = features_.meshes(), .cache = &task_.cache});
+    GearboxTile computed = run_gearboxes(
+        task_.tile, ids, task_.tile.solve->settings.numerics.lanes,
+        {.signal_meshes = features_.meshes(), .cache = &task_.cache, .repeats = records});
     const auto start = WallClock::now();
     const double noise_before = features_.noise_s();
     std::vector<LaneSignals> signals = all_lane_signals(task_.tile, computed, features_.meshes());

@@ -21,6 +21,12 @@ std::string duration_text(double seconds) {
                       : fmt::format("{} h {:02} min", s / 3600, s / 60 % 60);
 }
 
+// Time that the items left will take. What follows them is not counted.
+std::string left_text(long left, double rate) {
+    return left == 0 ? "evaluation follows"
+                     : duration_text(std::max(1.0, static_cast<double>(left) / rate)) + " left";
+}
+
 }  // namespace
 
 Progress::Progress(long total, bool quiet, long done, Form form, const char* counted)
@@ -38,7 +44,8 @@ void Progress::advance(long count) {
     done_ += count;
     const auto now = std::chrono::steady_clock::now();
     const auto interval = terminal_ ? 200ms : 5000ms;
-    if (!quiet_ && (now - shown_ >= interval || (terminal_ && done_ == total_))) {
+    const bool ends = done_ == total_ && (terminal_ || shown_ != start_);
+    if (!quiet_ && (now - shown_ >= interval || ends)) {
         shown_ = now;
         show(now);
     }
@@ -53,9 +60,9 @@ void Progress::show(std::chrono::steady_clock::time_point now) {
     }
     const double share = static_cast<double>(done_) / static_cast<double>(total_);
     const std::string numbers =
-        fmt::format("{} of {} {}, {} per second, {} left", done_, total_, counted_,
+        fmt::format("{} of {} {}, {} per second, {}", done_, total_, counted_,
                     rate < 10.0 ? fmt::format("{:.2g}", rate) : fmt::format("{:.0f}", rate),
-                    duration_text(static_cast<double>(left) / rate));
+                    left_text(left, rate));
     if (terminal_) {
         constexpr int kWidth = 20;
         const int filled = static_cast<int>(share * kWidth);
@@ -68,14 +75,15 @@ void Progress::show(std::chrono::steady_clock::time_point now) {
 }
 
 void Progress::show_json(double elapsed, double rate, long left, bool finished) const {
-    const nlohmann::json line{
-        {"done", done_},
-        {"of", total_},
-        {"counted", counted_},
-        {"seconds", elapsed},
-        {"per_second", rate},
-        {"left_s", rate > 0.0 ? nlohmann::json(static_cast<double>(left) / rate) : nullptr},
-        {"finished", finished}};
+    const nlohmann::json line{{"done", done_},
+                              {"of", total_},
+                              {"counted", counted_},
+                              {"seconds", elapsed},
+                              {"per_second", rate},
+                              {"left_s", rate > 0.0 && (left > 0 || finished)
+                                             ? nlohmann::json(static_cast<double>(left) / rate)
+                                             : nullptr},
+                              {"finished", finished}};
     fmt::print(stderr, "{}\n", line.dump());
     std::fflush(stderr);
 }

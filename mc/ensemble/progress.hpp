@@ -1,7 +1,8 @@
 // Progress of a run on stderr: a bar on a terminal, plain lines with date and time elsewhere. For
 // programs there is JSON, one object per line, every five seconds and at the end:
 //   {"done": number, "of": total number, "counted": "gearboxes" or other items,
-//    "seconds": since the start, "per_second": number, "left_s": forecast or null,
+//    "seconds": since the start, "per_second": number, "left_s": forecast, or null if there is
+//    none, as while finished items are evaluated,
 //    "finished": true in the last line of complete work}
 #pragma once
 

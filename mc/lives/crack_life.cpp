@@ -1,5 +1,7 @@
 #include "mc/lives/crack_life.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <boost/random/normal_distribution.hpp>
 #include <cmath>
@@ -118,6 +120,24 @@ void CrackLife::grow(const DepthCurve& curve, const InstanceInputs& inputs,
     if (history.records.back().hours + plan_.campaign.interval_h >= end_h) {
         history.end_hours = end_h;
     }
+}
+
+std::string crack_records_text(std::span<const LifeHistory* const> histories) {
+    std::vector<std::size_t> counts;
+    for (const LifeHistory* history : histories) {
+        if (history->end_hours) {
+            counts.push_back(history->records.size() -
+                             std::min(history->records.size(), history->first_cracked));
+        }
+    }
+    if (counts.empty()) {
+        return "none fails";
+    }
+    std::ranges::sort(counts);
+    const std::size_t median = counts[counts.size() / 2];
+    return counts.front() == counts.back()
+               ? fmt::format("{}", median)
+               : fmt::format("{} ({} to {})", median, counts.front(), counts.back());
 }
 
 }  // namespace gearpod::mc

@@ -2,6 +2,8 @@
 #pragma once
 
 #include <optional>
+#include <span>
+#include <string>
 #include <vector>
 
 #include "mc/plan/life_plan.hpp"
@@ -22,6 +24,10 @@ struct LifeHistory {
     std::size_t first_cracked = 0;
     std::optional<double> end_hours;  // time of tooth failure; empty if the tooth survives
 };
+
+// Number of records that cracks have from their start to the failure of their teeth, "3 (2 to 4)":
+// median and range; "none fails" if no tooth does.
+std::string crack_records_text(std::span<const LifeHistory* const> histories);
 
 // Crack growth at the root of the faulty tooth by Paris' law or along a curve. The torque and speed
 // of a record act until the next record. The force is the static mesh force, shared evenly by the

@@ -24,7 +24,7 @@ void InterpolationErrors::take(const InterpolationErrors& other) {
 }
 
 LifeTiles::LifeTiles(const TilePlan& tile, LifePlan plan)
-    : tile_(tile),
+    : tile_(tile.of_span()),
       plan_(std::move(plan)),
       torques_(plan_.distributions.torque, plan_.torques),
       speeds_(plan_.distributions.speed, plan_.speeds),
@@ -99,6 +99,7 @@ class LifeTiles::Lane {
     }
 
     const InstanceInputs& inputs() const { return inputs_; }
+    const LifeHistory& history() const { return life_.history; }
     GearboxLife take() && { return std::move(life_); }
     void fail(Status status) {
         life_.status = status;
@@ -491,6 +492,27 @@ class LifeTiles::InterpolationCheck {
     const std::span<InterpolationErrors> errors_;
 };
 
+std::vector<bool> LifeTiles::integrated_depths(std::span<const LifeHistory* const> histories,
+                                               bool tested) const {
+    const CampaignPlan& campaign = plan_.campaign;
+    std::vector<bool> depths(static_cast<std::size_t>(campaign.depth_steps) + 1, false);
+    for (int step = 0; step < campaign.depth_steps; ++step) {
+        const auto lies_in_step = [&](const LifeRecord& record) {
+            return record.depth_m > campaign.depth_m(step) &&
+                   record.depth_m <= campaign.depth_m(step + 1);
+        };
+        const bool measured =
+            tested && (step == campaign.first_step || step == campaign.depth_steps - 1);
+        if (measured || std::ranges::any_of(histories, [&](const LifeHistory* history) {
+                return std::ranges::any_of(history->records, lies_in_step);
+            })) {
+            depths[static_cast<std::size_t>(step)] = true;
+            depths[static_cast<std::size_t>(step) + 1] = true;
+        }
+    }
+    return depths;
+}
+
 std::vector<GearboxLife> LifeTiles::run(std::span<const Realization> gearboxes, bool cracked,
                                         LifeCosts& costs,
                                         std::span<InterpolationErrors> errors) const {
@@ -527,10 +549,16 @@ std::vector<GearboxLife> LifeTiles::run(std::span<const Realization> gearboxes, 
     InterpolationCheck check(*this, gearboxes, solutions.front(), errors);
     check.between_loads(healthy);
     lap(check_s);
+    std::vector<const LifeHistory*> histories;
+    for (const Lane& lane : lanes) {
+        histories.push_back(&lane.history());
+    }
+    const std::vector<bool> depths = integrated_depths(histories, !errors.empty());
     SignalsByLoad low = healthy;
     for (int step = 0; step < (cracked ? plan_.campaign.depth_steps : 1); ++step) {
-        SignalsByLoad high =
-            cracked ? at_depth(plan_.campaign.depth_m(step + 1)) : SignalsByLoad(gearboxes.size());
+        SignalsByLoad high = cracked && depths[static_cast<std::size_t>(step) + 1]
+                                 ? at_depth(plan_.campaign.depth_m(step + 1))
+                                 : SignalsByLoad(gearboxes.size());
         lap(costs.gearboxes);
         if (cracked) {
             check.between_depths(step, healthy, low, high);

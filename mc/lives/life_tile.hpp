@@ -75,6 +75,11 @@ class LifeTiles {
                                      const Load& load) const;
 
     LifeHistory history(const GearboxId& id) const;  // of a gearbox with a crack
+    // For 0 and each depth (CampaignPlan::depth_m): true if cracked gearboxes with these histories
+    // are integrated there, because a record lies in an adjacent step. `tested`: also the depths
+    // at which the interpolation error is measured.
+    std::vector<bool> integrated_depths(std::span<const LifeHistory* const> histories,
+                                        bool tested) const;
     // Number of loads that are integrated, and number of loads between them at which interpolation
     // errors are measured.
     std::size_t load_count() const { return torques_.factors().size() * speeds_.factors().size(); }
@@ -94,7 +99,7 @@ class LifeTiles {
     std::vector<Load> loads() const;
     std::vector<double> load_weights(const Load& load) const;
 
-    const TilePlan& tile_;
+    const TilePlan tile_;  // its records are the span
     const LifePlan plan_;
     const LoadAxis torques_, speeds_;
     const CrackLife crack_;

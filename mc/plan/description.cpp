@@ -674,8 +674,7 @@ class Describer {
     }
 
     void add_omitted_excitation() {
-        add_if(!torque_fluctuates(study_), "torque fluctuation",
-               "no operation.torque_noise");
+        add_if(!torque_fluctuates(study_), "torque fluctuation", "no operation.torque_noise");
         add_if(!speed_fluctuates(study_), "speed fluctuation", "{}",
                study_.effects.quasi_static() ? "no effect without inertia"
                                              : "no operation.speed_fluctuation or speed_noise");

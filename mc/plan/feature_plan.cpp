@@ -13,7 +13,8 @@ constexpr SignalSet kFolded =
     SignalSet::of<features::TeTurn, features::SensorPower, features::ToothRms<Member::planet>,
                   features::TeParts, features::HealthyRecords>();
 
-signals::GearTurns central_turns(const signals::SpanLayout& span, int teeth) {
+// Turns of a central gear that fit into the span, or the smallest number that is enough.
+signals::GearTurns turns_of_gear(const signals::SpanLayout& span, int teeth) {
     const auto turns = signals::turns_of_span(teeth, span.carrier_meshes, span.meshes());
     return turns.turns > 0 ? turns : signals::fewest_turns(teeth, span.carrier_meshes);
 }
@@ -59,15 +60,34 @@ int FeaturePlan::meshes_needed(SignalSet with_needs) const {
     return meshes;
 }
 
+signals::GearTurns FeaturePlan::central_turns(Member gear, int meshes) const {
+    const signals::GearTurns& most = (gear == Member::sun ? sun : ring).value();
+    const auto fitting = signals::turns_of_span(most.teeth, span.carrier_meshes, meshes);
+    return {most.teeth, std::min(most.turns, fitting.turns)};
+}
+
 int FeaturePlan::least_meshes(const features::Feature& feature) const {
+    const features::SignalSet signals = feature.needs;
+    int least = span.planet_teeth;
     // Cyclic statistics of the samples tell the lines of the planet turn from their neighbours.
-    if (feature.needs.has<features::SensorSamples>() && feature.needs.has<features::SensorTurn>()) {
-        return kLeastRecordTurns * span.planet_teeth;
+    if (signals.has<features::SensorSamples>() && signals.has<features::SensorTurn>()) {
+        least = kLeastRecordTurns * span.planet_teeth;
     }
-    return feature.needs.overlaps(features::kCentralGears) ||
-                   feature.needs.has<features::FilteredSensor>()
-               ? meshes_needed(feature.needs)
-               : span.planet_teeth;
+    // A single carrier turn does not differ from its average.
+    if (signals.has<features::FilteredSensor>()) {
+        least = std::max(least, 2 * span.carrier_meshes);
+    }
+    const auto add = [&](Member gear) {
+        const auto turns = gearpod::signals::fewest_turns(teeth[gear], span.carrier_meshes);
+        least = std::max(least, turns.meshes());
+    };
+    if (signals.has<features::ToothRms<Member::sun>, features::ToothMoments<Member::sun>>()) {
+        add(Member::sun);
+    }
+    if (signals.has<features::ToothRms<Member::ring>, features::ToothMoments<Member::ring>>()) {
+        add(Member::ring);
+    }
+    return least;
 }
 
 FeaturePlan make_feature_plan(const Study& study, const signals::SpanLayout& span) {
@@ -84,8 +104,8 @@ FeaturePlan make_feature_plan(const Study& study, const signals::SpanLayout& spa
     }
     if (study.gearbox.kind == GearboxKind::planetary) {
         plan.planets = study.gearbox.planets;
-        plan.sun = central_turns(span, plan.teeth[Member::sun]);
-        plan.ring = central_turns(span, plan.teeth[Member::ring]);
+        plan.sun = turns_of_gear(span, plan.teeth[Member::sun]);
+        plan.ring = turns_of_gear(span, plan.teeth[Member::ring]);
     }
     plan.signal_meshes = plan.meshes_needed(plan.needs.all());
     plan.low_pass_Hz = study.sensor.low_pass_Hz;

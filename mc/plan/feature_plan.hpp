@@ -58,7 +58,10 @@ struct FeaturePlan {
     int average_recordings = 1;  // consecutive measured recordings averaged before features
     bool sensor = true;          // false if the gearboxes are quasi-static: only encoders measure
 
-    // Number of mesh periods of sensor signal that features with these needs use.
+    // Turns of the sun or the ring that features use in a signal of so many mesh periods: those of
+    // the span, or as many as fit; 0 if it is too short.
+    signals::GearTurns central_turns(Member gear, int meshes) const;
+    // Number of mesh periods of sensor signal that features with these needs use at most.
     int meshes_needed(features::SignalSet with_needs) const;
     // Smallest number of mesh periods of its signal that a feature needs.
     int least_meshes(const features::Feature& feature) const;

@@ -390,4 +390,12 @@ StudyLives::StudyLives(const Study& study, const FeaturePlan& features, const Ge
       plan(problems.empty() ? std::make_shared<const LifePlan>(make_life_plan(study, gearbox))
                             : nullptr) {}
 
+Problems StudyLives::problems_in(const std::string& file) const {
+    Problems all;
+    for (const SceneError& error : problems) {
+        all.push_back({file, 0, error.key(), error.what(), error.remedy()});
+    }
+    return all;
+}
+
 }  // namespace gearpod::mc

@@ -9,6 +9,7 @@
 #include <variant>
 #include <vector>
 
+#include "mc/files/input/problems.hpp"
 #include "mc/plan/ensemble_plan.hpp"
 #include "mc/plan/gearbox_plan.hpp"
 #include "mc/plan/record_plan.hpp"
@@ -165,10 +166,11 @@ struct LifePlan {
 struct StudyLives {
     StudyLives(const Study& study, const FeaturePlan& features, const GearboxPlan& gearbox);
 
-    bool requested;                        // the study has [life]
-    std::vector<std::string> ignored;      // given keys without effect: they concern single records
-    std::vector<SceneError> problems;      // all reasons
-    std::shared_ptr<const LifePlan> plan;  // null if there are any
+    bool requested;                    // the study has [life]
+    std::vector<std::string> ignored;  // given keys without effect: they concern single records
+    std::vector<SceneError> problems;  // all reasons
+    Problems problems_in(const std::string& file) const;  // the same, for messages
+    std::shared_ptr<const LifePlan> plan;                 // null if there are any
 };
 
 }  // namespace gearpod::mc

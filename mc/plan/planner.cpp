@@ -88,6 +88,10 @@ EnsemblePlan Planner::ensemble(const Numerics& numerics) const {
     return plans_->with(numerics)->ensemble();
 }
 
+StudyLives Planner::lives(const Numerics& numerics) const {
+    return plans_->with(numerics)->lives();
+}
+
 PlannedSteps Planner::steps(const Numerics& numerics) const {
     const std::shared_ptr<const Scene> plan = plans_->with(numerics);
     const SolvePlan& solve = plan->solve();

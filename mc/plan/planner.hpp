@@ -62,6 +62,7 @@ class Planner {
     Scene scene(const Numerics& numerics) const;
     TilePlan tile(const Numerics& numerics) const;
     EnsemblePlan ensemble(const Numerics& numerics) const;
+    StudyLives lives(const Numerics& numerics) const;
     PlannedSteps steps(const Numerics& numerics) const;
     // Throws SceneError if reading would reject the keys of [numerics] named in `keys`.
     void check(const Numerics& numerics, std::span<const std::string_view> keys) const;

@@ -32,15 +32,10 @@ bool same_baselines(const Study& study) {
 }
 
 // True for records of given length in gearboxes that need every mesh period integrated. Independent
-// of the numerics. Not for random or fluctuating speed, several records of each gearbox, elastic
-// shafts, or lives: these need more than one part of the signal.
+// of the numerics. Not for fluctuating speed and elastic shafts, which need all of the signal.
 bool shares_windows(const Study& study) {
-    const bool random_speed = std::ranges::any_of(study.random, [](const RandomInput& input) {
-        return input.quantity == RecordQuantity::speed;
-    });
     return record_length(study).given() && !reason_not_periodic(study).empty() &&
-           !study.effects.quasi_static() && !random_speed && !speed_fluctuates(study) &&
-           study.ensemble.threshold_records == 1 && !study.life.interval_h && !is_coupled(study);
+           !study.effects.quasi_static() && !speed_fluctuates(study) && !is_coupled(study);
 }
 
 double meshes_of_record(const RecordLength& length, const signals::SpanLayout& span,
@@ -50,22 +45,24 @@ double meshes_of_record(const RecordLength& length, const signals::SpanLayout& s
 }
 
 // Throws SceneError if features need longer records than these.
-void check_covered_features(const RecordLength& length, const FeaturePlan& features, int meshes) {
-    std::vector<std::string> names;
+void check_covered_features(const RecordLength& length, const FeaturePlan& features, int meshes,
+                            double mesh_frequency_Hz) {
+    std::vector<std::string> needs;
     int needed = 0;
     for (const features::Feature* feature : features.used) {
         const int least = features.least_meshes(*feature);
         if (least > meshes) {
-            names.push_back(fmt::format("\"{}\"", feature->name));
+            needs.push_back(fmt::format("\"{}\" needs {} mesh periods", feature->name, least));
             needed = std::max(needed, least);
         }
     }
-    if (!names.empty()) {
+    if (!needs.empty()) {
+        const int teeth = features.span.planet_teeth;
         throw SceneError("features.use",
-                         fmt::format("{} need{} {} mesh periods, but a record has {} (sensor.{})",
-                                     fmt::join(names, ", "), names.size() == 1 ? "s" : "", needed,
+                         fmt::format("{}, but a record has {} (sensor.{})", fmt::join(needs, ", "),
                                      meshes, length.key()),
-                         "remove them, or record longer");
+                         fmt::format("remove these features, or record {:.3g} s",
+                                     (needed + teeth - 1) / teeth * teeth / mesh_frequency_Hz));
     }
 }
 
@@ -88,7 +85,7 @@ int signal_meshes(const RecordLength& length, const FeaturePlan& features,
                          "shorten the record");
     }
     const int meshes = turns * span.planet_teeth;
-    check_covered_features(length, features, meshes);
+    check_covered_features(length, features, meshes, mesh_frequency_Hz);
     return span.meshes() + meshes;
 }
 
@@ -151,6 +148,12 @@ std::string record_conditions(const Study& study) {
         text += fmt::format(" There are {:g} h between two records.", *interval_h);
     }
     return text;
+}
+
+// Turns of the monitored gear in a record at nominal speed.
+int nominal_turns(const RecordPlan& plan) {
+    return plan.length ? whole_turns(*plan.length, plan.span, std::abs(plan.mesh_frequency_Hz))
+                       : plan.span.ring_teeth;
 }
 
 }  // namespace
@@ -230,12 +233,9 @@ RecordPlan make_record_plan(const Study& study, const GearboxPlan& gearbox,
         plan.length = length;
         plan.samples_needed = features.sensor ? SampleNeed::signal : SampleNeed::none;
     }
-    for (const SensorPlan& sensor : sensors) {
-        plan.samples_needed = std::max(plan.samples_needed, sensor.samples());
-    }
+    plan.samples_needed = std::max(plan.samples_needed, samples_of(sensors));
     // A response needs the whole signal.
-    const bool responds = std::ranges::any_of(
-        sensors, [](const SensorPlan& sensor) { return sensor.samples() == SampleNeed::signal; });
+    const bool responds = samples_of(sensors) == SampleNeed::signal;
     plan.same_window = shares_windows(study) && !responds ? kTileLanes : 1;
     plan.same_positions = is_coupled(study) ? kCoupledLanes : plan.same_window;
     plan.baselines = static_cast<std::size_t>(features.baselines);
@@ -250,12 +250,35 @@ RecordPlan make_record_plan(const Study& study, const GearboxPlan& gearbox,
 std::string record_length_text(const RecordPlan& plan) {
     const signals::SpanLayout& span = plan.span;
     const double mesh_Hz = std::abs(plan.mesh_frequency_Hz);
-    const int turns = plan.length ? whole_turns(*plan.length, span, mesh_Hz) : span.ring_teeth;
+    const int turns = nominal_turns(plan);
     return fmt::format(
         "{:.3g} s: {} turns of {} mesh periods; all teeth that can meet have met after {}{}",
         turns * span.planet_teeth / mesh_Hz, turns, span.planet_teeth,
         span.ring_teeth / std::gcd(span.planet_teeth, span.ring_teeth),
         plan.length ? ", from a random tooth position" + shared_text(plan.same_window) : "");
+}
+
+std::string shown_teeth_text(const RecordPlan& plan, const FeaturePlan& features) {
+    if (!plan.length || !features.sensor || !features.sun) {
+        return "";
+    }
+    const int meshes = nominal_turns(plan) * plan.span.planet_teeth;
+    std::vector<std::string> shown, hidden;
+    const auto add = [&](const char* what, int least) {
+        (least <= meshes ? shown : hidden)
+            .push_back(fmt::format("{} (from {} mesh periods, {:.3g} s)", what, least,
+                                   least / std::abs(plan.mesh_frequency_Hz)));
+    };
+    const auto central = [&](Member gear) {
+        return signals::fewest_turns(features.teeth[gear], plan.span.carrier_meshes).meshes();
+    };
+    add("planet teeth", kLeastRecordTurns * plan.span.planet_teeth);
+    add("ring teeth", central(Member::ring));
+    add("sun teeth", central(Member::sun));
+    add("frms", 2 * plan.span.carrier_meshes);
+    return fmt::format(
+        "{}{}", fmt::join(shown, ", "),
+        hidden.empty() ? "" : fmt::format("; too short for {}", fmt::join(hidden, ", ")));
 }
 
 std::string run_conditions(const Study& study) {

@@ -95,6 +95,9 @@ RecordPlan make_record_plan(const Study& study, const GearboxPlan& gearbox,
 
 // Length of a record at nominal speed, for example "10 s, 7 turns of 39 mesh periods".
 std::string record_length_text(const RecordPlan& plan);
+// Gears of a planetary stage whose single teeth records of given length show, and those that need
+// longer ones; otherwise empty.
+std::string shown_teeth_text(const RecordPlan& plan, const FeaturePlan& features);
 // Conditions for which the results of `run` hold: assumptions(), the length of a record, the part
 // of the faulty tooth's meetings that it contains, and the baseline.
 std::string run_conditions(const Study& study);

@@ -223,6 +223,18 @@ TilePlan TilePlan::recording_at_most(int meshes) const {
     return tile;
 }
 
+TilePlan TilePlan::of_span() const {
+    if (!record.length) {
+        return *this;
+    }
+    TilePlan tile = *this;
+    tile.record.length.reset();
+    tile.record.signal_meshes = features.signal_meshes;
+    tile.record.same_window = tile.record.same_positions = 1;
+    tile.record.samples_needed = samples_of(*sensors);
+    return tile.recording_at_most(features.signal_meshes);
+}
+
 namespace {
 
 // Longest run-in that is accepted, in recorded mesh periods.

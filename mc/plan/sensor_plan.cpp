@@ -296,6 +296,14 @@ SampleNeed SensorPlan::samples() const {
     return most;
 }
 
+SampleNeed samples_of(std::span<const SensorPlan> sensors) {
+    SampleNeed most = SampleNeed::none;
+    for (const SensorPlan& sensor : sensors) {
+        most = std::max(most, sensor.samples());
+    }
+    return most;
+}
+
 std::span<const Tone> SensorPlan::tones() const {
     if (const auto* path = find<PathStage>()) {
         return path->tones;

@@ -133,6 +133,9 @@ struct SensorPlan {
     Realization realization(const Realization& of_gearbox) const;
 };
 
+// The most samples that a stage of any sensor needs.
+SampleNeed samples_of(std::span<const SensorPlan> sensors);
+
 // Plans of the first sensor and of the additional ones.
 std::vector<SensorPlan> make_sensor_plans(const Study& study, const Drivetrain& drivetrain,
                                           int samples_per_mesh);

@@ -806,4 +806,16 @@ SolvePlan::SolvePlan(const SolveSettings& given, const GearboxPlan& gearbox,
     }
 }
 
+std::string integrated_records_text(const RecordPlan& record, const SolvePlan& solve) {
+    const auto* every_mesh = std::get_if<EveryMeshPeriod>(&solve.strategy);
+    return !record.length || every_mesh == nullptr ? ""
+           : every_mesh->records_only
+               ? fmt::format("; only the records, each after a run-in of {}", solve.run_in_meshes)
+           : record.same_window > 1
+               ? "; all of the signal, because the records alone would save less than half"
+               : "; all of the signal, because fluctuating speed, an elastic shaft or a response "
+                 "of "
+                 "the housing needs it";
+}
+
 }  // namespace gearpod::mc

@@ -131,4 +131,8 @@ struct SolvePlan {
     double mesh_record_bytes = 0.0, record_bytes = 0.0;
 };
 
+// Part of the signal that is integrated for records of given length, "; only the records, ...";
+// empty for others, and if mesh periods repeat.
+std::string integrated_records_text(const RecordPlan& record, const SolvePlan& solve);
+
 }  // namespace gearpod::mc

@@ -20,6 +20,8 @@ struct TilePlan {
     // The same plan with at most this many recorded mesh periods, which the signal repeats. Used to
     // measure the cost of time integration.
     TilePlan recording_at_most(int meshes) const;
+    // The same plan whose records are the span, whatever their length. Lives cut records from it.
+    TilePlan of_span() const;
 
     std::shared_ptr<const Sampler> sampler;
     std::shared_ptr<const GearboxPlan> gearbox;

@@ -133,6 +133,19 @@ std::string nothing_found_text(const LifeMonitor& monitor) {
     return "No detector finds more cracks than chance with at most the stated false alarms.";
 }
 
+std::string crack_records_statement(const Campaign& campaign, const CampaignPlan& plan) {
+    std::vector<const LifeHistory*> histories;
+    for (const GearboxLife& life : campaign.cracked) {
+        histories.push_back(&life.history);
+    }
+    return ended_lives(campaign) == 0
+               ? ""
+               : fmt::format(
+                     "A crack has {} records, one every {} h, from its start to the "
+                     "failure of its tooth (median and range).",
+                     crack_records_text(histories), number_text(plan.interval_h));
+}
+
 Section headline(const LifeMonitor& monitor, bool shows_withheld) {
     const CampaignPlan& plan = monitor.plan();
     const Campaign& campaign = monitor.campaign();
@@ -142,6 +155,7 @@ Section headline(const LifeMonitor& monitor, bool shows_withheld) {
                               : monitor.ranking().empty()
                                   ? nothing_found_text(monitor)
                                   : best_text(monitor, monitor.results()[monitor.ranking()[0]]));
+    section.state("records", crack_records_statement(campaign, plan));
     section.state("interpolation", interpolation_text(campaign, plan));
     section.state("failed",
                   campaign.failed > 0

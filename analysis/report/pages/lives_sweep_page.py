@@ -14,8 +14,8 @@ class SweptLives(Grid):
         self.pairs = [(one["feature"], one["detector"]) for one in data["order"]]
 
     def of(self, point, feature, detector):
-        return next((one for one in point["monitored"] if one["unranked"] is None
-                     and (one["feature"], one["detector"]) == (feature, detector)), None)
+        return next((one for one in point["monitored"]
+                     if (one["feature"], one["detector"]) == (feature, detector)), None)
 
 
 def _figure(swept, page, title, axis, how, value, limits=None):
@@ -66,8 +66,8 @@ def parts(data, page):
             f"{sure}; thresholds are set to "
             + " or ".join(sorted({number(p["false_alarms_per_1000_h"]) for p in swept.points})) + ".",
             lambda one: (one["false_alarms"]["per_1000_h"], *one["false_alarms"]["bounds"])))
-        body += page.section("records", "Records and interpolation errors",
-                             sweep_grid.table_of(swept, "records"))
+    if records := sweep_grid.table_of(swept, "records"):
+        body += page.section("records", "Records and interpolation errors", records)
     body += sweep_grid.files(swept, page)
     title = f"Sweep of lives: {data['title']}" if data["title"] else "Sweep of lives"
     return title, swept.text("headline"), sweep_grid.verdict(swept), body

@@ -190,7 +190,8 @@ def table_of(swept, key):
 def verdict(swept):
     """HTML of the answer: its sentence, whether the points differ, and the table of all points."""
     return (f'<p class="answer">{escape(swept.text("headline"))}</p>'
-            + "".join(blocks.paragraph(text) for text in swept.texts("differences"))
+            + "".join(blocks.paragraph(text) for key in ("differences", "withheld")
+                      for text in swept.texts(key))
             + swept.notes("shortage.") + table_of(swept, "points")
             + "".join(f'<p class="small">{escape(text)}</p>' for text in swept.texts("note.")))
 

@@ -25,7 +25,8 @@ std::size_t shared_records(const RecordPlan& record, std::span<const GearboxId> 
 
 std::vector<lockstep::SpanPart> parts_of_records(const RecordPlan& plan,
                                                  const FeaturePlan& features,
-                                                 std::span<const Realization> records) {
+                                                 std::span<const Realization> records,
+                                                 std::size_t repeats) {
     const bool compares = !features.needs.change.empty();
     // A motion that all baseline records have is cut at the window of each.
     const std::size_t copies = plan.computed_baselines == 1 ? plan.baselines : 1;
@@ -33,9 +34,11 @@ std::vector<lockstep::SpanPart> parts_of_records(const RecordPlan& plan,
     for (const Realization& record : records) {
         const int turns = plan.turns(record.inputs);
         const int meshes = std::min(turns * plan.span.planet_teeth, plan.recorded_meshes);
-        const auto add = [&](const GearboxId& id) {
-            const int first = record_window(plan, id, turns).first_mesh;
-            all.push_back({first, first + meshes});
+        const auto add = [&](GearboxId id) {
+            for (std::size_t i = 0; i < repeats; ++i, ++id.repeat) {
+                const int first = record_window(plan, id, turns).first_mesh;
+                all.push_back({first, first + meshes});
+            }
         };
         add(record.id);
         if (record.id.record == Record::test) {

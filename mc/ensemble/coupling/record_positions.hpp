@@ -31,8 +31,10 @@ std::size_t shared_records(const RecordPlan& record, std::span<const GearboxId> 
 
 // Mesh periods of the signals that these records need, each part after a run-in of its own. Those
 // of a baseline record include the window of the test record if features compare both there.
+// `repeats`: number of records of each gearbox, which differ in GearboxId::repeat.
 std::vector<lockstep::SpanPart> parts_of_records(const RecordPlan& plan,
                                                  const FeaturePlan& features,
-                                                 std::span<const Realization> records);
+                                                 std::span<const Realization> records,
+                                                 std::size_t repeats = 1);
 
 }  // namespace gearpod::mc

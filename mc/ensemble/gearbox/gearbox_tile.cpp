@@ -341,7 +341,8 @@ GearboxTile run_records(const TilePlan& plan, std::span<const GearboxId> ids, in
                                   lockstep::lanes_for(plan.solve->integration().precision, fewest));
     const auto* every_mesh = std::get_if<EveryMeshPeriod>(&plan.solve->strategy);
     if (every_mesh != nullptr && every_mesh->records_only) {
-        tile.parts = parts_of_records(plan.record, plan.features, tile.realizations);
+        tile.parts =
+            parts_of_records(plan.record, plan.features, tile.realizations, options.repeats);
     }
     run_tile(plan, options, tile);
     return tile;
@@ -374,7 +375,7 @@ std::vector<GearboxId> baselines_of(const RecordPlan& record, std::span<const Ge
 // Computes signals, status and times of the baseline records, at most as many at a time as there
 // are lanes. Their motion is freed before the test records are integrated.
 GearboxTile run_baselines(const TilePlan& plan, std::span<const GearboxId> ids, int fewest,
-                          const IntegrationCache* cache) {
+                          const TileOptions& options) {
     const int meshes = plan.record.sensor_meshes(plan.features.needs.all());
     const std::vector<GearboxId> earlier = baselines_of(plan.record, ids);
     const auto lanes =
@@ -394,8 +395,9 @@ GearboxTile run_baselines(const TilePlan& plan, std::span<const GearboxId> ids, 
     for (std::size_t first = 0; first < order.size();) {
         const auto left = std::span<const GearboxId>(ordered).subspan(first);
         const auto some = left.first(shared_records(plan.record, left, lanes));
-        GearboxTile tile =
-            run_records(plan, some, fewest, {.signal_meshes = meshes, .cache = cache});
+        GearboxTile tile = run_records(
+            plan, some, fewest,
+            {.signal_meshes = meshes, .cache = options.cache, .repeats = options.repeats});
         auto start = WallClock::now();
         std::vector<LaneSignals> signals = all_lane_signals(plan, tile, meshes);
         tile.signals_s += lap(start);
@@ -464,7 +466,7 @@ GearboxTile run_gearboxes(const TilePlan& plan, std::span<const GearboxId> ids, 
         records * ids.size() <= static_cast<std::size_t>(lanes)) {
         return run_side_by_side(plan, ids, lanes, options);
     }
-    GearboxTile earlier = run_baselines(plan, ids, fewest, options.cache);
+    GearboxTile earlier = run_baselines(plan, ids, fewest, options);
     GearboxTile tile = run_records(plan, ids, fewest, options);
     add_baselines(std::move(earlier), tile);
     return tile;
@@ -510,7 +512,7 @@ GearboxTile complete_tile(const TilePlan& plan, std::span<const GearboxId> ids,
     tile.integration = std::move(integration);
     add_signals(plan, tile);
     if (plan.record.baselines > 0) {
-        add_baselines(run_baselines(plan, ids, static_cast<int>(tile.realizations.size()), nullptr),
+        add_baselines(run_baselines(plan, ids, static_cast<int>(tile.realizations.size()), {}),
                       tile);
     }
     return tile;

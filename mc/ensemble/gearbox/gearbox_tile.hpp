@@ -120,6 +120,7 @@ struct TileOptions {
     int signal_meshes = -1;
     const IntegrationCache* cache = nullptr;  // earlier results, which are reused without `records`
     std::optional<std::size_t> faulty_stage = {};  // coupled stage that has its fault
+    std::size_t repeats = 1;  // number of records of each gearbox (GearboxId::repeat)
 };
 
 // Runs the gearboxes in `ids`, at most one per lane. The number of lanes is `fewest` (16, 8, 4 or

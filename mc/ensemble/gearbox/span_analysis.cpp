@@ -68,7 +68,7 @@ void SpanAnalysis::sensor(std::span<const double> samples, int planet_turns, int
     if (needs_.has<features::FilteredSensor>()) {
         const std::size_t path = static_cast<std::size_t>(record_.path_meshes()) * phases;
         input.get<features::FilteredSensor>().rms =
-            span.size() < path ? std::nan("") : signals::rms_without_average(span, path);
+            span.size() < 2 * path ? std::nan("") : signals::rms_without_average(span, path);
     }
     if (needs_.has<features::ToothMoments<Member::planet>>()) {
         planet_ = signals::tooth_statistics(span, planet, window_, planet_offset);
@@ -78,8 +78,8 @@ void SpanAnalysis::sensor(std::span<const double> samples, int planet_turns, int
     if (needs_.has<features::WhitenedToothRms>()) {
         whitened_teeth(span, planet, input);
     }
-    central_teeth<Member::sun>(samples, features_.sun, sun_, input);
-    central_teeth<Member::ring>(samples, features_.ring, ring_, input);
+    central_teeth<Member::sun>(samples, sun_, input);
+    central_teeth<Member::ring>(samples, ring_, input);
 }
 
 int SpanAnalysis::search_window(std::span<const double> span, const signals::GearTurns& gear,
@@ -104,7 +104,6 @@ void SpanAnalysis::whitened_teeth(std::span<const double> span, const signals::G
 // its trend.
 template <Member kGear>
 void SpanAnalysis::central_teeth(std::span<const double> samples,
-                                 const std::optional<signals::GearTurns>& gear_turns,
                                  signals::ToothStatistics& statistics,
                                  features::FeatureInput& input) {
     using Rms = features::ToothRms<kGear>;
@@ -112,10 +111,11 @@ void SpanAnalysis::central_teeth(std::span<const double> samples,
     if (!needs_.has<Rms, Moments>()) {
         return;
     }
-    const signals::GearTurns& gear = *gear_turns;
-    const int teeth = gear.teeth;
     const auto phases = static_cast<std::size_t>(record_.samples);
-    if (samples.size() < static_cast<std::size_t>(gear.meshes()) * phases) {
+    const signals::GearTurns gear =
+        features_.central_turns(kGear, static_cast<int>(samples.size() / phases));
+    const int teeth = gear.teeth;
+    if (gear.turns == 0) {
         const std::vector<double> none(static_cast<std::size_t>(teeth), std::nan(""));
         statistics = {none, none, none, none};
         input.get<Rms>() = {statistics.rms};

@@ -24,7 +24,7 @@ class SpanAnalysis {
 
     // `samples`: m/s^2, P per mesh period. Features of the planets' teeth and turns need
     // `planet_turns` turns: Z_r, or fewer in a short recording. Signals that need more mesh periods
-    // than there are (FeaturePlan::meshes_needed()) become NaN.
+    // than there are (FeaturePlan::least_meshes()) become NaN.
     // `planet_offset`: first sample of the best window of the planets' teeth. Fills the needed
     // parts of `input`, which refer to memory of this object.
     void sensor(std::span<const double> samples, int planet_turns, int planet_offset,
@@ -35,9 +35,8 @@ class SpanAnalysis {
   private:
     // Adds the statistics of the teeth of a central gear if they are needed.
     template <Member kGear>
-    void central_teeth(std::span<const double> samples,
-                       const std::optional<signals::GearTurns>& gear_turns,
-                       signals::ToothStatistics& statistics, features::FeatureInput& input);
+    void central_teeth(std::span<const double> samples, signals::ToothStatistics& statistics,
+                       features::FeatureInput& input);
 
     // RMS of every tooth of a gear in a signal of these turns, in the best window. Returns its
     // first sample.

@@ -34,8 +34,14 @@ TileSensorRecorder::TileSensorRecorder(const RecordPlan& plan, std::span<const S
       has_gain_(has_gain(realizations)),
       signal_meshes_(meshes > 0 ? std::max(meshes, plan.span.meshes()) : plan.signal_meshes),
       recorded_meshes_(meshes > 0 ? signal_meshes_ : plan.recorded_meshes),
-      record_meshes_(plan.length ? plan.turns(realizations.front().inputs) * plan.span.planet_teeth
-                                 : signal_meshes_) {
+      record_meshes_(signal_meshes_) {
+    if (plan.length) {
+        record_meshes_ = 0;
+        for (const Realization& realization : realizations) {
+            record_meshes_ =
+                std::max(record_meshes_, plan.turns(realization.inputs) * plan.span.planet_teeth);
+        }
+    }
     const signals::Tones none;
     for (const SensorPlan& sensor : sensors) {
         // Tones are added to the response of a sensor later.

@@ -46,7 +46,8 @@ class TileSensorRecorder {
   private:
     const std::span<const Realization> realizations_;
     const bool has_gain_;
-    const int signal_meshes_, recorded_meshes_, record_meshes_;
+    const int signal_meshes_, recorded_meshes_;
+    int record_meshes_;  // of the longest record
     std::span<const lockstep::SpanPart> parts_;
     SensorRecorders recorders_;
     machine::AlignedVector amplified_acceleration_;

@@ -217,61 +217,6 @@ void print_ranks(const RankForecast& forecast, int threads, int ranks) {
     print_entry("rank 0", leader_text(forecast));
 }
 
-// Prints the forecast of lives. Chooses the integrated torques and speeds as `lives` does if this
-// takes at most some seconds; otherwise states the range.
-void print_lives_forecast(const TilePlan& tile, const LifePlan& plan, double setup_s) {
-    constexpr double kMostPilots_s = 5.0;
-    // Torques and speeds that pilots examine.
-    const auto interpolated = [](const RecordDistribution& quantity) {
-        return quantity.varies() && quantity.distinct_factors().empty() ? 1 : 0;
-    };
-    const int axes =
-        interpolated(plan.distributions.torque) + interpolated(plan.distributions.speed);
-    const int threads = thread_count(plan.campaign.ensemble);
-    // One load and five more for each quantity that varies are integrated at least.
-    const int least_loads = axes == 0 ? 0 : 1 + 5 * axes;
-    LivesForecast all = forecast_lives(LifeTiles(tile, plan), threads, setup_s, least_loads);
-    std::string loads, most;
-    if (axes > 0 && all.pilots_s <= kMostPilots_s) {
-        const InterpolationChoice choice = choose_interpolation(tile, plan);
-        const LifeTiles tiles(tile, choice.plan);
-        all = forecast_lives(tiles, threads, setup_s, choice.loads);
-        loads = fmt::format("{}; pilots are off by {:.2g} of what a crack of {:g} mm changes",
-                            tiles.load_count(), choice.error, 1e3 * plan.campaign.smallest_m);
-    } else if (const LifePlan most_loads = with_most_loads(plan);
-               axes > 0 && most_loads.torques == plan.torques && most_loads.speeds == plan.speeds) {
-        loads = fmt::format("{}; pilots measure the error when the run starts",
-                            LifeTiles(tile, plan).load_count());
-    } else if (axes > 0) {
-        const LifeTiles tiles(tile, most_loads);
-        const LivesForecast upper =
-            forecast_lives(tiles, threads, setup_s, static_cast<int>(kMostLoads));
-        loads = fmt::format("at least {}, at most {}: chosen when the run starts",
-                            LifeTiles(tile, plan).load_count(), tiles.load_count());
-        most = ", at most " + seconds_text(upper.total_s());
-    }
-    print_heading("forecast of lives");
-    print_entry("based on",
-                "the time of one mesh period, the number of mesh periods that the damping "
-                "requires, and records of artificial signals");
-    print_entry("threads", fmt::format("{}, {}", all.threads,
-                                       machine::name(machine::active_instruction_set())));
-    print_entry("set-up", seconds_text(all.setup_s));
-    if (!loads.empty()) {
-        print_entry("integrated loads", loads);
-        print_entry("pilots", seconds_text(all.pilots_s) + " on one thread");
-    }
-    print_entry("gearboxes", fmt::format("{}, time integration {:.2g} s of processor time each",
-                                         all.gearboxes, all.gearbox_s));
-    print_entry("records", fmt::format("{}, superposition {:.2g} ms of processor time each",
-                                       all.records, 1e3 * all.record_s));
-    print_entry("processor time", seconds_text(all.processor_s));
-    print_entry("estimated time", seconds_text(all.total_s()) + most);
-    print_entry("estimated memory", bytes_text(all.memory_bytes));
-    print_entry("results file",
-                bytes_text(all.file_bytes) + "; the checkpoint is as large until the run ends");
-}
-
 }  // namespace
 
 void print_effect_changes(const Planner& planner, const signals::SpanLayout& span,
@@ -312,9 +257,10 @@ void print_life(const StudyLives& lives) {
     }
     print_heading("lives");
     if (!lives.problems.empty()) {
-        const SceneError& problem = lives.problems.front();
-        print_entry("no lives",
-                    fmt::format("{}: {}; {}", problem.key(), problem.what(), problem.remedy()));
+        for (const SceneError& problem : lives.problems) {
+            print_entry("refused by `lives`",
+                        fmt::format("{}: {}; {}", problem.key(), problem.what(), problem.remedy()));
+        }
         return;
     }
     const LifePlan& plan = *lives.plan;
@@ -358,6 +304,34 @@ LivesForecast forecast_lives(const LifeTiles& tiles, int threads, double setup_s
     LivesForecast all;
     all.threads = std::max(1, std::min(threads, static_cast<int>(plan.batches())));
     all.setup_s = setup_s;
+    // Mean number of records until the end of life, and of depths at which a tile is integrated,
+    // over the first gearboxes with a crack.
+    constexpr std::uint64_t kMostLives = 64;
+    const auto lives = std::clamp<std::uint64_t>(
+        static_cast<std::uint64_t>(campaign.ensemble.test_gearboxes), 1, kMostLives);
+    std::vector<LifeHistory> histories;
+    std::vector<const LifeHistory*> pointers;
+    double cracked_records = 0.0;
+    for (std::uint64_t i = 0; i < lives; ++i) {
+        histories.push_back(tiles.history({Group::test, i}));
+        cracked_records +=
+            static_cast<double>(histories.back().records.size()) / static_cast<double>(lives);
+    }
+    for (const LifeHistory& history : histories) {
+        pointers.push_back(&history);
+    }
+    all.crack_records = crack_records_text(pointers);
+    double depths[2]{};  // [1]: of tiles that measure the interpolation error
+    for (std::size_t first = 0; first < pointers.size(); first += tiles.lanes()) {
+        const auto tile = std::span<const LifeHistory* const>(pointers).subspan(
+            first, std::min(tiles.lanes(), pointers.size() - first));
+        for (const bool tested : {false, true}) {
+            const std::vector<bool> integrated = tiles.integrated_depths(tile, tested);
+            depths[tested ? 1 : 0] +=
+                static_cast<double>(std::count(integrated.begin() + 1, integrated.end(), true)) /
+                std::ceil(static_cast<double>(lives) / lanes);
+        }
+    }
     // Mesh periods of a tile without a fault, and the additional ones of each crack depth.
     const double healthy_meshes = solve.integrated_meshes,
                  depth_meshes = solve.perturbation_only ? solve.passage_meshes : healthy_meshes;
@@ -365,22 +339,13 @@ LivesForecast forecast_lives(const LifeTiles& tiles, int threads, double setup_s
     const auto tile_s = [&](bool cracked, bool tested) {
         double meshes = loads * healthy_meshes;
         if (cracked) {
-            meshes += loads * campaign.depth_steps * depth_meshes;
+            meshes += loads * depths[tested ? 1 : 0] * depth_meshes;
         }
         if (tested) {
             meshes += 2.0 * depth_meshes + static_cast<double>(tiles.gap_count()) * healthy_meshes;
         }
         return meshes * mesh_s;
     };
-    // Mean number of records until the end of life, over the first gearboxes with a crack.
-    constexpr std::uint64_t kMostLives = 64;
-    const auto lives = std::clamp<std::uint64_t>(
-        static_cast<std::uint64_t>(campaign.ensemble.test_gearboxes), 1, kMostLives);
-    double cracked_records = 0.0;
-    for (std::uint64_t i = 0; i < lives; ++i) {
-        cracked_records += static_cast<double>(tiles.history({Group::test, i}).records.size());
-    }
-    cracked_records /= static_cast<double>(lives);
     const RecordTimes trial = tiles.time_records();
     std::vector<double> busy_s(static_cast<std::size_t>(all.threads), 0.0);
     double integrating_s = 0.0, records_s = 0.0, record_count = 0.0;
@@ -415,6 +380,68 @@ LivesForecast forecast_lives(const LifeTiles& tiles, int threads, double setup_s
     all.memory_bytes = peak_memory_bytes() + all.threads * tile_bytes(solve, record, lanes, loads) +
                        all.file_bytes;
     return all;
+}
+
+void print_lives_forecast(const TilePlan& tile, const LifePlan& plan, double setup_s, int ranks,
+                          bool chooses) {
+    constexpr double kMostPilots_s = 5.0;
+    // Torques and speeds that pilots examine.
+    const auto interpolated = [](const RecordDistribution& quantity) {
+        return quantity.varies() && quantity.distinct_factors().empty() ? 1 : 0;
+    };
+    const int axes =
+        interpolated(plan.distributions.torque) + interpolated(plan.distributions.speed);
+    const int threads = thread_count(plan.campaign.ensemble);
+    // One load and five more for each quantity that varies are integrated at least.
+    const int least_loads = axes == 0 ? 0 : 1 + 5 * axes;
+    LivesForecast all = forecast_lives(LifeTiles(tile, plan), threads, setup_s, least_loads);
+    std::string loads, most;
+    if (chooses && axes > 0 && all.pilots_s <= kMostPilots_s) {
+        const InterpolationChoice choice = choose_interpolation(tile, plan);
+        const LifeTiles tiles(tile, choice.plan);
+        all = forecast_lives(tiles, threads, setup_s, choice.loads);
+        loads = fmt::format("{}; pilots are off by {:.2g} of what a crack of {:g} mm changes",
+                            tiles.load_count(), choice.error, 1e3 * plan.campaign.smallest_m);
+    } else if (const LifePlan most_loads = with_most_loads(plan);
+               axes > 0 && most_loads.torques == plan.torques && most_loads.speeds == plan.speeds) {
+        loads = fmt::format("{}; pilots measure the error when the run starts",
+                            LifeTiles(tile, plan).load_count());
+    } else if (axes > 0) {
+        const LifeTiles tiles(tile, most_loads);
+        const LivesForecast upper =
+            forecast_lives(tiles, threads, setup_s, static_cast<int>(kMostLoads));
+        loads = fmt::format("at least {}, at most {}: chosen when the run starts",
+                            LifeTiles(tile, plan).load_count(), tiles.load_count());
+        most = ", at most " + seconds_text(upper.total_s());
+    }
+    print_heading("forecast of lives");
+    print_entry("based on",
+                "the time of one mesh period, the number of mesh periods that the damping "
+                "requires, and records of artificial signals");
+    print_entry("threads", fmt::format("{}, {}", all.threads,
+                                       machine::name(machine::active_instruction_set())));
+    print_entry("set-up", seconds_text(all.setup_s));
+    if (!loads.empty()) {
+        print_entry("integrated loads", loads);
+        print_entry("pilots", seconds_text(all.pilots_s) + " on one thread");
+    }
+    print_entry("gearboxes", fmt::format("{}, time integration {:.2g} s of processor time each",
+                                         all.gearboxes, all.gearbox_s));
+    print_entry("records", fmt::format("{}, superposition {:.2g} ms of processor time each",
+                                       all.records, 1e3 * all.record_s));
+    print_entry("records of a crack",
+                all.crack_records + ", from its start to the failure of its tooth");
+    print_entry("processor time", seconds_text(all.processor_s));
+    print_entry("estimated time", seconds_text(all.total_s()) + most);
+    print_entry("estimated memory", bytes_text(all.memory_bytes));
+    print_entry("results file",
+                bytes_text(all.file_bytes) + "; the checkpoint is as large until the run ends");
+    if (ranks > 0) {
+        print_entry(fmt::format("with {} MPI ranks", ranks),
+                    seconds_text(
+                        forecast_lives(LifeTiles(tile, plan), threads * ranks, setup_s, least_loads)
+                            .total_s()));
+    }
 }
 
 double checkpoint_bytes(const BatchPlan& plan, const RowShape& shape) {
@@ -468,6 +495,16 @@ RankForecast forecast_ranks(const RunCost& calibration, const BatchPlan& plan,
     return forecast;
 }
 
+namespace {
+
+// Processor seconds of one thread to integrate the records of a tile.
+double tile_integration_s(const TilePlan& tile) {
+    return tile.solve->integrated_meshes *
+           mesh_period_s(tile.draw(), *tile.gearbox, *tile.solve, tile.record);
+}
+
+}  // namespace
+
 void print_step_forecast(const TilePlan& tile, const EnsemblePlan& ensemble,
                          const PeakMemory& memory) {
     const BatchPlan plan = ensemble.batches();
@@ -477,9 +514,8 @@ void print_step_forecast(const TilePlan& tile, const EnsemblePlan& ensemble,
     print_entry(
         "based on",
         fmt::format("the number of gearboxes and time steps and the time of one mesh period alone; "
-                    "{}signals, features and analysis take more. Raise --seconds to compute some "
-                    "gearboxes instead",
-                    tile.gearbox->stages.empty() ? "" : "neighbouring stages, "));
+                    "signals, features, analysis, and gearboxes that cannot be superposed take "
+                    "more. Raise --seconds to compute some gearboxes instead"));
     print_entry("threads", std::to_string(threads));
     if (tile.solve->settings.quasi_static) {
         print_entry("gearboxes", "not forecast: a quasi-static study integrates nothing");
@@ -488,14 +524,21 @@ void print_step_forecast(const TilePlan& tile, const EnsemblePlan& ensemble,
         const double tiles = std::ceil(static_cast<double>(plan.threshold_gearboxes()) / lanes) +
                              std::ceil(static_cast<double>(plan.test_rows()) / lanes);
         const double meshes = tile.solve->integrated_meshes;
+        // Baseline records are integrated like the test record, and each with its own neighbours.
+        const auto records = static_cast<double>(1 + tile.record.computed_baselines);
+        double record_s = tile_integration_s(tile);
+        for (const StagePlan& stage : tile.gearbox->stages) {
+            record_s += tile_integration_s(*stage.tile) * lanes /
+                        stage.tile->solve->settings.numerics.lanes;
+        }
         print_entry(
             "time integration",
             fmt::format(
-                "{}: {:.0f} tiles of {} gearboxes, about {:.0f} mesh periods of {} steps each",
-                seconds_text(tiles * meshes *
-                             mesh_period_s(tile.draw(), *tile.gearbox, *tile.solve, tile.record) /
-                             static_cast<double>(threads)),
-                tiles, ensemble.lanes, meshes, tile.solve->integration().grid.steps.size()));
+                "at least {}: {:.0f} tiles of {} gearboxes with {:.0f} record{} each, about "
+                "{:.0f} mesh periods of {} steps for each",
+                seconds_text(tiles * records * record_s / static_cast<double>(threads)), tiles,
+                ensemble.lanes, records, records == 1.0 ? "" : "s", meshes,
+                tile.solve->integration().grid.steps.size()));
     }
     const double least_bytes =
         std::max(memory.setup_bytes + least_memory_bytes(motion_bytes(tile), ensemble.shape, plan,
@@ -505,12 +548,6 @@ void print_step_forecast(const TilePlan& tile, const EnsemblePlan& ensemble,
 }
 
 void print_forecast(const Scene& scene, const Planner& planner, double setup_s, int ranks) {
-    if (ranks == 0 && scene.lives().problems.empty()) {
-        try {
-            return print_lives_forecast(scene.tile(), scene.life(), setup_s);
-        } catch (const SceneError&) {  // the records of some gearbox are too short
-        }
-    }
     const EnsemblePlan& ensemble = scene.ensemble();
     const BatchPlan plan = ensemble.batches();
     const int threads = thread_count(ensemble);

@@ -17,7 +17,8 @@ namespace gearpod::mc {
 void print_effect_changes(const Planner& planner, const signals::SpanLayout& span,
                           double mesh_frequency_Hz, double seconds);
 
-// Prints random inputs of a gearbox and of each of its records; nothing for a study without lives.
+// Prints random inputs of a gearbox and of each of its records, or all reasons why `lives` refuses
+// the study; nothing for a study without lives.
 void print_life(const StudyLives& lives);
 
 // Forecast of a study's `lives` for this machine and one process, before any gearbox is integrated.
@@ -29,6 +30,7 @@ struct LivesForecast {
     double gearbox_s = 0.0;  // processor time to integrate a gearbox, mean over all
     double record_s = 0.0;   // processor time of a record
     long gearboxes = 0, records = 0;
+    std::string crack_records;   // from the start of a crack to failure (crack_records_text)
     double pilots_s = 0.0;       // choice of the integrated torques and speeds, on one thread
     double processor_s = 0.0;    // of all threads, without the set-up
     double integration_s = 0.0;  // wall-clock time until the last thread finishes its last batch
@@ -68,6 +70,12 @@ struct RankForecast {
 RankForecast forecast_ranks(const RunCost& calibration, const BatchPlan& plan,
                             const RowShape& shape, const AnalysisTrial& analysis,
                             const RunForecast& alone, int ranks);
+
+// Prints the forecast of `lives`. `chooses`: chooses the integrated torques and speeds as `lives`
+// does if this takes at most some seconds; otherwise states the range. `ranks`: as for
+// print_forecast(). Throws SceneError if the records of a gearbox are too short.
+void print_lives_forecast(const TilePlan& tile, const LifePlan& plan, double setup_s, int ranks,
+                          bool chooses);
 
 // Computes some gearboxes and their analysis, for a few seconds at most. Prints the estimated time
 // and memory of a run in this process, and in `ranks` such processes unless that is 0.

@@ -149,25 +149,29 @@ std::vector<std::string> key_columns(const std::vector<VariedKey>& keys) {
     return columns;
 }
 
+std::string names_text(const std::vector<std::string>& points) {
+    constexpr std::size_t kMostNamed = 5;
+    const std::size_t named = std::min(points.size(), kMostNamed);
+    return fmt::format(
+        "{}{}",
+        fmt::join(points.begin(), points.begin() + static_cast<std::ptrdiff_t>(named), "; "),
+        named < points.size() ? fmt::format("; and {} more", points.size() - named) : "");
+}
+
 std::string within_scatter_text(const std::string& begin, const char* beyond, std::size_t count,
                                 const std::vector<std::string>& within) {
-    constexpr std::size_t kMostNamed = 5;
-    const std::size_t compared = count + within.size(), named = std::min(within.size(), kMostNamed);
+    const std::size_t compared = count + within.size();
     if (within.empty()) {
         return fmt::format("{} It is {} beyond scatter at {}.", begin, beyond,
                            count == 1 ? "the other point" : fmt::format("all {} others", count));
     }
-    const std::string names = fmt::format(
-        "{}{}",
-        fmt::join(within.begin(), within.begin() + static_cast<std::ptrdiff_t>(named), "; "),
-        named < within.size() ? fmt::format("; and {} more", within.size() - named) : "");
     return count == 0
                ? fmt::format(
                      "{} No point differs from it beyond scatter ({} compared), so the "
                      "points cannot be ranked.",
                      begin, compared)
                : fmt::format("{} It is {} beyond scatter at {} of {} others; within scatter: {}.",
-                             begin, beyond, count, compared, names);
+                             begin, beyond, count, compared, names_text(within));
 }
 
 analysis::Section files_section(const std::vector<VariedKey>& keys,

@@ -41,6 +41,9 @@ inline constexpr std::size_t kMostPoints = 10000;
 // name in a larger grid. Returns none beyond kMostPoints.
 std::vector<SweepPoint> grid_of(const std::vector<VariedKey>& keys);
 
+// Names of points, at most five: "gain = 1; gain = 2; and 3 more".
+std::string names_text(const std::vector<std::string>& points);
+
 // Returns the key without its section.
 std::string short_key(const std::string& key);
 // Labels of a key's values: "uniform, high=2, low=1" for { distribution = "uniform", low = 1, high

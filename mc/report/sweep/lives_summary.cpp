@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <nlohmann/json.hpp>
 #include <tuple>
 
@@ -58,8 +59,10 @@ LivesPoint summarise_life_point(const SweepPoint& point, const std::string& resu
     summary.monitored = monitor.results();
     summary.ranking = monitor.ranking();
     if (const std::string withheld = why_withheld(summary.plan, campaign); !withheld.empty()) {
+        summary.withheld = withheld;
         summary.ranking.clear();
         for (MonitoredFeature& one : summary.monitored) {
+            one.performance = {};
             one.unranked = withheld;
         }
     }
@@ -160,15 +163,24 @@ std::string best_text(const LivesSweep& sweep) {
     return fmt::format("{} by {}", analysis::feature_text(best.feature), best.detector);
 }
 
-// "; it has no rank at 1 of 3 points", "" for no points.
-std::string exempt_points_text(const char* exception, std::ptrdiff_t points,
-                               const LivesSweep& sweep) {
-    return points == 0
-               ? ""
-               : fmt::format("; {} at {} of {} points", exception, points, sweep.points.size());
+// "; it has no rank at 1 of 3 points (records = 1)", "" for no such points.
+std::string exempt_points_text(const char* exception, const LivesSweep& sweep,
+                               const std::function<bool(const LivesPoint&)>& excepted) {
+    std::vector<std::string> names;
+    for (const LivesPoint& point : sweep.points) {
+        if (excepted(point)) {
+            names.push_back(point_text(sweep.keys, point.point));
+        }
+    }
+    return names.empty() ? ""
+                         : fmt::format("; {} at {} of {} points ({})", exception, names.size(),
+                                       sweep.points.size(), names_text(names));
 }
 
 std::string lives_headline_text(const LivesSweep& sweep) {
+    if (std::ranges::none_of(sweep.points, &std::string::empty, &LivesPoint::withheld)) {
+        return "The results are withheld at every point.";
+    }
     if (sweep.order.empty()) {
         return "At no point does a detector find more cracks than chance with at most the stated "
                "false alarms.";
@@ -205,10 +217,16 @@ std::string lives_headline_text(const LivesSweep& sweep) {
                                 point_text(sweep.keys, most->point->point));
         }
     }
-    const auto unranked = [](const KnownShare& one) { return !one.result->unranked.empty(); };
-    text += exempt_points_text("it has no rank", std::ranges::count_if(known, unranked), sweep);
-    text += exempt_points_text("no share is known", std::ssize(sweep.points) - std::ssize(known),
-                               sweep);
+    const auto result_at = [&](const LivesPoint& point) {
+        const auto here = std::ranges::find(known, &point, &KnownShare::point);
+        return here == known.end() ? nullptr : here->result;
+    };
+    text += exempt_points_text("it has no rank", sweep, [&](const LivesPoint& point) {
+        return result_at(point) != nullptr && !result_at(point)->unranked.empty();
+    });
+    text += exempt_points_text("no share is known", sweep, [&](const LivesPoint& point) {
+        return result_at(point) == nullptr;
+    });
     return text + ".";
 }
 
@@ -264,12 +282,14 @@ void append(std::vector<std::string>& row, std::vector<std::string> cells) {
 }
 
 analysis::Table best_table(const LivesSweep& sweep) {
-    analysis::Table table = lives_table(sweep, "points", "By " + best_text(sweep), {});
+    const bool ranked = !sweep.order.empty();
+    analysis::Table table =
+        lives_table(sweep, "points", ranked ? "By " + best_text(sweep) : "Points", {});
     append(table.columns, life_result_columns(sweep.points.front().plan));
     append(table.columns, {"best at this point", "lives", "failed"});
     for (const LivesPoint& point : sweep.points) {
         std::vector<std::string> row = point.point.labels;
-        append(row, lives_row(point, sweep.order.front()));
+        append(row, lives_row(point, ranked ? sweep.order.front() : MonitoredFeature{}));
         append(row, {name_of(best_at(point)), std::to_string(point.cracked),
                      std::to_string(point.failed)});
         table.rows.push_back(std::move(row));
@@ -328,9 +348,12 @@ analysis::Report lives_sweep_report(const LivesSweep& sweep) {
     analysis::Section headline{"headline", "", {}};
     headline.state("headline", lives_headline_text(sweep));
     headline.state("differences", lives_differences_text(sweep));
-    if (!sweep.order.empty()) {
-        headline.add(best_table(sweep));
-    }
+    const std::string withheld = exempt_points_text(
+        "", sweep, [](const LivesPoint& point) { return !point.withheld.empty(); });
+    headline.state("withheld", withheld.empty() ? ""
+                                                : "Results are withheld" + withheld.substr(2) +
+                                                      "; `lives` there states why.");
+    headline.add(best_table(sweep));
     report.add(std::move(headline));
     report.add({"details", "", {all_features_table(sweep), records_table(sweep)}});
     report.add(files_section(sweep.keys, {sweep.points.begin(), sweep.points.end()}));
@@ -357,6 +380,7 @@ nlohmann::json lives_sweep_json(const LivesSweep& sweep) {
                           {"last_depth_m", point.plan.last_m},
                           {"record", printable(point.record)},
                           {"interpolation", analysis::fields_json(point.interpolation)},
+                          {"withheld", analysis::text_or_null(point.withheld)},
                           {"monitored", results},
                           {"ranking", point.ranking}});
     }

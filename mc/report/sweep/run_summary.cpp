@@ -1,4 +1,5 @@
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -248,6 +249,10 @@ std::string a90_text(const FeatureSummary* f, const analysis::SizeUnit& unit) {
                              size_text(*f, f->a90.lower, unit), size_text(*f, f->a90.upper, unit));
 }
 
+std::string area_text(const FeatureSummary* f) {
+    return f == nullptr ? "-" : analysis::area_text(f->auc.auc, f->auc.bounds);
+}
+
 std::string smallest_text(const PointSummary& point, const LevelSummary* level) {
     return level == nullptr  ? "-"
            : level->smallest ? analysis::with_unit(level->smallest->size, point.size()) +
@@ -290,46 +295,67 @@ std::string difference_text(const RunSweep& sweep, std::size_t p) {
                        bound(d->bounds.upper));
 }
 
-std::string headline_text(const RunSweep& sweep) {
-    const LevelSummary* shown = sweep.points.empty() ? nullptr : shown_level(sweep.points.front());
-    if (shown == nullptr) {
-        return "The study computes no feature, so there is nothing to detect a fault with.";
-    }
-    std::vector<const PointSummary*> found;
-    std::size_t unknown = 0;
+// Noise at which points are compared, "noise x 1"; "" if no point has any.
+std::string noise_text(const RunSweep& sweep) {
+    std::set<double> levels;
     for (const PointSummary& point : sweep.points) {
         if (const LevelSummary* level = shown_level(point)) {
-            if (level->smallest) {
-                found.push_back(&point);
-            }
-            unknown += !level->has_threshold;
+            levels.insert(level->noise_level);
         }
     }
-    const std::size_t all = sweep.points.size(), missing = all - found.size() - unknown;
-    const std::string begin = fmt::format(
-        "Smallest fault found with 90 % probability at {} confidence, noise x {}: ",
-        percent_text(sweep.points.front().request.confidence), number_text(shown->noise_level));
-    if (found.empty()) {
-        return begin + (unknown == 0
-                            ? fmt::format("none in any of {}.", studies_text(all))
-                            : fmt::format("no threshold in {} of {}{}.", unknown, studies_text(all),
-                                          missing > 0 ? fmt::format(", none in {}", missing) : ""));
+    return levels.empty()       ? ""
+           : levels.size() == 1 ? "noise x " + number_text(*levels.begin())
+                                : "each point at its own noise level";
+}
+
+std::string headline_text(const RunSweep& sweep) {
+    std::vector<const PointSummary*> found;
+    std::vector<std::string> none, unknown, featureless;
+    for (const PointSummary& point : sweep.points) {
+        const LevelSummary* level = shown_level(point);
+        if (level != nullptr && level->smallest) {
+            found.push_back(&point);
+        } else {
+            (level == nullptr       ? featureless
+             : level->has_threshold ? none
+                                    : unknown)
+                .push_back(point_text(sweep.keys, point.point));
+        }
     }
-    const auto [least, most] = std::ranges::minmax_element(
-        found, {}, [](const PointSummary* point) { return shown_level(*point)->smallest->size; });
+    const std::size_t all = sweep.points.size();
+    if (featureless.size() == all) {
+        return "The study computes no feature, so there is nothing to detect a fault with.";
+    }
+    std::vector<std::string> parts;
     const auto at = [&](const PointSummary& point) {
         return fmt::format("{} by {} at {}",
                            analysis::with_unit(shown_level(point)->smallest->size, point.size()),
                            feature_text(shown_level(point)->smallest->feature),
                            point_text(sweep.keys, point.point));
     };
-    std::string text = begin + at(**least);
-    if (shown_level(**most)->smallest->size > shown_level(**least)->smallest->size) {
-        text += "; largest " + at(**most);
+    if (!found.empty()) {
+        const auto [least, most] = std::ranges::minmax_element(
+            found, {},
+            [](const PointSummary* point) { return shown_level(*point)->smallest->size; });
+        parts.push_back(at(**least));
+        if (shown_level(**most)->smallest->size > shown_level(**least)->smallest->size) {
+            parts.push_back("largest " + at(**most));
+        }
     }
-    text += missing > 0 ? fmt::format("; none in {} of {}", missing, all) : "";
-    text += unknown > 0 ? fmt::format("; no threshold in {} of {}", unknown, all) : "";
-    return text + ".";
+    const auto add = [&](const char* what, const std::vector<std::string>& points) {
+        if (points.size() == all) {
+            parts.push_back(fmt::format("{} in {} of {}", what, all, studies_text(all)));
+        } else if (!points.empty()) {
+            parts.push_back(fmt::format("{} in {} of {} ({})", what, points.size(),
+                                        studies_text(all), names_text(points)));
+        }
+    };
+    add("none", none);
+    add("no threshold", unknown);
+    add("no feature", featureless);
+    return fmt::format("Smallest fault found with 90 % probability at {} confidence, {}: {}.",
+                       percent_text(sweep.points.front().request.confidence), noise_text(sweep),
+                       fmt::join(parts, "; "));
 }
 
 // Sentence on the differences of a90 from the smallest one that exceed the scatter.
@@ -339,14 +365,18 @@ std::string differences_text(const RunSweep& sweep) {
         return "";
     }
     const PointSummary& best = sweep.points[*all.best];
-    std::vector<std::string> within;
+    std::vector<std::string> within, others;
     std::size_t larger = 0;
     for (std::size_t p = 0; p < all.a90.size(); ++p) {
-        const analysis::NumberDifference* d = p == *all.best ? nullptr : all.known(p);
+        const analysis::NumberDifference* d = all.known(p);
+        if (p == *all.best) {
+            continue;
+        }
         if (d != nullptr && d->bounds.lower > 0.0) {
             ++larger;
-        } else if (d != nullptr) {
-            within.push_back(point_text(sweep.keys, sweep.points[p].point));
+        } else {
+            (d != nullptr ? within : others)
+                .push_back(point_text(sweep.keys, sweep.points[p].point));
         }
     }
     const FeatureSummary* feature = find_feature(best, all.feature, shown_level(best)->noise_level);
@@ -358,6 +388,7 @@ std::string differences_text(const RunSweep& sweep) {
         return begin + " No other point has an a90 to compare.";
     }
     return within_scatter_text(begin, "larger", larger, within) +
+           (others.empty() ? "" : fmt::format(" Not compared: {}.", names_text(others))) +
            fmt::format(
                " Differences: percentiles of {} bootstrap samples of {}, at {} for all pairs "
                "of compared points together (Bonferroni).",
@@ -369,14 +400,13 @@ std::string differences_text(const RunSweep& sweep) {
 
 Table points_table(const RunSweep& sweep, const std::set<double>& levels) {
     const PointSummary& first = sweep.points.front();
-    const LevelSummary* shown = shown_level(first);
     Table table{"points", "Smallest fault found, by noise", key_columns(sweep.keys), {}};
     table.labels = sweep.keys.size();
     for (const double level : levels) {
         table.columns.push_back("noise x " + number_text(level));
     }
-    const std::string at = shown == nullptr ? "" : ", noise x " + number_text(shown->noise_level);
-    table.columns.push_back("by" + at);
+    const std::string noise = noise_text(sweep);
+    table.columns.push_back(noise.empty() ? "by" : "by, " + noise);
     table.columns.push_back(analysis::in_unit("its a90", first.size()));
     table.columns.emplace_back("its area under the ROC");
     if (sweep.differences.best) {
@@ -395,8 +425,7 @@ Table points_table(const RunSweep& sweep, const std::set<double>& levels) {
             best.empty() ? nullptr : find_feature(point, best, shown_level(point)->noise_level);
         row.push_back(best.empty() ? "-" : best);
         row.push_back(a90_text(feature, point.size()));
-        row.push_back(
-            feature == nullptr ? "-" : analysis::area_text(feature->auc.auc, feature->auc.bounds));
+        row.push_back(area_text(feature));
         if (sweep.differences.best) {
             row.push_back(difference_text(sweep, p));
         }
@@ -438,13 +467,11 @@ Section features_section(const RunSweep& sweep) {
     for (const PointSummary& point : sweep.points) {
         for (const std::string& name : sweep.order) {
             const LevelSummary* level = shown_level(point);
-            if (const auto* feature =
-                    level == nullptr ? nullptr : find_feature(point, name, level->noise_level)) {
-                std::vector<std::string> row = point.point.labels;
-                row.insert(row.end(), {name, a90_text(feature, point.size()),
-                                       analysis::area_text(feature->auc.auc, feature->auc.bounds)});
-                table.rows.push_back(std::move(row));
-            }
+            const FeatureSummary* feature =
+                level == nullptr ? nullptr : find_feature(point, name, level->noise_level);
+            std::vector<std::string> row = point.point.labels;
+            row.insert(row.end(), {name, a90_text(feature, point.size()), area_text(feature)});
+            table.rows.push_back(std::move(row));
         }
     }
     section.add(std::move(table));

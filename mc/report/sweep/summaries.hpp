@@ -91,6 +91,7 @@ struct LivesPoint : PointResults {
     InterpolationErrors interpolation;
     std::vector<MonitoredFeature> monitored;
     std::vector<std::size_t> ranking;  // result of LifeMonitor::ranking(); empty if withheld
+    std::string withheld;              // reason (why_withheld); "" if the results are given
 };
 
 struct LivesSweep {

@@ -1,5 +1,6 @@
 // Checks gearpod check: several study files, problems of each, the exit code.
 #include "mc/library/run/run_options.hpp"
+#include "tests/mc/lives/life_example.hpp"
 #include "tests/mc/program.hpp"
 
 namespace gearpod::test_check {
@@ -29,6 +30,22 @@ TEST_CASE("check of sound studies ends with code 0, unless a changed key is wron
     INFO(changed.output);
     CHECK(changed.code == mc::kBadInput);
     CHECK(changed.mentions("sensor.noise_m_s2"));
+}
+
+TEST_CASE("check and describe take a study with [life] as one for lives") {
+    const std::string life = study("planet-crack-ideal.toml") + life_arguments();
+    const std::string refused =
+        " --set life.record_s=10 --set 'features.use=[\"te_kurtosis\"]'"
+        " --set 'sensor.noise_levels=[1,2]'";
+    CHECK(require_success("check " + life).mentions("can be simulated by `lives`"));
+    const Outcome all = program("check " + life + refused);
+    INFO(all.output);
+    CHECK(all.code == mc::kBadInput);
+    CHECK(all.mentions("\"te_kurtosis\" averages the transmission error"));
+    CHECK(all.mentions("a life has one noise level"));
+    check_mentions(require_success("describe " + life + " --seconds 0.1"),
+                   {"forecast of lives", "records of a crack"});
+    CHECK(program("describe " + life + refused).mentions("refused by `lives`"));
 }
 
 }  // namespace gearpod::test_check

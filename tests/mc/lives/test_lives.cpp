@@ -165,6 +165,47 @@ TEST_CASE("Lives have the same bits for any lanes") {
     CHECK(eight.threshold_lives[0].values == one.threshold_lives[0].values);
 }
 
+TEST_CASE("Lives take the length of their records from [sensor] as from [life]") {
+    const std::vector<std::string> few{
+        "ensemble.instances=1", "ensemble.threshold_instances=1", "life.healthy_lives=1",
+        "features.use=[\"sensor_rms\",\"change_window_z\"]", "numerics.horizon=\"full\""};
+    const auto of = [&](const std::string& length) {
+        auto overrides = few;
+        overrides.push_back(length);
+        const mc::Scene scene(life_study(overrides));
+        const mc::LifeTiles tiles(scene.tile(), scene.life());
+        CHECK(tiles.tile().record.signal_meshes == 31 * 81);
+        CHECK(tiles.tile().solve->perturbation_only);
+        return mc::run_campaign(tiles);
+    };
+    CHECK(of("sensor.record_s=10").cracked[0].values == of("life.record_s=10").cracked[0].values);
+}
+
+TEST_CASE("Gearboxes are integrated only at depths next to one of their records") {
+    const mc::Scene scene(life_study());  // four steps from 0 to 4 mm
+    const mc::LifeTiles tiles(scene.tile(), scene.life());
+    mc::LifeHistory none, few;
+    none.records = {{0.0, 0.0}};
+    few.records = {{0.0, 0.0}, {5.0, 1e-3}, {10.0, 3.5e-3}};
+    const std::vector<const mc::LifeHistory*> one{&none}, both{&none, &few};
+    const auto depths = [&](const auto& histories, bool tested) {
+        return tiles.integrated_depths(histories, tested);
+    };
+    CHECK(depths(one, false) == std::vector<bool>(5, false));
+    CHECK(depths(both, false) == std::vector{true, true, false, true, true});
+    // The interpolation error is measured in the step where cracks begin, from 1 to 2 mm, and in
+    // the last one.
+    CHECK(depths(one, true) == std::vector{false, true, true, true, true});
+    few.first_cracked = 1;
+    few.end_hours = 12.0;
+    CHECK(mc::crack_records_text(one) == "none fails");
+    CHECK(mc::crack_records_text(both) == "2");
+    mc::LifeHistory long_life = few;
+    long_life.records.resize(9);
+    CHECK(mc::crack_records_text(std::vector<const mc::LifeHistory*>{&few, &long_life, &none}) ==
+          "8 (2 to 8)");
+}
+
 // JSON results without run times.
 nlohmann::json results_of(const Outcome& outcome) {
     auto json = json_of(outcome);

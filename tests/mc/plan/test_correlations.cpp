@@ -8,6 +8,7 @@
 namespace gearpod::mc::test_correlations {
 
 using namespace tests;
+using tests::samples_of;
 
 constexpr double kRank = 0.6;
 

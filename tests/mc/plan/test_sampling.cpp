@@ -14,6 +14,7 @@
 namespace gearpod::mc::test_sampling {
 
 using namespace tests;
+using tests::samples_of;
 
 Study study_with(const std::vector<std::string>& overrides) {
     return gearpod::test::valid_study(read_study_text(kExampleStudy, "study.toml", overrides));

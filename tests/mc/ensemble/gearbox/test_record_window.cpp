@@ -1,5 +1,7 @@
 // Checks records of given length against whole spans, a record cut here from simulated samples, and
 // the probability of their tooth positions.
+#include <fmt/format.h>
+
 #include "mc/ensemble/gearbox/simulation.hpp"
 #include "mc/ensemble/gearbox/solution_choice.hpp"
 #include "tests/mc/ensemble/gearbox/computed.hpp"
@@ -110,19 +112,107 @@ Study real_teeth(std::vector<std::string> overrides) {
     return test::shipped_study("planet-crack.toml", overrides);
 }
 
-TEST_CASE("Records that are integrated alone are those of the whole signal") {
-    // Gearbox 16 is the first of its group, whose window is its own.
-    const GearboxId id{Group::test, 16};
-    const Computed alone(real_teeth({}), {id});
-    REQUIRE(std::get<EveryMeshPeriod>(alone.scene().solve().strategy).records_only);
-    const Computed whole(real_teeth({"ensemble.threshold_records=2"}), {id});
-    REQUIRE(!std::get<EveryMeshPeriod>(whole.scene().solve().strategy).records_only);
-    REQUIRE(alone.window().first_mesh == whole.window().first_mesh);
-    for (const std::size_t feature : {0, 1, 2, 3}) {
-        INFO(feature);
-        CHECK(alone.value(feature) == Approx(whole.value(feature)).epsilon(1e-4));
+// Features of the records of a gearbox, and the mesh periods that are integrated for them. `whole`:
+// all of the signal is integrated.
+struct Records {
+    std::vector<std::vector<double>> values;  // [repeat]
+    int meshes = 0;
+};
+Records records_of(const Study& study, const GearboxId& id, std::size_t repeats, bool whole) {
+    const Scene scene(study);
+    TilePlan plan = scene.tile();
+    REQUIRE(std::get<EveryMeshPeriod>(plan.solve->strategy).records_only);
+    if (whole) {
+        auto solve = std::make_shared<SolvePlan>(*plan.solve);
+        solve->strategy = EveryMeshPeriod{};
+        plan.solve = solve;
     }
-    CHECK(alone.meshes() < 0.25 * whole.meshes());
+    const HealthyReference healthy;
+    RealizationFeatures features(plan, &healthy);
+    const GearboxTile tile = run_gearboxes(plan, std::span(&id, 1), 1, {.repeats = repeats});
+    REQUIRE(tile.status[0] == Status::ok);
+    const LaneSignals signals = lane_signals(plan, tile, LaneId{0}, plan.record.signal_meshes);
+    Records records{{}, tile.meshes};
+    Realization record = tile.realizations[0];
+    for (record.id.repeat = 0; record.id.repeat < repeats; ++record.id.repeat) {
+        records.values.push_back(features.compute(signals, record));
+    }
+    return records;
+}
+
+TEST_CASE("Records that are integrated alone are those of the whole signal") {
+    // One record, several of a healthy gearbox with their baselines, and one at random speed.
+    const auto [id, repeats, key, share] = GENERATE(
+        std::tuple{GearboxId{Group::test, 16}, 1, "ensemble.threshold_records=1", 0.25},
+        std::tuple{GearboxId{Group::threshold, 3}, 3, "ensemble.threshold_records=3", 0.9},
+        std::tuple{GearboxId{Group::test, 5}, 1,
+                   "random.operation.carrier_speed_rpm={distribution=\"uniform\",low=8,high=9}",
+                   0.25});
+    INFO(key);
+    const auto count = static_cast<std::size_t>(repeats);
+    const Records alone = records_of(real_teeth({key}), id, count, false),
+                  whole = records_of(real_teeth({key}), id, count, true);
+    for (std::size_t repeat = 0; repeat < count; ++repeat) {
+        for (const std::size_t feature : {0, 1, 2, 3}) {
+            INFO(repeat << " " << feature);
+            CHECK(alone.values[repeat][feature] ==
+                  Approx(whole.values[repeat][feature]).epsilon(1e-4));
+        }
+    }
+    CHECK((count == 1 || alone.values[0] != alone.values[1]));
+    CHECK(alone.meshes < share * whole.meshes);
+}
+
+TEST_CASE("Short records show single teeth of ring and sun as the whole signal does") {
+    // 18/21/60 teeth: the ring needs 60 mesh periods, the sun 180, and all teeth have met after
+    // 1260.
+    const auto [turns, names] =
+        GENERATE(std::tuple{3, "\"ring_window_ratio\",\"ring_window_kurtosis\""},
+                 std::tuple{9, "\"ring_window_ratio\",\"sun_window_ratio\",\"sun_window_m8a\""});
+    const Study study =
+        test::shipped_study("planet-crack.toml",
+                            {"gearbox.planets=3", "gearbox.sun.teeth=18", "gearbox.planet.teeth=21",
+                             "gearbox.ring.teeth=60", "gearbox.sun.bore_mm=20",
+                             "gearbox.planet.bore_mm=30", "gearbox.ring.outer_mm=240",
+                             "operation.carrier_speed_rpm=2", "numerics.precision=\"double\"",
+                             "numerics.settle_tolerance=1e-11", "sensor.noise_levels=[0.001]",
+                             fmt::format("sensor.record_turns={}", turns * 21.0 / 60.0 + 0.01),
+                             fmt::format("features.use=[{}]", names)});
+    const GearboxId id{Group::test, 16};
+    const Records alone = records_of(study, id, 1, false), whole = records_of(study, id, 1, true);
+    for (std::size_t feature = 0; feature < alone.values[0].size(); ++feature) {
+        INFO(feature);
+        CHECK(alone.values[0][feature] == Approx(whole.values[0][feature]).epsilon(1e-9));
+    }
+    CHECK(alone.meshes < 0.6 * whole.meshes);
+    const FeaturePlan features = make_feature_plan(study, {21, 60, 60});
+    CHECK(features.central_turns(Member::ring, 63).turns == 1);
+    CHECK(features.central_turns(Member::sun, 63).turns == 0);
+    CHECK(features.central_turns(Member::sun, 189).turns == 10);
+    CHECK(features.central_turns(Member::sun, 1449).turns == 70);  // no more than those of the span
+}
+
+TEST_CASE("Features of single teeth need a common multiple of their gear and the carrier turn") {
+    const Study study = test::shipped_study("wind-turbine-helical.toml");  // 21/39/99 teeth
+    const FeaturePlan features = make_feature_plan(study, {39, 99, 99});
+    const auto least = [&](const char* name) {
+        return features.least_meshes(*find_feature(study, name));
+    };
+    CHECK(least("ring_window_ratio") == 99);
+    CHECK(least("sun_window_ratio") == 693);
+    CHECK(least("frms") == 198);
+    CHECK(least("window_ratio") == 39);
+    RecordPlan record;
+    record.span = features.span;
+    record.mesh_frequency_Hz = 23.1;
+    record.length = RecordLength{"sensor", 10.0, {}};
+    const std::string ten_seconds = shown_teeth_text(record, features);
+    CHECK(contains(ten_seconds, "ring teeth (from 99 mesh periods, 4.29 s); too short for"));
+    CHECK(contains(ten_seconds, "sun teeth (from 693 mesh periods, 30 s)"));
+}
+
+TEST_CASE("Gearboxes that are computed together have the window of the first one") {
+    const Computed alone(real_teeth({}), {{Group::test, 16}});
     // Others have the window of the first one, whatever tile computes them.
     const Computed other(real_teeth({}), {{Group::test, 19}});
     CHECK(other.window().first_mesh == alone.window().first_mesh);
@@ -161,17 +251,10 @@ TEST_CASE("Parts of a baseline record include the windows of the test record and
     CHECK(within({Group::threshold, 0}));
     CHECK(parts.size() <= 3);
     // Studies whose records need other parts of the signal integrate all of it.
-    for (const char* key :
-         {"ensemble.threshold_records=2", "operation.speed_noise=0.01",
-          "random.operation.carrier_speed_rpm={distribution=\"constant\",value=8}"}) {
-        INFO(key);
-        std::vector<std::string> keys{key};
-        if (keys[0].find("speed_noise") != std::string::npos) {
-            keys.emplace_back("operation.speed_noise_band_Hz=3");
-            keys.emplace_back("numerics.integrator=rk4");
-        }
-        CHECK(Scene(real_teeth(keys)).record().same_window == 1);
-    }
+    CHECK(Scene(real_teeth({"operation.speed_noise=0.01", "operation.speed_noise_band_Hz=3",
+                            "numerics.integrator=rk4"}))
+              .record()
+              .same_window == 1);
 }
 
 TEST_CASE("The length of records changes no other random input, and no results without it") {

@@ -181,6 +181,97 @@ TEST_CASE("The headline of a sweep of lives names the worst point and drops none
     }
 }
 
+// Rows of the table with that key in a section of a report.
+std::vector<std::vector<std::string>> table_rows(const analysis::Report& report,
+                                                 const std::string& key) {
+    for (const analysis::Section& section : report.sections) {
+        for (const auto& block : section.blocks) {
+            if (const auto* table = std::get_if<analysis::Table>(&block);
+                table != nullptr && table->key == key) {
+                return table->rows;
+            }
+        }
+    }
+    return {};
+}
+
+TEST_CASE("A sweep of lives without ranks, or with withheld results, lists every point") {
+    mc::LivesSweep sweep{"lives", {{"life.records", {}}}, {}, {}};
+    for (const char* label : {"10", "20", "30"}) {
+        sweep.points.emplace_back().point.labels = {label};
+    }
+    sweep.points[1].withheld = "No answer.";
+    const analysis::Report report = mc::lives_sweep_report(sweep);
+    CHECK(table_rows(report, "points").size() == 3);
+    CHECK(statement_text(report, "withheld") ==
+          "Results are withheld at 1 of 3 points (records = 20); `lives` there states why.");
+    CHECK(contains(statement_text(report, "headline"), "At no point"));
+    sweep.points[0].withheld = sweep.points[2].withheld = "No answer.";
+    CHECK(statement_text(mc::lives_sweep_report(sweep), "headline") ==
+          "The results are withheld at every point.");
+}
+
+// Points that find a fault, find none, have no threshold, or have no feature.
+TEST_CASE("The headline of a sweep of runs agrees with its table, and drops no point") {
+    std::mt19937_64 engine(8);
+    for (int made = 0; made < 300; ++made) {
+        mc::RunSweep sweep{"runs", {{"sensor.gain", {}}}, {}, {}, {}};
+        const std::size_t points = 1 + engine() % 4;
+        while (sweep.points.size() < points) {
+            mc::PointSummary& point = sweep.points.emplace_back();
+            point.point.labels = {std::to_string(sweep.points.size())};
+            const auto kind = engine() % 4;
+            if (kind < 3) {
+                mc::LevelSummary& level = point.levels.emplace_back();
+                level.noise_level = engine() % 4 == 0 ? 2.0 : 1.0;
+                level.has_threshold = kind != 2;
+                if (kind == 0) {
+                    level.smallest.emplace();
+                    level.smallest->feature = "te_rms";
+                    level.smallest->size = 1e-3 * static_cast<double>(1 + engine() % 3);
+                    level.smallest->from_curve = true;
+                }
+            }
+        }
+        const analysis::Report report = mc::sweep_report(sweep);
+        const auto rows = table_rows(report, "points");
+        REQUIRE(rows.size() == points);
+        const std::string text = statement_text(report, "headline");
+        INFO(text);
+        // Outcome of each point in its row: that at the noise level which it has.
+        std::map<std::string, std::vector<std::string>> outcomes;
+        for (const auto& row : rows) {
+            std::string outcome = "-";
+            for (std::size_t cell = 1; cell < row.size() && outcome == "-"; ++cell) {
+                outcome = contains(row[cell], "mm") || contains(row[cell], "no") ? row[cell] : "-";
+            }
+            outcomes[outcome].push_back("gain = " + row[0]);
+        }
+        if (outcomes["-"].size() == points) {
+            CHECK(contains(text, "computes no feature"));
+            continue;
+        }
+        for (const auto& [cell, words] :
+             {std::pair{"none", "none"}, {"no threshold", "no threshold"}, {"-", "no feature"}}) {
+            const std::vector<std::string>& names = outcomes[cell];
+            CHECK(contains(text, std::string(words) + " in ") == !names.empty());
+            for (const std::string& name : names) {
+                CHECK((names.size() == points || contains(text, name)));
+            }
+        }
+        std::vector<std::string> sizes;
+        for (const auto& [outcome, names] : outcomes) {
+            if (contains(outcome, "mm")) {
+                sizes.push_back(outcome);
+            }
+        }
+        if (!sizes.empty()) {  // ascending: one digit each
+            CHECK(contains(text, sizes.front() + " by "));
+            CHECK(contains(text, "largest " + sizes.back()) == (sizes.size() > 1));
+        }
+    }
+}
+
 TEST_CASE("Keys without effect on a sweep of runs, or of lives, are refused") {
     const Folder folder;
     check_refused(sweep(folder, "--vary life.interval_h=[1,2]"),
