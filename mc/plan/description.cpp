@@ -674,8 +674,7 @@ class Describer {
     }
 
     void add_omitted_excitation() {
-        add_if(!torque_fluctuates(study_), "torque fluctuation",
-               "no operation.torque_noise");
+        add_if(!torque_fluctuates(study_), "torque fluctuation", "no operation.torque_noise");
         add_if(!speed_fluctuates(study_), "speed fluctuation", "{}",
                study_.effects.quasi_static() ? "no effect without inertia"
                                              : "no operation.speed_fluctuation or speed_noise");
@@ -783,6 +782,10 @@ DescriptionSection false_alarm_description(const Study& study) {
         section.entries.push_back({"in time", target});
     }
     section.entries.push_back({"methods", analysis::threshold_methods_text(rate, confidence)});
+    if (const std::string few = analysis::size_shortage(plan.test_gearboxes, plan.request);
+        !few.empty()) {
+        section.entries.push_back({"sizes", few});
+    }
     if (const std::string shortage = plan.healthy_shortage(); !shortage.empty()) {
         section.entries.push_back({"", shortage});
         return section;

@@ -95,8 +95,7 @@ RecordPlan make_record_plan(const Study& study, const GearboxPlan& gearbox,
 
 // Length of a record at nominal speed, for example "10 s, 7 turns of 39 mesh periods".
 std::string record_length_text(const RecordPlan& plan);
-// Conditions for which the results of `run` hold: assumptions(), the length of a record, the part
-// of the faulty tooth's meetings that it contains, and the baseline.
-std::string run_conditions(const Study& study);
+// Length of a record, and the teeth that meet in it, in words; "" without gears.
+std::string record_conditions(const Study& study);
 
 }  // namespace gearpod::mc

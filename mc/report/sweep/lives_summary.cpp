@@ -281,7 +281,7 @@ analysis::Table all_features_table(const LivesSweep& sweep) {
     analysis::Table table = lives_table(sweep, "features", "Features, each with its best detector",
                                         {"feature", "detector"});
     append(table.columns, life_result_columns(sweep.points.front().plan));
-    table.detail = true;
+    table.shown = analysis::Shown::page;
     for (const LivesPoint& point : sweep.points) {
         for (const MonitoredFeature& one : sweep.order) {
             std::vector<std::string> row = point.point.labels;
@@ -297,7 +297,7 @@ analysis::Table records_table(const LivesSweep& sweep) {
     analysis::Table table =
         lives_table(sweep, "records", "Records and interpolation errors",
                     {"record", "error at the first depths", "at the last", "between loads"});
-    table.detail = true;
+    table.shown = analysis::Shown::page;
     const auto error = [](double share) {
         return std::isnan(share) ? std::string("-") : percent_text(share);
     };
@@ -326,10 +326,12 @@ LivesSweep summarise_lives(const std::string& title, const std::vector<VariedKey
 analysis::Report lives_sweep_report(const LivesSweep& sweep) {
     analysis::Report report;
     analysis::Section headline{"headline", "", {}};
-    headline.state("headline", lives_headline_text(sweep));
-    headline.state("differences", lives_differences_text(sweep));
+    headline.state("headline", lives_headline_text(sweep), analysis::Shown::screen);
+    headline.state("differences", lives_differences_text(sweep), analysis::Shown::screen);
     if (!sweep.order.empty()) {
-        headline.add(best_table(sweep));
+        analysis::Table table = best_table(sweep);
+        table.shown = analysis::Shown::screen;
+        headline.add(std::move(table));
     }
     report.add(std::move(headline));
     report.add({"details", "", {all_features_table(sweep), records_table(sweep)}});

@@ -213,6 +213,7 @@ using analysis::feature_text;
 using analysis::number_text;
 using analysis::percent_text;
 using analysis::Section;
+using analysis::Shown;
 using analysis::Table;
 
 std::string studies_text(std::size_t count) {
@@ -409,8 +410,8 @@ Table points_table(const RunSweep& sweep, const std::set<double>& levels) {
 
 Section headline(const RunSweep& sweep) {
     Section section{"headline", "", {}};
-    section.state("headline", headline_text(sweep));
-    section.state("differences", differences_text(sweep));
+    section.state("headline", headline_text(sweep), Shown::screen);
+    section.state("differences", differences_text(sweep), Shown::screen);
     std::set<std::string> shortages;
     std::set<double> levels;
     bool tested = false;
@@ -423,8 +424,10 @@ Section headline(const RunSweep& sweep) {
             tested |= level.smallest && !level.smallest->from_curve;
         }
     }
-    section.add(points_table(sweep, levels));
-    section.state("note.tested", tested ? analysis::kTestedAlone : "");
+    Table table = points_table(sweep, levels);
+    table.shown = Shown::screen;
+    section.add(std::move(table));
+    section.state("note.tested", tested ? analysis::kTestedAlone : "", Shown::screen);
     return section;
 }
 
@@ -432,7 +435,7 @@ Section headline(const RunSweep& sweep) {
 Section features_section(const RunSweep& sweep) {
     Section section{"features", "", {}};
     const PointSummary& first = sweep.points.front();
-    Table table{"features", "a90 and area under the ROC", key_columns(sweep.keys), {}, true};
+    Table table{"features", "a90 and area under the ROC", key_columns(sweep.keys), {}, Shown::page};
     table.columns.insert(table.columns.end(),
                          {"feature", analysis::in_unit("a90", first.size()), "area under the ROC"});
     for (const PointSummary& point : sweep.points) {
