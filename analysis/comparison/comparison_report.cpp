@@ -152,7 +152,8 @@ void state_facts(Section& section, const ComparedResults& results, std::size_t f
         }
     });
     section.state(key + "same",
-                  same.empty() ? "" : "The same in every gearbox: " + joined(same) + ".");
+                  same.empty() ? "" : "The same in every gearbox: " + joined(same) + ".",
+                  Shown::screen);
     for (std::size_t i = 0; i < file.differing.size(); ++i) {
         section.state(fmt::format("{}input.{}", key, i), "Input " + file.differing[i] + ".");
     }

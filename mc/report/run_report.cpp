@@ -134,7 +134,7 @@ std::string other_fault_of(const analysis::Findings& findings, const Results& fr
 // Computing times by part of the work.
 analysis::Section time_section(const Results& frame) {
     constexpr std::string_view kThreads = "_thread_s";
-    analysis::Section section{"time", "Computing time", {}};
+    analysis::Section section{"time", "", {}};
     analysis::Table table{"times", "", {"part", "seconds of all threads", "share"}, {}};
     double all = 0.0;
     std::map<std::string, double> values;

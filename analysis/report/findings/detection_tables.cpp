@@ -396,14 +396,28 @@ Table noise_table(const Findings& findings) {
     constexpr std::size_t kMostSizes = 9, kMostLevels = 4;
     const std::size_t best = findings.best(findings.reference);
     const bool noise = findings.subject == Subject::gearboxes, sized = has_sizes(findings.request);
+    const auto& cells = findings.detection[best].levels.front().cells;
+    std::vector<std::size_t> faulty;
+    for (std::size_t c = 0; c < cells.size(); ++c) {
+        if (cells[c].size.high > 0.0) {
+            faulty.push_back(c);
+        }
+    }
     Table table{"rates_by_noise",
-                fmt::format("Alarms of {} in % of the {}, with {} interval", findings.name(best),
-                            plural(findings.subject), findings.percent()),
+                "",
                 {sized ? in_unit("size", findings.request.size) : ""},
                 {},
                 Shown::screen};
+    const std::size_t sizes = faulty.size();
     const std::vector<std::size_t> levels =
         spread(findings.levels(), kMostLevels, findings.reference);
+    table.title =
+        fmt::format("Alarms of {} in % of the {}, with {} interval{}{}", findings.name(best),
+                    plural(findings.subject), findings.percent(),
+                    sizes > kMostSizes ? fmt::format("; {} of {} sizes", kMostSizes, sizes) : "",
+                    findings.levels() > kMostLevels
+                        ? fmt::format("; {} of {} noise levels", kMostLevels, findings.levels())
+                        : "");
     std::vector<std::string> healthy{"healthy"};
     for (const std::size_t n : levels) {
         const LevelDetection& level = findings.detection[best].levels[n];
@@ -414,14 +428,7 @@ Table noise_table(const Findings& findings) {
                 : percent_rate_text(findings.request.false_alarm_rate, level.threshold_rate));
     }
     table.rows.push_back(std::move(healthy));
-    const auto& cells = findings.detection[best].levels.front().cells;
-    std::vector<std::size_t> faulty;
-    for (std::size_t c = 0; c < cells.size(); ++c) {
-        if (cells[c].size.high > 0.0) {
-            faulty.push_back(c);
-        }
-    }
-    for (const std::size_t i : spread(faulty.size(), kMostSizes, 0)) {
+    for (const std::size_t i : spread(sizes, kMostSizes, 0)) {
         const SizeGroup& size = cells[faulty[i]].size;
         std::vector<std::string> row{sized ? size_text(size, findings.request.size) : "faulty"};
         for (const std::size_t n : levels) {

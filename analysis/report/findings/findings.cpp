@@ -87,7 +87,6 @@ const DetectionCell* largest_cell(const LevelDetection& level) {
 // Sizes from the largest down of which every fault was found.
 struct FoundSizes {
     long found = 0;
-    long fewest = 0;     // per size
     double from = kNan;  // smallest of them
 };
 
@@ -97,7 +96,6 @@ FoundSizes sizes_without_miss(const LevelDetection& level) {
         if (cell->size.high <= 0.0 || cell->tested == 0 || cell->detected < cell->tested) {
             break;
         }
-        sizes.fewest = sizes.found == 0 ? cell->tested : std::min(sizes.fewest, cell->tested);
         sizes.found += cell->tested;
         sizes.from = cell->size.low;
     }
@@ -358,10 +356,10 @@ std::string best_text(const Findings& findings, std::size_t f, std::size_t level
     const FoundSizes all = sizes_without_miss(detected);
     const long needed = tests_to_show(kReliablePd, findings.request.confidence);
     const bool sized = has_sizes(findings.request);
-    const std::string few =
-        fmt::format("{} per size cannot show 90 %: {} without a miss are needed",
-                    all.found > 0 ? all.fewest : most_per_size(detected), needed);
-    if (all.found > 0 && all.fewest < needed) {
+    const long most = most_per_size(detected);
+    const std::string few = fmt::format(
+        "up to {} per size cannot show 90 %: {} without a miss are needed", most, needed);
+    if (all.found > 0 && most < needed) {
         return sized
                    ? fmt::format("finds all {} {} of {} or more, but {}", all.found,
                                  faults(findings), with_unit(all.from, findings.request.size), few)
@@ -372,7 +370,7 @@ std::string best_text(const Findings& findings, std::size_t f, std::size_t level
     return fmt::format("finds {} % of {}{}", percent_rate_text(cell.pd, {cell.lower, cell.upper}),
                        sized ? "those of " + range_text(cell.size, findings.request.size)
                              : "the faulty " + plural(findings.subject),
-                       sized && most_per_size(detected) < needed ? "; " + few : "");
+                       sized && most < needed ? "; " + few : "");
 }
 
 }  // namespace
@@ -387,7 +385,19 @@ std::string headline_text(const Findings& findings, std::size_t level) {
     const std::size_t best = findings.best(level);
     const LevelDetection& detected = findings.detection[best].levels[level];
     const auto& found = findings.smallest[level];
-    if (found && (found->from_itself || sizes_without_miss(detected).found == 0)) {
+    const FoundSizes all = sizes_without_miss(detected);
+    if (found && !found->from_itself && sized && all.found > 0) {
+        return fmt::format(
+            "{} finds all {} {} of {} or more{}: up to {} per size, where {} without a miss show "
+            "{}. "
+            "{} of {} is shown by {}, which finds no more.",
+            capitalised(feature_text(found->feature)), all.found, faults(findings),
+            with_unit(all.from, findings.request.size), at_noise, most_per_size(detected),
+            tests_to_show(kReliablePd, findings.request.confidence), findings.probability(),
+            capitalised(findings.fault), size_and_share(findings, found->size),
+            source_text(findings, *found));
+    }
+    if (found) {
         return fmt::format("{} found with {} by {}{}{}.",
                            sized ? fmt::format("{} of {} is", capitalised(findings.fault),
                                                size_and_share(findings, found->size))
@@ -426,7 +436,8 @@ std::string assessable_step(const Findings& findings) {
         return "name features (features.use)";
     }
     if (findings.healthy == 0 && findings.faulty == 0) {
-        return "read why the gearboxes failed (section failures)";
+        return "continue the run with --resume, or read why its gearboxes failed (section "
+               "failures)";
     }
     if (findings.faulty < kFewestReported) {
         return fmt::format(
