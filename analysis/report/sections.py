@@ -138,9 +138,7 @@ def provenance(report, page):
     if "results" in report.data:
         rows.insert(0, ["results file", report.data["results"]])
     body = table("Where the numbers come from", ["entry", "value"], rows)
-    times = "".join(map(paragraph, report.texts("time"))) + report.table("times")
-    if times:
-        body += f"<details><summary>Computing time</summary>{times}</details>"
+    body += "".join(map(paragraph, report.texts("time")))
     if given.get("recordings"):
         body += "<details><summary>The recordings</summary>" + bullets(
             given["recordings"].splitlines()) + "</details>"

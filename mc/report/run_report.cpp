@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <functional>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <numbers>
@@ -131,44 +132,36 @@ std::string other_fault_of(const analysis::Findings& findings, const Results& fr
                              findings.name(findings.best(findings.reference)), findings.reference);
 }
 
-// Computing times by part of the work.
+// Computing time with the shares of its parts.
 analysis::Section time_section(const Results& frame) {
     constexpr std::string_view kThreads = "_thread_s";
-    analysis::Section section{"time", "", {}};
-    analysis::Table table{"times", "", {"part", "seconds of all threads", "share"}, {}};
+    constexpr double kLeastShown = 0.01;
     double all = 0.0;
     std::map<std::string, double> values;
+    std::vector<std::pair<double, std::string>> parts;
     for (const Timing& timing : frame.timing) {
-        all += timing.name.ends_with(kThreads) ? timing.seconds : 0.0;
         values[timing.name] = timing.seconds;
-    }
-    const double wall = values["ensemble_s"];
-    const auto share = [&](double seconds) {
-        return fmt::format("{:.0f} %", 100.0 * seconds / std::max(1e-9, all));
-    };
-    std::vector<std::pair<double, std::string>> largest;
-    for (const Timing& timing : frame.timing) {
         if (timing.name.ends_with(kThreads)) {
-            std::string part = timing.name.substr(0, timing.name.size() - kThreads.size());
-            table.rows.push_back(
-                {part, fmt::format("{:.2f}", timing.seconds), share(timing.seconds)});
-            largest.emplace_back(-timing.seconds, std::move(part));
+            all += timing.seconds;
+            parts.emplace_back(timing.seconds,
+                               timing.name.substr(0, timing.name.size() - kThreads.size()));
         }
     }
-    std::ranges::sort(largest);
-    std::vector<std::string> parts;
-    for (const auto& [seconds, part] : largest) {
-        if (parts.size() < 2 && all > 0.0) {
-            parts.push_back(fmt::format("{} {}", part, share(-seconds)));
+    std::ranges::sort(parts, std::greater());
+    std::vector<std::string> shares;
+    for (const auto& [seconds, part] : parts) {
+        if (seconds > kLeastShown * all) {
+            shares.push_back(fmt::format("{} {:.0f} %", part, 100.0 * seconds / all));
         }
     }
+    analysis::Section section{"time", "", {}};
     const std::string threads = frame.provenance_value("threads");
     section.state("time",
-                  wall > 0.0 ? fmt::format("Time: {:.1f} s with {} thread{} ({}).", wall, threads,
-                                           threads == "1" ? "" : "s", analysis::joined(parts))
-                             : "",
+                  all > 0.0
+                      ? fmt::format("Time: {:.1f} s with {} thread{} ({}).", values["ensemble_s"],
+                                    threads, threads == "1" ? "" : "s", analysis::joined(shares))
+                      : "",
                   analysis::Shown::screen);
-    section.add(std::move(table));
     const double superposed = values["superposed_records"],
                  full = values["superposition_fallback_records"];
     section.state("time.superposed",

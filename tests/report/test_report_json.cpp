@@ -27,31 +27,22 @@ Json case_json(const std::string& name) {
     return json_of(found->results);
 }
 
-// Lines of a text.
-std::vector<std::string> lines_of(const std::string& text) {
-    std::istringstream stream(text);
-    std::vector<std::string> lines;
-    for (std::string line; std::getline(stream, line);) {
-        lines.push_back(line);
-    }
-    return lines;
-}
-
 // Checks that the screen of a report fits, and that its first 12 lines have the answer, the
 // condition and the next step.
 void check_screen(const mc::Results& results, bool curves) {
     const mc::ColumnRows rows(results);
     const auto reliability = curves ? mc::reliability_of(results, rows, "", 2) : std::nullopt;
     const mc::RunFindings run = mc::findings_of_run(results, rows, reliability);
-    const auto lines = lines_of(screen_text(run.report, mc::screen_end("results.h5", false)));
+    std::istringstream screen(screen_text(run.report, mc::screen_end("results.h5", false)));
     std::string first;
-    for (std::size_t i = 0; i < lines.size(); ++i) {
-        INFO(lines[i]);
-        CHECK(lines[i].size() <= analysis::kScreenColumns);
-        first += i < 12 ? lines[i].substr(lines[i].starts_with("  ") ? 2 : 0) + " " : "";
+    std::size_t lines = 0;
+    for (std::string line; std::getline(screen, line); ++lines) {
+        INFO(line);
+        CHECK(line.size() <= analysis::kScreenColumns);
+        first += lines < 12 ? line.substr(line.starts_with("  ") ? 2 : 0) + " " : "";
     }
     INFO(first);
-    CHECK(lines.size() <= analysis::kScreenLines);
+    CHECK(lines <= analysis::kScreenLines);
     for (const char* key : {"headline", "assumptions", "next"}) {
         CHECK_THAT(first, Catch::Contains(statement_text(run.report, key)));
     }
