@@ -571,9 +571,9 @@ Section headline_section(const Findings& findings, const std::string& assumption
     section.state("figure", figure_text(findings), Shown::page);
     section.state("assumptions", assumptions, Shown::screen);
     section.state("next", "Next step: " + next_step(findings) + ".", Shown::screen);
-    section.state("shortage", findings.unassessable.empty() ? shortage : "");
+    section.state("shortage", findings.unassessable.empty() ? shortage : "", Shown::screen);
     if (findings.unassessable.empty()) {
-        section.state("unknown", unknown_text(findings, reference));
+        section.state("unknown", unknown_text(findings, reference), Shown::screen);
         section.add(noise_table(findings));
         if (has_sizes(findings.request)) {
             section.add(smallest_table(findings));

@@ -21,7 +21,7 @@ TEST_CASE(
     const std::string results = folder.file("r.h5");
     check_mentions(require_success("run " + rare + " --quiet --out " + results),
                    {"Too few healthy gearboxes"});  // also where only problems are printed
-    const Outcome report = program("report " + results);
+    const Outcome report = program("report " + results + " --full");
     CHECK(report.output.starts_with("Too few healthy gearboxes for a false-alarm rate of 0.001"));
     CHECK(report.mentions("no threshold, so detection is unknown"));
     CHECK(!report.mentions("No tested"));
