@@ -460,7 +460,7 @@ std::string more_gearboxes(const Findings& findings, const LevelDetection& detec
                        needed * sizes, needed, sizes);
 }
 
-// Lowest noise at which a fault is found.
+// Loudest noise below the reference at which a fault is found.
 std::optional<std::size_t> quieter_level(const Findings& findings) {
     for (std::size_t n = findings.reference; n-- > 0;) {
         if (findings.smallest[n]) {
@@ -484,8 +484,8 @@ std::string next_step(const Findings& findings) {
     }
     const long needed = tests_to_show(kReliablePd, findings.request.confidence);
     const auto& found = findings.smallest[level];
-    if (found ? !found->from_itself
-              : largest->upper >= kReliablePd && most_per_size(detected) < needed) {
+    if (most_per_size(detected) < needed &&
+        (found ? !found->from_itself : largest->upper >= kReliablePd)) {
         return more_gearboxes(findings, detected);
     }
     const bool simulated = findings.subject == Subject::gearboxes;
@@ -502,9 +502,12 @@ std::string next_step(const Findings& findings) {
                    : "measure the noise at your sensor, and repeat the study with it";
     }
     if (const auto quieter = quieter_level(findings)) {
-        return fmt::format("reduce the noise at the sensor: at {} {} of {} is found",
-                           findings.noise(*quieter), findings.fault,
-                           with_unit(findings.smallest[*quieter]->size, findings.request.size));
+        return fmt::format(
+            "reduce the noise at the sensor: at {} {}{} is found", findings.noise(*quieter),
+            findings.fault,
+            has_sizes(findings.request)
+                ? " of " + with_unit(findings.smallest[*quieter]->size, findings.request.size)
+                : "");
     }
     const std::string& name = findings.name(best);
     const bool compared = name.starts_with("own_") || name.starts_with("change_");
