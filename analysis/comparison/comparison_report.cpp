@@ -107,7 +107,7 @@ Section headline(const ComparedResults& results) {
     for (std::size_t f = 0; f < results.files.size(); ++f) {
         const std::string& shortage = results.files[f].shortage;
         section.state(fmt::format("shortage.{}", f),
-                      shortage.empty() ? "" : letter(f) + ": " + shortage);
+                      shortage.empty() ? "" : letter(f) + ": " + shortage, Shown::screen);
     }
     section.add(std::move(table));
     section.state("first_records", results.first_records

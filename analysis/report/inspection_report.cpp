@@ -187,9 +187,11 @@ std::string repeats_text(const InspectionResult& result) {
 void add_hits(Section& section, const InspectionResult& result) {
     const HitMissPod& pod = result.hit_miss;
     if (!pod.refusal.empty()) {
-        section.state("firth", pod.refusal.find("do not overlap") == std::string::npos
-                                   ? ""
-                                   : "Firth's penalty (--firth) fits such outcomes.");
+        section.state("firth",
+                      pod.refusal.find("do not overlap") == std::string::npos
+                          ? ""
+                          : "Firth's penalty (--firth) fits such outcomes.",
+                      Shown::screen);
         return;
     }
     const PodCurve& curve = pod.chosen.curve;

@@ -150,7 +150,7 @@ Failures failures_of(const Results& frame, const RowSource& rows) {
 
 analysis::Section failures_section(const Results& frame, const Failures& failures) {
     const RowCounts& counts = failures.counts;
-    const Shown shown = counts.failed() > 0 ? Shown::screen : Shown::full;
+    const Shown shown = counts.failed() > 0 ? Shown::screen : Shown::page;
     analysis::Section section{"failures", "", {}};
     section.state("failures",
                   fmt::format("{} of {} gearboxes failed: {} diverged, {} did not converge to the "

@@ -31,10 +31,12 @@ namespace {
 analysis::Section state_section(const Results& frame, const RowCounts& counts) {
     analysis::Section section{"state", "", {}};
     const std::string part = frame.provenance_value("part");
-    section.state("part", part.empty() ? ""
-                                       : fmt::format("Part {} of the study only; join all parts "
-                                                     "with `gearpod merge`.",
-                                                     part));
+    section.state("part",
+                  part.empty() ? ""
+                               : fmt::format("Part {} of the study only; join all parts "
+                                             "with `gearpod merge`.",
+                                             part),
+                  analysis::Shown::screen);
     const std::string state = frame.provenance_value("state");
     section.state("incomplete",
                   state != "running" && !state.starts_with("interrupted")

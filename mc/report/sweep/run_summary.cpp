@@ -417,7 +417,8 @@ Section headline(const RunSweep& sweep) {
     bool tested = false;
     for (const PointSummary& point : sweep.points) {
         if (!point.shortage.empty() && shortages.insert(point.shortage).second) {
-            section.state(fmt::format("shortage.{}", shortages.size() - 1), point.shortage);
+            section.state(fmt::format("shortage.{}", shortages.size() - 1), point.shortage,
+                          Shown::screen);
         }
         for (const LevelSummary& level : point.levels) {
             levels.insert(level.noise_level);

@@ -43,7 +43,7 @@ TEST_CASE("A sweep begins with what its healthy samples cannot determine, also o
                               folder.file("s") + " --vary sensor.noise_m_s2=[1,2]";
     require_success(sweep);
     // Finished points are not computed again; the warning appears again, once.
-    const Outcome again = require_success(sweep + " --html " + folder.file("s.html"));
+    const Outcome again = require_success(sweep + " --full --html " + folder.file("s.html"));
     const std::size_t warning_position = again.output.find("Too few healthy gearboxes");
     CHECK(warning_position < again.output.find("smallest fault found"));
     CHECK_FALSE(contains(again.output.substr(warning_position + 1), "Too few healthy gearboxes"));
