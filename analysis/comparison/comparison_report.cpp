@@ -91,23 +91,24 @@ std::string smallest_text(const ComparedResults& results, const ComparedFile& fi
 Section headline(const ComparedResults& results) {
     Section section{"headline", "", {}};
     std::string found;
-    Table table{"files", "", {"", "file", "gearboxes", "study"}, {}};
+    Table table{"files", "", {"", "file", "gearboxes", "study"}, {}, Shown::screen, 2};
     for (std::size_t f = 0; f < results.files.size(); ++f) {
         const ComparedFile& file = results.files[f];
         found +=
             fmt::format("{}{}: {}", f > 0 ? "; " : "", letter(f), smallest_text(results, file));
         table.rows.push_back({letter(f), file.path, std::to_string(file.gearboxes), file.title});
     }
-    section.state("headline", fmt::format("Smallest fault found with 90 % probability at {} "
-                                          "confidence, {}: {}.",
-                                          percent_text(results.confidence),
-                                          noise_text(results.noise_level), found));
+    section.state(
+        "headline",
+        fmt::format("Smallest fault found with 90 % probability at {} "
+                    "confidence, {}: {}.",
+                    percent_text(results.confidence), noise_text(results.noise_level), found),
+        Shown::screen);
     for (std::size_t f = 0; f < results.files.size(); ++f) {
         const std::string& shortage = results.files[f].shortage;
         section.state(fmt::format("shortage.{}", f),
-                      shortage.empty() ? "" : letter(f) + ": " + shortage);
+                      shortage.empty() ? "" : letter(f) + ": " + shortage, Shown::screen);
     }
-    table.labels = 2;
     section.add(std::move(table));
     section.state("first_records", results.first_records
                                        ? "The differences use thresholds set by the first record "
@@ -121,7 +122,8 @@ Section headline(const ComparedResults& results) {
 void add_differences(Section& section, const ComparedResults& results, const std::string& key,
                      const std::string& title, NumberDifference Comparison::*number,
                      const ValueText& text) {
-    Table table{key, title, {"feature", "file", "A", "file's", "difference", "p"}, {}, true, 2};
+    Table table{key, title,       {"feature", "file", "A", "file's", "difference", "p"},
+                {},  Shown::page, 2};
     for (std::size_t f = 1; f < results.files.size(); ++f) {
         for_shown(results, results.files[f], [&](const ComparedFeature& feature, std::size_t) {
             const NumberDifference& value = feature.comparison.*number;
@@ -141,7 +143,8 @@ void state_facts(Section& section, const ComparedResults& results, std::size_t f
                                     "are taken gearbox by gearbox.",
                                     file.pairs)
                       : fmt::format("Different gearboxes ({}), compared as independent samples.",
-                                    file.unpaired));
+                                    file.unpaired),
+                  Shown::screen);
     std::vector<std::string> same;
     for_shown(results, file, [&](const ComparedFeature& feature, std::size_t) {
         if (feature.same) {
@@ -149,7 +152,8 @@ void state_facts(Section& section, const ComparedResults& results, std::size_t f
         }
     });
     section.state(key + "same",
-                  same.empty() ? "" : "The same in every gearbox: " + joined(same) + ".");
+                  same.empty() ? "" : "The same in every gearbox: " + joined(same) + ".",
+                  Shown::screen);
     for (std::size_t i = 0; i < file.differing.size(); ++i) {
         section.state(fmt::format("{}input.{}", key, i), "Input " + file.differing[i] + ".");
     }
@@ -166,8 +170,9 @@ Table main_table(const ComparedResults& results, std::size_t f) {
                 "",
                 {"feature", "", "A", other,
                  fmt::format("{} - A [{}]", other, percent_text(results.confidence)), "p"},
-                {}};
-    table.labels = 2;
+                {},
+                Shown::screen,
+                2};
     const ValueText area, size{false, results.size.per_unit()};
     for_shown(results, results.files[f], [&](const ComparedFeature& feature, std::size_t) {
         if (feature.same) {
@@ -213,7 +218,7 @@ void add_details(Section& section, const ComparedResults& results, std::size_t f
                     {"size", "tested A", "tested " + other, "Pd A", "Pd " + other, "difference",
                      "only A found", "only " + other + " found", "p"},
                     {},
-                    true};
+                    Shown::page};
         for (const RateDifference& rate : feature.comparison.rates) {
             const bool paired = rate.pairs.pairs() > 0;
             table.rows.push_back(
@@ -228,7 +233,7 @@ void add_details(Section& section, const ComparedResults& results, std::size_t f
                  fmt::format("All noise levels: {} minus A", other),
                  {"feature", "noise", in_unit("a90", results.size), "AUC", "p"},
                  {},
-                 true};
+                 Shown::page};
     const ValueText area, size{false, results.size.per_unit()};
     for (const ComparedFeature& feature : file.features) {
         const Comparison& comparison = feature.comparison;
@@ -282,7 +287,8 @@ Report comparison_report(const ComparedResults& results) {
     notes.state("terms",
                 "Pd: detection rate, p by McNemar's test on pairs; a90: size with POD "
                 "90 %; AUC: area under the ROC, p by DeLong's test. \"open\": the interval "
-                "has no bound on this side.");
+                "has no bound on this side.",
+                Shown::screen);
     report.add(std::move(notes));
     return report;
 }

@@ -83,8 +83,7 @@ def _found(axes, report, found):
 
 def best(report):
     """Number of the feature in the answer."""
-    found = report.smallest[report.reference]
-    return report.feature_number(found["feature"]) if found else report.order(report.reference)[0]
+    return report.feature_number(report.data["best_feature"])
 
 
 def headline(report, page):
@@ -202,7 +201,7 @@ def heat_maps(report, page):
     how = ("Share of gearboxes that raise an alarm, by fault size (horizontal) and noise "
            "(vertical); dark means that many are found. A column of size 0 shows false alarms.")
     return page.figure("Detection rate over noise and fault size", charts, how,
-                       report.tables("rates.") + report.table("reliable_sizes"))
+                       report.tables("rates."))
 
 
 def roc(report, page):
@@ -306,7 +305,7 @@ def over_time(report, page, groups):
                  group["alarms"][name] / group["values"][name] for group in groups]
         axes.plot(middle, share, color=colour(position), linestyle=dash(position),
                   marker=marker(position), markersize=4.5, markeredgewidth=0, label=name)
-    axes.set(ylim=(-0.03, 1.03), xlabel="Time", ylabel="Share of recordings that alarm")
+    axes.set(ylim=(-0.03, 1.03), xlabel="Time", ylabel="Share of recordings with an alarm")
     legend_below(axes, 1)
     about = "; ".join(f"{name}: {caption_text(groups[-1], name)} at the end" for name in names)
     svg = to_svg(figure, "Alarms over time", about, page.names)

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <vector>
 
+#include "analysis/detection/detection.hpp"
 #include "analysis/detection/importance_sample.hpp"
 #include "analysis/detection/threshold.hpp"
 #include "analysis/false_alarm_curve.hpp"
@@ -182,6 +183,31 @@ Json rated_json(const Rated& rated) {
 
 }  // namespace
 
+long tests_to_show(double pd, double confidence) {
+    long tests = 1;
+    while (wilson_interval(tests, tests, confidence).lower < pd) {
+        ++tests;
+    }
+    return tests;
+}
+
+std::string size_shortage(long tests, const DetectionRequest& request) {
+    const bool faulty = std::ranges::any_of(
+        request.groups, [](const SizeGroup& group) { return group.high > 0.0; });
+    const bool fixed = std::ranges::all_of(
+        request.groups, [](const SizeGroup& group) { return group.low == group.high; });
+    const auto sizes = static_cast<long>(request.groups.size());
+    const long needed = tests_to_show(kReliablePd, request.confidence);
+    if (!faulty || !fixed || tests / sizes >= needed) {
+        return "";
+    }
+    return fmt::format(
+        "Few gearboxes ({} for each of {} fault sizes): no size alone can show {} detection at {} "
+        "confidence, which takes {} without a miss. Set ensemble.instances to {} or more.",
+        tests / sizes, sizes, percent_text(kReliablePd), percent_text(request.confidence), needed,
+        needed * sizes);
+}
+
 std::string threshold_methods_text(double false_alarm_rate, double confidence) {
     const long by_order = sample_for_threshold(false_alarm_rate),
                by_tail = sample_for_tail(false_alarm_rate);
@@ -211,7 +237,7 @@ std::string sample_shortage(long healthy, double false_alarm_rate, double confid
                    ? ""
                    : fmt::format(
                          "Importance sampling supports a false-alarm rate of {:g} for "
-                         "accelerometer features that noise makes alarm in 20 or more of the {} "
+                         "accelerometer features with alarms by noise in 20 or more of the {} "
                          "healthy gearboxes; the report names them. All other thresholds: {}",
                          false_alarm_rate, healthy, others);
     }

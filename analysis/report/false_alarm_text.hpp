@@ -1,5 +1,6 @@
-// Text on whether a healthy sample is large enough for the requested false-alarm rate, printed
-// before a run and with the report. Also the sample and cost of rarer false alarms as JSON.
+// Text on whether the samples are large enough for the requested false-alarm rate and for showing
+// a detection rate, printed before a run and with the report. Also the sample and cost of rarer
+// false alarms as JSON.
 #pragma once
 
 #include <span>
@@ -22,6 +23,14 @@ std::string sample_shortage(long healthy, double false_alarm_rate, double confid
 // threshold.
 std::string sample_shortage(std::span<const FeatureDetection> features,
                             const DetectionRequest& request, Subject subject);
+
+// Fewest tests of one size, all of them detected, with which the lower bound of their rate is at
+// least `pd`, by the interval that the tables of rates print (Wilson).
+long tests_to_show(double pd, double confidence);
+
+// Shortage of `tests` gearboxes that are shared by the fixed sizes of the request: even without a
+// miss their lower bound is below kReliablePd. "" if they suffice, and for continuous sizes.
+std::string size_shortage(long tests, const DetectionRequest& request);
 
 // Healthy records needed for a threshold at the rate, by order statistic, tail fit and importance
 // sampling.

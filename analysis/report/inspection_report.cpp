@@ -109,21 +109,23 @@ Section inspection_headline(const InspectionRequest& request, const InspectionRe
     const FittedCurve curve = curve_of(request, result);
     Section section{"headline", "", {}};
     if (!curve.refusal.empty()) {
-        section.state("headline", fmt::format("No detection curve: {}.", curve.refusal));
+        section.state("headline", fmt::format("No detection curve: {}.", curve.refusal),
+                      Shown::screen);
         return section;
     }
     const std::string shown = unit.shown_unit();
     const auto text = [&](const SizeEstimate& estimate) {
         return size_text(estimate, curve, unit) + (shown.empty() ? "" : " " + shown);
     };
-    section.state(
-        "headline",
-        fmt::format("90 % of flaws of {} are found (a90); its upper bound {} is {}.",
-                    text(curve.a90.estimate), bound_name(request), text(curve.a90.upper)));
+    section.state("headline",
+                  fmt::format("90 % of flaws of {} are found (a90); its upper bound {} is {}.",
+                              text(curve.a90.estimate), bound_name(request), text(curve.a90.upper)),
+                  Shown::screen);
     Table table{"sizes",
                 "Sizes with their bounds" + (shown.empty() ? "" : " (" + shown + ")"),
                 {"size", "estimate", "lower bound", "upper bound"},
-                {}};
+                {},
+                Shown::screen};
     for (const auto& [name, bounds] :
          {std::pair{"a50", &curve.a50}, std::pair{"a90", &curve.a90}}) {
         table.rows.push_back({name, size_text(bounds->estimate, curve, unit),
@@ -131,11 +133,13 @@ Section inspection_headline(const InspectionRequest& request, const InspectionRe
                               size_text(bounds->upper, curve, unit)});
     }
     section.add(std::move(table));
-    section.state("bound", fmt::format("{} is the upper bound of a90: {}{}.", bound_name(request),
-                                       bound_text(curve.rule),
-                                       request.convention == BoundConvention::handbook
-                                           ? " (the handbook's convention, MIL-HDBK-1823A)"
-                                           : ""));
+    section.state("bound",
+                  fmt::format("{} is the upper bound of a90: {}{}.", bound_name(request),
+                              bound_text(curve.rule),
+                              request.convention == BoundConvention::handbook
+                                  ? " (the handbook's convention, MIL-HDBK-1823A)"
+                                  : ""),
+                  Shown::screen);
     if (std::isfinite(curve.simulated_coverage)) {
         section.state(
             "coverage",
@@ -183,9 +187,11 @@ std::string repeats_text(const InspectionResult& result) {
 void add_hits(Section& section, const InspectionResult& result) {
     const HitMissPod& pod = result.hit_miss;
     if (!pod.refusal.empty()) {
-        section.state("firth", pod.refusal.find("do not overlap") == std::string::npos
-                                   ? ""
-                                   : "Firth's penalty (--firth) fits such outcomes.");
+        section.state("firth",
+                      pod.refusal.find("do not overlap") == std::string::npos
+                          ? ""
+                          : "Firth's penalty (--firth) fits such outcomes.",
+                      Shown::screen);
         return;
     }
     const PodCurve& curve = pod.chosen.curve;
@@ -212,7 +218,7 @@ void add_hits(Section& section, const InspectionResult& result) {
     if (result.tests_above > 0) {
         section.state("demonstrated",
                       fmt::format("Without a curve, the {} of {} flaws found above the upper bound "
-                                  "of a90 demonstrate a POD of {}.",
+                                  "of a90 show a POD of {}.",
                                   result.hits_above, result.tests_above,
                                   percent_text(result.demonstrated_pod)));
     }
@@ -316,7 +322,7 @@ void add_false_calls(Section& section, const InspectionRequest& request,
                 number_text(law.second, 5),
                 number_text(high ? law.above(result.threshold) : law.below(result.threshold)),
                 number_text(law.aic, 5)),
-            i > 0);
+            i > 0 ? Shown::page : Shown::full);
     }
 }
 
@@ -444,12 +450,13 @@ Json noise_of(const InspectionRequest& request, const InspectionResult& result) 
 Report inspection_report(const InspectionRequest& request, const InspectionResult& result,
                          const InspectionNames& names) {
     Section method{"method", "", {}};
-    method.state("table",
-                 fmt::format("{}: {} over {}, {} specimens{}.", names.table, names.value,
-                             names.size.name, result.specimens,
-                             result.repeats > 0
-                                 ? fmt::format(" and {} repeated measurements", result.repeats)
-                                 : ""));
+    method.state(
+        "table",
+        fmt::format(
+            "{}: {} over {}, {} specimens{}.", names.table, names.value, names.size.name,
+            result.specimens,
+            result.repeats > 0 ? fmt::format(" and {} repeated measurements", result.repeats) : ""),
+        Shown::screen);
     if (request.responses) {
         add_line(method, request, result, names);
     } else {
@@ -458,10 +465,11 @@ Report inspection_report(const InspectionRequest& request, const InspectionResul
     add_false_calls(method, request, result);
     method.add(trade_off_table(request, result, names.size));
     method.state("all_found",
-                 fmt::format("At a single size, {} specimens without a miss demonstrate a POD of "
+                 fmt::format("At a single size, {} specimens without a miss show a POD of "
                              "90 % at {} confidence.",
-                             result.all_found, percent_text(request.confidence)));
-    method.state("target", target_text(request, result, names.size));
+                             result.all_found, percent_text(request.confidence)),
+                 Shown::screen);
+    method.state("target", target_text(request, result, names.size), Shown::screen);
     Report report;
     report.add(inspection_headline(request, result, names.size));
     report.add(std::move(method));

@@ -1,6 +1,7 @@
 #include "analysis/report/report.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
@@ -36,16 +37,36 @@ class TableLines {
         std::size_t next = std::min(table_.labels, widths_.size());
         do {
             out += next > table_.labels ? "\n" : "";
-            const std::vector<std::size_t> columns = block_from(next);
-            add_row(out, table_.columns, columns);
-            for (const auto& row : table_.rows) {
-                add_row(out, row, columns);
-            }
-            next = columns.back() + 1;
+            next = add_block(out, next, table_.rows.size());
         } while (next < widths_.size());
     }
 
+    // Adds the first rows with the columns that fit.
+    void add_start(std::string& out, std::size_t rows) const {
+        const std::size_t columns = add_block(out, std::min(table_.labels, widths_.size()), rows);
+        std::vector<std::string> cut;
+        if (rows < table_.rows.size()) {
+            cut.push_back(fmt::format("{} of {} rows", rows, table_.rows.size()));
+        }
+        if (columns < widths_.size()) {
+            cut.push_back(fmt::format("{} of {} columns", columns, widths_.size()));
+        }
+        if (!cut.empty()) {
+            out += fmt::format("({}; the full report has all)\n", fmt::join(cut, ", "));
+        }
+    }
+
   private:
+    // Adds the labels and the columns from `next` on that fit. Returns the first one left out.
+    std::size_t add_block(std::string& out, std::size_t next, std::size_t rows) const {
+        const std::vector<std::size_t> columns = block_from(next);
+        add_row(out, table_.columns, columns);
+        for (std::size_t row = 0; row < rows; ++row) {
+            add_row(out, table_.rows[row], columns);
+        }
+        return columns.back() + 1;
+    }
+
     bool is_wordy(std::size_t column) const { return wordy_ && column + 1 == widths_.size(); }
 
     std::size_t space(std::size_t column) const {
@@ -95,6 +116,57 @@ class TableLines {
     bool wordy_ = false;
 };
 
+// Text of the blocks up to `shown`. `rows`: number of rows of each table on the screen; null for
+// all rows and columns.
+std::string blocks_text(const Report& report, Shown shown, std::size_t width,
+                        const std::vector<std::size_t>* rows) {
+    std::string out;
+    std::size_t tables = 0;
+    for (const Section& section : report.sections) {
+        std::string body;
+        bool after_table = false;
+        for (const auto& block : section.blocks) {
+            if (std::visit([&](const auto& one) { return one.shown > shown; }, block)) {
+                continue;
+            }
+            const auto* table = std::get_if<Table>(&block);
+            body += table != nullptr || after_table ? "\n" : "";
+            after_table = table != nullptr;
+            if (table == nullptr) {
+                add_wrapped(body, std::get<Statement>(block).text, 2, width);
+                continue;
+            }
+            if (!table->title.empty()) {
+                add_wrapped(body, table->title, 2, width);
+            }
+            const TableLines lines(*table, width);
+            if (rows != nullptr) {
+                lines.add_start(body, (*rows)[tables++]);
+            } else {
+                lines.add_to(body);
+            }
+        }
+        if (!body.empty()) {
+            out += out.empty() ? "" : "\n";
+            out += section.title.empty() ? body : section.title + '\n' + body;
+        }
+    }
+    return out;
+}
+
+std::size_t line_count(const std::string& text) {
+    return static_cast<std::size_t>(std::ranges::count(text, '\n'));
+}
+
+// The first lines of a text.
+std::string first_lines(const std::string& text, std::size_t lines) {
+    std::size_t end = 0;
+    for (; lines > 0; --lines) {
+        end = text.find('\n', end) + 1;
+    }
+    return text.substr(0, end);
+}
+
 }  // namespace
 
 std::size_t text_width() {
@@ -121,9 +193,9 @@ void add_wrapped(std::string& out, const std::string& text, std::size_t indent, 
     out += line + '\n';
 }
 
-void Section::state(const std::string& statement_key, const std::string& text, bool detail) {
+void Section::state(const std::string& statement_key, const std::string& text, Shown shown) {
     if (!text.empty()) {
-        blocks.emplace_back(Statement{statement_key, text, detail});
+        blocks.emplace_back(Statement{statement_key, text, shown});
     }
 }
 
@@ -152,32 +224,45 @@ std::string statement_text(const Report& report, const std::string& key) {
 }
 
 std::string report_text(const Report& report, std::size_t width) {
-    std::string out;
+    return blocks_text(report, Shown::full, width, nullptr);
+}
+
+std::string screen_text(const Report& report, const std::vector<std::string>& end) {
+    std::string last;
+    for (const std::string& line : end) {
+        add_wrapped(last, line, 2, kScreenColumns);
+    }
+    const std::size_t room = kScreenLines - std::min(kScreenLines - 1, line_count(last));
+    std::vector<std::size_t> rows;
     for (const Section& section : report.sections) {
-        std::string body;
-        bool after_table = false;
         for (const auto& block : section.blocks) {
-            if (std::visit([](const auto& shown) { return shown.detail; }, block)) {
-                continue;
-            }
             const auto* table = std::get_if<Table>(&block);
-            body += table != nullptr || after_table ? "\n" : "";
-            after_table = table != nullptr;
-            if (table == nullptr) {
-                add_wrapped(body, std::get<Statement>(block).text, 2, width);
-                continue;
+            if (table != nullptr && table->shown == Shown::screen) {
+                rows.push_back(table->rows.size());
             }
-            if (!table->title.empty()) {
-                add_wrapped(body, table->title, 2, width);
-            }
-            TableLines(*table, width).add_to(body);
-        }
-        if (!body.empty()) {
-            out += out.empty() ? "" : "\n";
-            out += section.title.empty() ? body : section.title + '\n' + body;
         }
     }
-    return out;
+    std::string text = blocks_text(report, Shown::screen, kScreenColumns, &rows);
+    for (auto longest = std::ranges::max_element(rows);
+         line_count(text) > room && longest != rows.end() && *longest > 1;
+         longest = std::ranges::max_element(rows)) {
+        --*longest;
+        text = blocks_text(report, Shown::screen, kScreenColumns, &rows);
+    }
+    if (line_count(text) > room) {
+        text = first_lines(text, room - 1) + "(The full report has the rest.)\n";
+    }
+    return text + last;
+}
+
+Report sections_of(const Report& report, const std::vector<std::string>& names) {
+    Report chosen;
+    for (const Section& section : report.sections) {
+        if (std::ranges::count(names, section.key) > 0) {
+            chosen.sections.push_back(section);
+        }
+    }
+    return chosen;
 }
 
 nlohmann::json findings_json(const Report& report) {

@@ -7,7 +7,7 @@ import monitoring_figures
 import numerical_figures
 import signal_figures
 from blocks import bullets, note, paragraph, table
-from words import escape, number, percent
+from words import escape, percent
 
 
 def detection(report, page):
@@ -138,11 +138,7 @@ def provenance(report, page):
     if "results" in report.data:
         rows.insert(0, ["results file", report.data["results"]])
     body = table("Where the numbers come from", ["entry", "value"], rows)
-    if report.data["timing"]:
-        body += "<details><summary>Computing time</summary>" + table(
-            "Seconds; thread seconds are sums over all threads", ["part", "s"],
-            [[name.replace("_", " ").removesuffix(" s"), number(value)]
-             for name, value in sorted(report.data["timing"].items())]) + "</details>"
+    body += "".join(map(paragraph, report.texts("time")))
     if given.get("recordings"):
         body += "<details><summary>The recordings</summary>" + bullets(
             given["recordings"].splitlines()) + "</details>"

@@ -13,7 +13,6 @@ from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.patches import Rectangle
-from words import number
 
 WIDTH, HEIGHT, MARGIN = 8.27, 11.69, 0.7  # inches
 LEAST_FIGURE, MOST_FIGURE = 1.9, 3.8
@@ -125,36 +124,10 @@ def _table(sheet, report):
         sheet.text(text, 7.5, colour=MUTED)
 
 
-def _by_noise(axes, report):
-    """Draws the smallest fault found by any feature over noise."""
-    largest = max((c["size_high"] for f in report.detection for level in f["levels"]
-                   for c in level["sizes"]), default=0.0)
-    found = report.smallest
-    at = [(n, report.sizes.shown(f["size"])) for n, f in enumerate(found) if f]
-    axes.plot([n for n, _ in at], [size for _, size in at], linestyle="none", marker="o",
-              color=SERIES[0][0], markersize=6, markeredgewidth=0)
-    for n, size in at:
-        axes.annotate(number(size), (n, size), xytext=(0, 6), textcoords="offset points",
-                      ha="center", fontsize=8, color=INK)
-    for n, f in enumerate(found):
-        if f is None:
-            axes.annotate("none", (n, 0), xytext=(0, 4), textcoords="offset points", ha="center",
-                          fontsize=8, color=MUTED)
-    axes.set(xlim=(-0.5, len(report.levels) - 0.5), xlabel="Noise", ylabel=report.sizes.axis(),
-             ylim=(0, 1.15 * (report.sizes.shown(largest) or 1)))
-    step = max(1, -(-len(report.levels) // MOST_LEVELS))
-    axes.set_xticks(range(0, len(report.levels), step),
-                    [f"× {number(level)}" for level in report.levels[::step]])
-    axes.grid(axis="x", visible=False)
-    axes.set_title("Smallest fault found", fontsize=10, loc="left")
-
-
-def _figures(sheet, report, height):
-    axes = height - 0.75  # titles and labels are outside the axes
-    sheet.y += 0.25
-    detection_figures.of_feature(sheet.axes(0.075, 0.48, axes), report,
+def _figure(sheet, report, height):
+    sheet.y += 0.25  # titles and labels are outside the axes
+    detection_figures.of_feature(sheet.axes(0.075, 1.0, height - 0.75), report,
                                  detection_figures.best(report))
-    _by_noise(sheet.axes(0.6, 1.0, axes), report)
     sheet.y += height - 0.25
 
 
@@ -194,7 +167,7 @@ def _filled(report, scale):
         height = min(MOST_FIGURE, free)
         if height < LEAST_FIGURE:
             return sheet, height - LEAST_FIGURE
-        _figures(sheet, report, height)
+        _figure(sheet, report, height)
     _below(sheet, report, assessable)
     return sheet, HEIGHT - MARGIN - sheet.y
 

@@ -64,6 +64,26 @@ std::string rate_text(double value, const Interval& bounds) {
     return rate_text(value, bounds.lower, bounds.upper);
 }
 
+std::string percent_rate_text(double value, const Interval& bounds) {
+    if (std::isnan(value) || std::isnan(bounds.lower) || std::isnan(bounds.upper)) {
+        return "-";
+    }
+    constexpr double kRounding = 1e-9;
+    // Whole percent, but more digits for rare alarms and next to 100.
+    const bool rare = bounds.upper < 0.01;
+    const double percent = 100.0 * value;
+    const bool near_all = value < 1.0 && percent > 99.5;
+    const auto whole = [](double number) { return fmt::format("{:.0f}", number); };
+    return fmt::format("{} [{}, {}]",
+                       rare       ? number_text(percent, 2)
+                       : near_all ? number_text(percent, 4)
+                                  : whole(percent),
+                       rare ? number_text(100.0 * bounds.lower, 2)
+                            : whole(std::floor(100.0 * bounds.lower + kRounding)),
+                       rare ? number_text(100.0 * bounds.upper, 2)
+                            : whole(std::ceil(100.0 * bounds.upper - kRounding)));
+}
+
 std::string rate_interval_text(const Interval& bounds) {
     if (std::isnan(bounds.lower) || std::isnan(bounds.upper)) {
         return "-";

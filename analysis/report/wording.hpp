@@ -36,6 +36,8 @@ std::string number_text(double value, int digits = 3);
 std::string rate_text(double value);
 std::string rate_text(double value, double lower, double upper);
 std::string rate_text(double value, const Interval& bounds);
+// Rate and its bounds in percent, "78 [55, 91]"; bounds are rounded outwards.
+std::string percent_rate_text(double value, const Interval& bounds);
 // Interval of a rate; with significant digits if it is small. "-" without bounds.
 std::string rate_interval_text(const Interval& bounds);
 // Area under an ROC with three decimals, and its bounds.

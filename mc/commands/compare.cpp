@@ -27,6 +27,7 @@ namespace {
 struct CompareOptions {
     std::vector<std::string> results;  // the others are compared with the first
     std::string json, html;            // "": none; JSON "-": standard output
+    bool full = false;                 // prints all findings
     bool force = false;                // replaces outputs of another kind
 };
 
@@ -151,7 +152,10 @@ int compare_command(const CompareOptions& options) {
         return kBadInput;
     }
     if (options.json != "-") {
-        fmt::print("{}", analysis::report_text(comparison_report(results)));
+        const analysis::Report report = comparison_report(results);
+        fmt::print("{}", options.full
+                             ? report_text(report)
+                             : screen_text(report, {"All findings: the same command with --full"}));
         if (!options.html.empty()) {
             fmt::print("\npage: {}\n", options.html);
         }
@@ -170,6 +174,7 @@ void add_compare(CLI::App& app, int& code) {
         .add_option("results", options.results,
                     "results files (HDF5); all others are compared with the first")
         ->required();
+    add_full(command, options.full);
     add_json(command, options.json);
     add_page(command, options.html);
     add_force(command, options.force);

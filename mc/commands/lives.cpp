@@ -80,7 +80,9 @@ int write_outputs(const CampaignPlan& plan, const Results& frame, const RowSourc
         fmt::print(stderr, "{}\n", withheld);
     }
     if (prints_text && outputs.json != "-") {
-        fmt::print("{}", report_text(lives_report(monitor, outputs.shows_withheld), kLineWidth));
+        if (!print_report(outputs, lives_report(monitor, outputs.shows_withheld), false)) {
+            return kBadInput;
+        }
         if (!outputs.html.empty()) {
             fmt::print("\npage: {}\n", outputs.html);
         }
@@ -125,12 +127,14 @@ int run_lives_on_leader(const LivesOptions& options, const LifeTiles& tiles,
             int code = count_rows(rows, 1).failed() > 0 ? kSomeFailed : kDone;
             if (run.prints_results) {
                 ReportOptions outputs;
+                outputs.results = path;
+                outputs.full = options.full;
                 outputs.json = options.json;
                 outputs.html = options.html;
                 outputs.shows_withheld = options.shows_withheld;
                 const int written = write_outputs(campaign, frame, rows, outputs, !run.quiet);
                 code = written == kDone ? code : written;
-                if (!run.quiet && options.json != "-") {
+                if (options.full && !run.quiet && options.json != "-") {
                     fmt::print("\nresults: {}\n", path);
                 }
             }
@@ -195,6 +199,7 @@ void add_lives(CLI::App& app, int& code) {
                 "continue an interrupted run, or add cracked gearboxes to a finished one",
                 "overwrite the results of another study or any other file");
     add_progress(command, run);
+    add_full(command, options.full);
     add_json(command, options.json);
     add_page(command, options.html);
     command.add_flag("--show-withheld", options.shows_withheld,

@@ -21,6 +21,7 @@ namespace {
 struct PodOptions : InspectionOptions {
     std::string table;
     std::string json, html;  // "": none; JSON "-": standard output
+    bool full = false;       // prints all findings
     std::string evidence;    // folder for the evidence pack; "": none
     bool force = false;      // replaces outputs of another kind
 };
@@ -55,7 +56,13 @@ int pod_command(const PodOptions& options) {
     if (!options.json.empty()) {
         return kDone;
     }
-    fmt::print("{}", inspection_text(inspected));
+    if (options.full) {
+        fmt::print("{}", inspection_text(inspected));
+    } else {
+        fmt::print("{}", screen_text(analysis::inspection_report(inspected.request,
+                                                                 inspected.result, inspected.names),
+                                     {"All findings: the same command with --full"}));
+    }
     if (!options.html.empty()) {
         fmt::print("\npage: {}\n", options.html);
     }
@@ -137,6 +144,7 @@ void add_pod(CLI::App& app, int& code) {
                "confidence level of the bounds (default: 0.95)", from_to(0.5, 0.9999));
     add_number(command, "--target", options.target,
                "size that a90/95 must reach; print how many specimens that needs", above(0.0));
+    add_full(command, options.full);
     add_json(command, options.json);
     add_page(command, options.html);
     add_file(

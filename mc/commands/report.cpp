@@ -1,6 +1,7 @@
 // Command `report RESULTS`: detection rates, POD and ranking of the results of a run, as text,
 // JSON, page, sheet, tables, evidence pack and dataset.
-#include <fmt/core.h>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
@@ -126,7 +127,18 @@ int report_command(const ReportOptions& options) {
                    run.failures.counts.all,
                    printable(results.provenance_value("gearboxes_asked_for")), printable(state));
     }
-    fmt::print("{}", report_text(run.report));
+    ReportOptions printed = options;  // what an option asks for is printed without --section
+    if (!options.full && options.sections.empty()) {
+        if (!options.condition.empty()) {
+            printed.sections.emplace_back("conditions");
+        }
+        if (costs) {
+            printed.sections.emplace_back("false_alarms");
+        }
+    }
+    if (!print_report(printed, run.report, !results.provenance_value("part").empty())) {
+        return kBadInput;
+    }
     for (const auto& [what, where] : outputs) {
         if (!where.empty()) {
             fmt::print("\n{}: {}\n", what, where);
@@ -137,11 +149,40 @@ int report_command(const ReportOptions& options) {
 
 }  // namespace
 
+bool print_report(const ReportOptions& options, const analysis::Report& report, bool part) {
+    if (options.sections.empty()) {
+        fmt::print("{}", options.full ? report_text(report)
+                                      : screen_text(report, screen_end(options.results, part)));
+        return true;
+    }
+    std::vector<std::string> names;
+    for (const analysis::Section& section : report.sections) {
+        names.push_back(section.key);
+    }
+    bool good = true;
+    for (const std::string& name : options.sections) {
+        if (std::ranges::count(names, name) == 0) {
+            fmt::print(stderr, "--section {}: is not in the report of {}; its sections are {}\n",
+                       printable(name), options.results, fmt::join(names, ", "));
+            good = false;
+        }
+    }
+    fmt::print("{}", good ? report_text(sections_of(report, options.sections)) : "");
+    return good;
+}
+
 void add_report(CLI::App& app, int& code) {
     const auto [command, options] = add_command<ReportOptions>(
         app, code, "report", "print detection rates, POD and feature ranking from a results file",
         reporting<report_command>);
     command.add_option("results", options.results, "results file (HDF5)")->required();
+    add_full(command, options.full);
+    command
+        .add_option("--section", options.sections,
+                    fmt::format("print these sections: {}; of lives: answer, results, basis",
+                                fmt::join(kRunSections, ", ")))
+        ->type_name("NAME")
+        ->allow_extra_args(false);
     add_json(command, options.json);
     add_page(command, options.html);
     add_file(command, "--pdf", options.pdf, "write a one-page summary with its limits to a file");

@@ -34,6 +34,7 @@ struct SweepOptions {
     std::vector<std::string> vary;  // "section.key=[a, b, c]"
     std::string out;                // results folder; "": the study's name with -sweep
     std::string json, html;         // "": none; JSON "-": standard output
+    bool full = false;              // print all findings
     bool force = false;             // overwrite the results of a different run
     bool quiet = false;
 };
@@ -207,7 +208,11 @@ class Sweep {
             return kBadInput;
         }
         if (options_.json != "-") {
-            fmt::print("{}\nresults: {}\n", analysis::report_text(report), folder_of(options_));
+            fmt::print("{}\nresults: {}\n",
+                       options_.full
+                           ? report_text(report)
+                           : screen_text(report, {"All findings: the same command with --full"}),
+                       folder_of(options_));
             if (!options_.html.empty()) {
                 fmt::print("page: {}\n", options_.html);
             }
@@ -295,6 +300,7 @@ void add_sweep(CLI::App& app, int& code) {
     add_ensemble(command, "number of gearboxes over all fault sizes", options.study);
     add_file(command, "--out", options.out,
              "folder of the results files (default: the study's name with -sweep)");
+    add_full(command, options.full);
     add_json(command, options.json);
     add_file(command, "--html", options.html, "write a page with curves to a file");
     command.add_flag("--force", options.force,

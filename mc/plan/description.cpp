@@ -782,6 +782,10 @@ DescriptionSection false_alarm_description(const Study& study) {
         section.entries.push_back({"in time", target});
     }
     section.entries.push_back({"methods", analysis::threshold_methods_text(rate, confidence)});
+    if (const std::string few = analysis::size_shortage(plan.test_gearboxes, plan.request);
+        !few.empty()) {
+        section.entries.push_back({"sizes", few});
+    }
     if (const std::string shortage = plan.healthy_shortage(); !shortage.empty()) {
         section.entries.push_back({"", shortage});
         return section;

@@ -124,32 +124,6 @@ std::string shared_text(std::uint64_t gearboxes) {
                : "";
 }
 
-std::string record_conditions(const Study& study) {
-    const auto drivetrain = make_drivetrain(study);
-    const signals::SpanLayout span = drivetrain->span();
-    const double mesh_Hz = std::abs(nominal_mesh_frequency_Hz(study, *drivetrain));
-    const RecordLength length = record_length(study);
-    const int turns = length.given() ? whole_turns(length, span, mesh_Hz) : span.ring_teeth;
-    const int meshes = turns * span.planet_teeth;
-    std::vector<std::string> mates;
-    for (const Meetings& meetings : meetings_in(study, meshes)) {
-        mates.push_back(fmt::format("{} of the {} {} teeth that it can meet ({:.0f} %)",
-                                    meetings.met, meetings.all, member_name(meetings.mate),
-                                    100.0 * meetings.met / meetings.all));
-    }
-    std::string text = fmt::format(
-        " A record lasts {:.3g} s{}, in which {} tooth meets {}.", meshes / mesh_Hz,
-        length.given() ? " and begins at a random tooth position" +
-                             shared_text(shares_windows(study) ? kTileLanes : 1)
-                       : " by default (sensor.record_s)",
-        study.fault.kind != nullptr && !study.fault.kind->wears_flanks() ? "the faulty" : "a",
-        fmt::join(mates, " and "));
-    if (const std::optional<double> interval_h = record_interval_h(study)) {
-        text += fmt::format(" There are {:g} h between two records.", *interval_h);
-    }
-    return text;
-}
-
 // Turns of the monitored gear in a record at nominal speed.
 int nominal_turns(const RecordPlan& plan) {
     return plan.length ? whole_turns(*plan.length, plan.span, std::abs(plan.mesh_frequency_Hz))
@@ -281,8 +255,33 @@ std::string shown_teeth_text(const RecordPlan& plan, const FeaturePlan& features
         hidden.empty() ? "" : fmt::format("; too short for {}", fmt::join(hidden, ", ")));
 }
 
-std::string run_conditions(const Study& study) {
-    return has_gears(study) ? assumptions(study, false) + record_conditions(study) : "";
+std::string record_conditions(const Study& study) {
+    if (!has_gears(study)) {
+        return "";
+    }
+    const auto drivetrain = make_drivetrain(study);
+    const signals::SpanLayout span = drivetrain->span();
+    const double mesh_Hz = std::abs(nominal_mesh_frequency_Hz(study, *drivetrain));
+    const RecordLength length = record_length(study);
+    const int turns = length.given() ? whole_turns(length, span, mesh_Hz) : span.ring_teeth;
+    const int meshes = turns * span.planet_teeth;
+    std::vector<std::string> mates;
+    for (const Meetings& meetings : meetings_in(study, meshes)) {
+        mates.push_back(fmt::format("{} of the {} {} teeth that it can meet ({:.0f} %)",
+                                    meetings.met, meetings.all, member_name(meetings.mate),
+                                    100.0 * meetings.met / meetings.all));
+    }
+    std::string text = fmt::format(
+        "A record lasts {:.3g} s{}, in which {} tooth meets {}.", meshes / mesh_Hz,
+        length.given() ? " and begins at a random tooth position" +
+                             shared_text(shares_windows(study) ? kTileLanes : 1)
+                       : " by default (sensor.record_s)",
+        study.fault.kind != nullptr && !study.fault.kind->wears_flanks() ? "the faulty" : "a",
+        fmt::join(mates, " and "));
+    if (const std::optional<double> interval_h = record_interval_h(study)) {
+        text += fmt::format(" There are {:g} h between two records.", *interval_h);
+    }
+    return text;
 }
 
 }  // namespace gearpod::mc

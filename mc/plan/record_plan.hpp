@@ -98,8 +98,7 @@ std::string record_length_text(const RecordPlan& plan);
 // Gears of a planetary stage whose single teeth records of given length show, and those that need
 // longer ones; otherwise empty.
 std::string shown_teeth_text(const RecordPlan& plan, const FeaturePlan& features);
-// Conditions for which the results of `run` hold: assumptions(), the length of a record, the part
-// of the faulty tooth's meetings that it contains, and the baseline.
-std::string run_conditions(const Study& study);
+// Length of a record, and the teeth that meet in it, in words; "" without gears.
+std::string record_conditions(const Study& study);
 
 }  // namespace gearpod::mc

@@ -31,7 +31,8 @@ std::optional<RunFacts> run_facts(const std::string& study_text, const std::stri
                     .sampling = study->ensemble.sampling,
                     .fault = make_fault_plan(*study),
                     .other_fault = other_fault.empty() ? "another fault" : other_fault,
-                    .conditions = run_conditions(*study),
+                    .conditions = assumptions(*study, false),
+                    .record = record_conditions(*study),
                     .false_alarms = false_alarm_target_text(*study),
                     .sensor_noise_m_s2 = study->effects.quasi_static()
                                              ? std::nullopt

@@ -27,7 +27,8 @@ struct RunFacts {
     SamplingKind sampling;
     FaultPlan fault;
     std::string other_fault;   // in words; "another fault" without one
-    std::string conditions;    // see run_conditions()
+    std::string conditions;    // see assumptions()
+    std::string record;        // see record_conditions()
     std::string false_alarms;  // see false_alarm_target_text()
     // Nominal noise at level 1; no value for quasi-static gearboxes.
     std::optional<double> sensor_noise_m_s2;

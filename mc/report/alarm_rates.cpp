@@ -234,7 +234,7 @@ analysis::Section other_fault_section(const Results& frame, const std::string& f
                               fault));
     analysis::Table table{
         "other_fault",
-        "Healthy gearboxes with the other fault that alarm",
+        "Healthy gearboxes with the other fault that raise an alarm",
         {"feature", "noise", "alarms", "of", "share",
          analysis::percent_text(frame.request.confidence) + " interval", "without it"},
         {}};

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "analysis/report/wording.hpp"
+#include "mc/results/reliability_of_results.hpp"
 
 namespace gearpod::mc {
 namespace {
@@ -169,7 +170,11 @@ analysis::Section feature_values(const Results& frame, const RowSource& rows) {
     }
     const std::vector<ReadRow> test = test_rows(row_shape(frame), rows);
     for (std::size_t n = 0; !test.empty() && n < frame.noise_levels.size(); ++n) {
-        section.add(values_table(frame, test, n));
+        analysis::Table table = values_table(frame, test, n);
+        if (n == reference_level(frame.noise_levels)) {
+            table.shown = analysis::Shown::screen;
+        }
+        section.add(std::move(table));
     }
     return section;
 }

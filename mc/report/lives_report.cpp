@@ -19,6 +19,7 @@ namespace {
 using analysis::number_text;
 using analysis::percent_text;
 using analysis::Section;
+using analysis::Shown;
 
 // Formats a depth in mm: "2.31", or "> 4" if the probability is not reached at the last depth.
 std::string depth_text(double depth_m, const CampaignPlan& plan) {
@@ -149,19 +150,22 @@ std::string crack_records_statement(const Campaign& campaign, const CampaignPlan
 Section headline(const LifeMonitor& monitor, bool shows_withheld) {
     const CampaignPlan& plan = monitor.plan();
     const Campaign& campaign = monitor.campaign();
-    Section section{"headline", "", {}};
+    Section section{"answer", "", {}};
     const std::string withheld = shows_withheld ? "" : why_withheld(plan, campaign);
-    section.state("headline", !withheld.empty() ? withheld
-                              : monitor.ranking().empty()
-                                  ? nothing_found_text(monitor)
-                                  : best_text(monitor, monitor.results()[monitor.ranking()[0]]));
-    section.state("records", crack_records_statement(campaign, plan));
-    section.state("interpolation", interpolation_text(campaign, plan));
+    section.state("headline",
+                  !withheld.empty() ? withheld
+                  : monitor.ranking().empty()
+                      ? nothing_found_text(monitor)
+                      : best_text(monitor, monitor.results()[monitor.ranking()[0]]),
+                  Shown::screen);
+    section.state("holds", plan.assumptions, Shown::screen);
+    section.state("records", crack_records_statement(campaign, plan), Shown::screen);
+    section.state("interpolation", interpolation_text(campaign, plan), Shown::screen);
     section.state("failed",
                   campaign.failed > 0
                       ? fmt::format("{} gearboxes failed and are left out.", campaign.failed)
-                      : "");
-    section.state("holds", plan.assumptions);
+                      : "",
+                  Shown::screen);
     return section;
 }
 
@@ -197,17 +201,21 @@ std::string effect_text(const LifeMonitor& monitor) {
 Section results_section(const LifeMonitor& monitor) {
     const CampaignPlan& plan = monitor.plan();
     Section section{"results", "Features and detectors", {}};
-    analysis::Table table{"results", "", {"feature", "detector", "rank"}, {}};
+    analysis::Table table{"results", "", {"feature", "detector", "rank"}, {}, Shown::screen, 2};
     for (std::string& column : life_result_columns(plan)) {
         table.columns.push_back(std::move(column));
     }
     std::map<std::string, std::vector<std::string>> unranked;
+    std::vector<std::size_t> order = monitor.ranking();  // then those without a rank
     for (std::size_t i = 0; i < monitor.results().size(); ++i) {
-        const MonitoredFeature& one = monitor.results()[i];
-        const auto rank = std::ranges::find(monitor.ranking(), i);
-        std::vector<std::string> row{
-            one.feature, one.detector,
-            one.unranked.empty() ? std::to_string(rank - monitor.ranking().begin() + 1) : "-"};
+        if (std::ranges::count(monitor.ranking(), i) == 0) {
+            order.push_back(i);
+        }
+    }
+    for (std::size_t place = 0; place < order.size(); ++place) {
+        const MonitoredFeature& one = monitor.results()[order[place]];
+        std::vector<std::string> row{one.feature, one.detector,
+                                     one.unranked.empty() ? std::to_string(place + 1) : "-"};
         for (std::string& cell : life_result_cells(one.performance, plan)) {
             row.push_back(std::move(cell));
         }
@@ -216,7 +224,6 @@ Section results_section(const LifeMonitor& monitor) {
             unranked[one.unranked].push_back(one.feature + " by " + one.detector);
         }
     }
-    table.labels = 2;
     section.add(std::move(table));
     section.state(
         "terms",

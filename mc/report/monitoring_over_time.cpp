@@ -471,7 +471,8 @@ analysis::Section monitoring_section(const MonitoringOverTime& monitoring,
         "",
         {"feature", "detector", "threshold", "healthy alarms", "sustained", "held-out alarms",
          "later alarms", "first alarm", "sustained alarm", "lead", "worst tooth"},
-        {}};
+        {},
+        analysis::Shown::screen};
     table.labels = 2;
     for (const RecordingMonitorResult& one : monitoring.watched) {
         if (std::ranges::count(features, one.feature) +

@@ -10,7 +10,6 @@
 #include <utility>
 
 #include "analysis/report/wording.hpp"
-#include "mc/files/input/terminal_text.hpp"
 #include "mc/numerics/numerical_error.hpp"
 #include "mc/results/layout.hpp"
 
@@ -45,6 +44,7 @@ std::string rows_text(const Failures& failures) {
 }
 
 using analysis::number_text;
+using analysis::Shown;
 
 std::string error_size(double size, const analysis::SizeUnit& unit) {
     return std::isfinite(size) ? analysis::with_unit(size, unit, 2) : "-";
@@ -150,14 +150,28 @@ Failures failures_of(const Results& frame, const RowSource& rows) {
 
 analysis::Section failures_section(const Results& frame, const Failures& failures) {
     const RowCounts& counts = failures.counts;
+    const Shown shown = counts.failed() > 0 ? Shown::screen : Shown::page;
     analysis::Section section{"failures", "", {}};
     section.state("failures",
                   fmt::format("{} of {} gearboxes failed: {} diverged, {} did not converge to the "
                               "periodic orbit. Failed gearboxes count neither as detected nor as "
                               "missed.",
                               counts.failed(), counts.all, counts.diverged, counts.not_converged),
-                  true);
-    section.state("failures.rows", rows_text(failures), true);
+                  shown);
+    for (const Status status : {Status::supercritical, Status::parametric, Status::step_too_long,
+                                Status::no_equilibrium}) {
+        const std::size_t count = counts.with_status[static_cast<std::size_t>(status)];
+        section.state(
+            fmt::format("failures.status.{}", static_cast<int>(status)),
+            count == 0 ? "" : fmt::format("{} of them: each {}.", count, failure_text(status)),
+            shown);
+    }
+    section.state("failures.not_converged",
+                  counts.not_converged == 0
+                      ? ""
+                      : "For convergence, raise numerics.max_meshes or numerics.settle_tolerance.",
+                  shown);
+    section.state("failures.rows", rows_text(failures), Shown::page);
     std::vector<std::string> without;
     for (std::size_t f = 0; f < failures.no_value.size(); ++f) {
         for (std::size_t n = 0; n < failures.no_value[f].size(); ++n) {
@@ -176,7 +190,7 @@ analysis::Section failures_section(const Results& frame, const Failures& failure
                   : counts.all > counts.failed()
                       ? "Every feature has a value for every gearbox that did not fail."
                       : "",
-                  true);
+                  Shown::page);
     return section;
 }
 
@@ -196,26 +210,6 @@ nlohmann::json failures_json(const Results& frame, const Failures& failures) {
             {"no_value", without}};
 }
 
-void print_failures(const RowCounts& rows, int max_meshes) {
-    fmt::print("gearboxes: {} of {} failed ({} diverged, {} did not converge)\n", rows.failed(),
-               rows.all, rows.diverged, rows.not_converged);
-    for (const Status status : {Status::supercritical, Status::parametric, Status::step_too_long,
-                                Status::no_equilibrium}) {
-        const std::size_t count = rows.with_status[static_cast<std::size_t>(status)];
-        if (count > 0) {
-            const std::string reason =
-                fmt::format("{} of them: each {}", count, failure_text(status));
-            fmt::print("  {}\n", wrapped_text(reason, 2));
-        }
-    }
-    if (rows.not_converged > 0) {
-        fmt::print(
-            "  (no convergence to the periodic orbit within {} mesh periods: raise\n"
-            "  numerics.max_meshes or numerics.settle_tolerance)\n",
-            max_meshes);
-    }
-}
-
 analysis::Section numerical_section(const Results& frame,
                                     const std::vector<NumericalContribution>& contributions) {
     analysis::Section section{"numerical", "Numerical and statistical error", {}};
@@ -227,7 +221,7 @@ analysis::Section numerical_section(const Results& frame,
         section.state("numerical.none",
                       "The study requested no check of its numerical error (numerics.verify or "
                       "numerics.tolerance), so it cannot be compared with the statistical error.",
-                      true);
+                      Shown::page);
         return section;
     }
     std::vector<std::string> dominated;

@@ -34,14 +34,11 @@ struct Failures {
 
 Failures failures_of(const Results& frame, const RowSource& rows);
 
-// Not on the terminal, where print_failures() tells them after a run.
+// Failed gearboxes with their reasons; on the screen if there are any.
 analysis::Section failures_section(const Results& frame, const Failures& failures);
 
 // docs/reference/report-json.md lists the keys.
 nlohmann::json failures_json(const Results& frame, const Failures& failures);
-
-// Prints the failures of a run with their reasons.
-void print_failures(const RowCounts& rows, int max_meshes);
 
 // Numerical error of a run as a section of its report.
 

@@ -4,9 +4,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
+#include <functional>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <numbers>
-#include <numeric>
 #include <string>
 #include <utility>
 #include <vector>
@@ -29,10 +31,12 @@ namespace {
 analysis::Section state_section(const Results& frame, const RowCounts& counts) {
     analysis::Section section{"state", "", {}};
     const std::string part = frame.provenance_value("part");
-    section.state("part", part.empty() ? ""
-                                       : fmt::format("Part {} of the study only; join all parts "
-                                                     "with `gearpod merge`.",
-                                                     part));
+    section.state("part",
+                  part.empty() ? ""
+                               : fmt::format("Part {} of the study only; join all parts "
+                                             "with `gearpod merge`.",
+                                             part),
+                  analysis::Shown::screen);
     const std::string state = frame.provenance_value("state");
     section.state("incomplete",
                   state != "running" && !state.starts_with("interrupted")
@@ -40,7 +44,7 @@ analysis::Section state_section(const Results& frame, const RowCounts& counts) {
                       : fmt::format("Incomplete study: {} of {} gearboxes ({}).", counts.all,
                                     printable(frame.provenance_value("gearboxes_asked_for")),
                                     printable(state)),
-                  true);
+                  analysis::Shown::page);
     return section;
 }
 
@@ -130,9 +134,51 @@ std::string other_fault_of(const analysis::Findings& findings, const Results& fr
                              findings.name(findings.best(findings.reference)), findings.reference);
 }
 
-analysis::Report report_of(const Results& frame, const RowSource& rows,
-                           const std::optional<analysis::Reliability>& reliability,
-                           const RunFindings& run) {
+// Computing time with the shares of its parts.
+analysis::Section time_section(const Results& frame) {
+    constexpr std::string_view kThreads = "_thread_s";
+    constexpr double kLeastShown = 0.01;
+    double all = 0.0;
+    std::map<std::string, double> values;
+    std::vector<std::pair<double, std::string>> parts;
+    for (const Timing& timing : frame.timing) {
+        values[timing.name] = timing.seconds;
+        if (timing.name.ends_with(kThreads)) {
+            all += timing.seconds;
+            parts.emplace_back(timing.seconds,
+                               timing.name.substr(0, timing.name.size() - kThreads.size()));
+        }
+    }
+    std::ranges::sort(parts, std::greater());
+    std::vector<std::string> shares;
+    for (const auto& [seconds, part] : parts) {
+        if (seconds > kLeastShown * all) {
+            shares.push_back(fmt::format("{} {:.0f} %", part, 100.0 * seconds / all));
+        }
+    }
+    analysis::Section section{"time", "", {}};
+    const std::string threads = frame.provenance_value("threads");
+    section.state("time",
+                  all > 0.0
+                      ? fmt::format("Time: {:.1f} s with {} thread{} ({}).", values["ensemble_s"],
+                                    threads, threads == "1" ? "" : "s", analysis::joined(shares))
+                      : "",
+                  analysis::Shown::screen);
+    const double superposed = values["superposed_records"],
+                 full = values["superposition_fallback_records"];
+    section.state("time.superposed",
+                  superposed + full > 0.0
+                      ? fmt::format("{} of {} records were superposed; {} were integrated in full, "
+                                    "because a tooth pair may lose contact or the fault acts "
+                                    "during the whole span.",
+                                    superposed, superposed + full, full)
+                      : "");
+    return section;
+}
+
+// Fills the report and the feature of its answer.
+void fill_report(const Results& frame, const RowSource& rows,
+                 const std::optional<analysis::Reliability>& reliability, RunFindings& run) {
     const FaultPlan fault = run.facts ? run.facts->fault : FaultPlan{};
     std::vector<std::string> units;
     for (const FeatureResult& feature : frame.features) {
@@ -142,10 +188,16 @@ analysis::Report report_of(const Results& frame, const RowSource& rows,
                                        frame.request, subject_of(frame), fault.words,
                                        reference_level(frame.noise_levels), units,
                                        [&fault](double size) { return fault.share.text(size); }});
-    analysis::Report report;
+    if (!findings.detection.empty() && findings.levels() > 0) {
+        run.best_feature = findings.name(findings.best(findings.reference));
+    }
+    analysis::Report& report = run.report;
     report.add(state_section(frame, run.failures.counts));
-    report.add(analysis::headline_section(findings, run.facts ? run.facts->conditions : "",
-                                          facts_text(findings, run.failures.counts, run.facts)));
+    analysis::Section answer =
+        analysis::headline_section(findings, run.facts ? run.facts->conditions : "",
+                                   facts_text(findings, run.failures.counts, run.facts));
+    answer.state("record", run.facts ? run.facts->record : "");
+    report.add(std::move(answer));
     report.add(analysis::limits_section(findings, numerical_of(findings, run.numerical),
                                         other_fault_of(findings, frame, run)));
     analysis::Section values = feature_values(frame, rows);
@@ -170,7 +222,7 @@ analysis::Report report_of(const Results& frame, const RowSource& rows,
     report.add(contact_section(run.contact_loss));
     report.add(numerical_section(frame, run.numerical));
     report.add(failures_section(frame, run.failures));
-    return report;
+    report.add(time_section(frame));
 }
 
 using Json = nlohmann::json;
@@ -266,58 +318,18 @@ RunFindings findings_of_run(const Results& frame, const RowSource& rows,
                     .monitoring = monitoring_over_time(frame, rows),
                     .sensors = sensor_detections(frame, rows),
                     .contact_loss = summarise_contact_loss(frame, rows)};
-    run.report = report_of(frame, rows, reliability, run);
+    fill_report(frame, rows, reliability, run);
     return run;
 }
 
-std::string headline_text(const analysis::Report& report) {
-    std::string text;
-    for (const char* key : {"headline", "limit.other_fault", "assumptions", "shortage"}) {
-        if (const std::string statement = statement_text(report, key); !statement.empty()) {
-            analysis::add_wrapped(text, statement, 2);
-        }
+std::vector<std::string> screen_end(const std::string& file, bool part) {
+    if (part) {
+        return {"results: " + file,
+                "Join it with all other parts: gearpod merge " + file + " ... --out WHOLE.h5"};
     }
-    return text;
-}
-
-void print_computing_times(const EnsembleOutcome& outcome) {
-    const int threads = outcome.threads();
-    const std::size_t ranks = outcome.teams.size();
-    fmt::print("computing time ({} rank{}, {} thread{} in total, {:.1f} s):\n", ranks,
-               ranks == 1 ? "" : "s", threads, threads == 1 ? "" : "s", outcome.wall_s);
-    fmt::print("  {:<11} {:>7} {:>12}{}\n", "", "share", "thread s",
-               ranks > 1 ? "   per rank: least, mean, most" : "");
-    const double total = std::max(1e-9, threads * outcome.wall_s);
-    const std::pair<const char*, double (*)(const TeamTimes&)> tasks[] = {
-        {"sampling", [](const TeamTimes& t) { return t.work.sampling; }},
-        {"stiffness", [](const TeamTimes& t) { return t.work.stiffness; }},
-        {"integration", [](const TeamTimes& t) { return t.work.integration; }},
-        {"signals", [](const TeamTimes& t) { return t.work.signals; }},
-        {"noise", [](const TeamTimes& t) { return t.work.noise; }},
-        {"features", [](const TeamTimes& t) { return t.work.features; }},
-        {"waiting", [](const TeamTimes& t) { return t.waiting; }},
-        {"output", [](const TeamTimes& t) { return t.output; }}};
-    for (const auto& [name, seconds_of] : tasks) {
-        std::vector<double> seconds;
-        for (const TeamTimes& team : outcome.teams) {
-            seconds.push_back(seconds_of(team));
-        }
-        const double sum = std::accumulate(seconds.begin(), seconds.end(), 0.0);
-        fmt::print("  {:<11} {:5.1f} % {:12.2f}", name, 100.0 * sum / total, sum);
-        if (ranks > 1) {
-            fmt::print("   {:9.2f} {:9.2f} {:9.2f}", std::ranges::min(seconds),
-                       sum / static_cast<double>(ranks), std::ranges::max(seconds));
-        }
-        fmt::print("\n");
-    }
-    const Seconds work = outcome.work();
-    if (const long records = work.superposed + work.superposition_fallbacks; records > 0) {
-        fmt::print(
-            "  (integration: {} of {} records superposed; {} integrated in full, because a\n"
-            "  tooth pair may lose contact or the fault acts during the whole span)\n",
-            work.superposed, records, work.superposition_fallbacks);
-    }
-    fmt::print("  (output: checkpoints, written in parallel by the main thread of rank 0)\n");
+    const auto page = std::filesystem::path(file).replace_extension(".html").string();
+    return {"results: " + file,
+            fmt::format("All findings: gearpod report {} --full; page: --html {}", file, page)};
 }
 
 nlohmann::json definition_json(std::string_view name, std::string_view unit,
@@ -338,13 +350,14 @@ nlohmann::json report_json(const Results& frame, const RowSource& rows,
     const auto measured =
         facts ? std::nullopt : measuring_facts(frame.provenance_value("measured_by_study"));
     json["title"] = facts ? facts->ensemble.title : measured ? measured->title : "";
-    json["assumptions"] = facts ? facts->conditions : "";
+    json["assumptions"] = facts ? facts->conditions + " " + facts->record : "";
     json["fault"] = facts && facts->fault.given() ? Json(facts->fault.words) : Json(nullptr);
     json["detection"] = analysis::detection_json(frame.detection, frame.request, subject_of(frame));
     json["reliability"] =
         reliability ? analysis::reliability_json(*reliability, frame.request) : Json(nullptr);
     json["smallest_fault"] =
         analysis::smallest_faults_json(frame.detection, reliability ? &*reliability : nullptr);
+    json["best_feature"] = run.best_feature;
     json["findings"] = analysis::findings_json(run.report);
     json["numerical"] = numerical_json(frame, run.numerical);
     json["step_error"] = analysis::json_of(frame.step_error);

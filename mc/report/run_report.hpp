@@ -1,13 +1,14 @@
-// Report of a run, and its computing times for the terminal.
+// Report of a run.
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
+#include <string>
 #include <string_view>
+#include <vector>
 
 #include "analysis/reliability.hpp"
 #include "analysis/report/report.hpp"
-#include "mc/ensemble/ensemble.hpp"
 #include "mc/plan/study_facts.hpp"
 #include "mc/report/alarm_rates.hpp"
 #include "mc/report/gearbox_values.hpp"
@@ -29,6 +30,7 @@ struct RunFindings {
     std::optional<MonitoringOverTime> monitoring;
     std::vector<SensorDetection> sensors;
     std::vector<ContactLossSummary> contact_loss;
+    std::string best_feature = {};  // of the answer; "" without features
     analysis::Report report = {};
 };
 
@@ -43,13 +45,15 @@ inline analysis::Report results_report(const Results& frame, const RowSource& ro
     return findings_of_run(frame, rows, reliability).report;
 }
 
-// The answer for the end of a run: its sentence, the conditions for which it holds, and a warning
-// of too few healthy gearboxes.
-std::string headline_text(const analysis::Report& report);
+// Names of all sections that a report of a run can have, in their order.
+inline const std::vector<std::string> kRunSections{
+    "state",       "answer",   "limits",       "thresholds", "rates",
+    "pod",         "ranking",  "false_alarms", "inputs",     "conditions",
+    "values",      "too_many", "over_time",    "monitoring", "sensors",
+    "other_fault", "contact",  "numerical",    "failures",   "time"};
 
-// Prints the computing time by task, summed over all threads, with the least, mean and largest
-// value of a rank.
-void print_computing_times(const EnsembleOutcome& outcome);
+// Last lines of the screen: the file, and the commands for everything else.
+std::vector<std::string> screen_end(const std::string& file, bool part);
 
 // Complete report of a run as JSON, for other programs and for the page (analysis/report).
 

@@ -38,6 +38,11 @@ std::string baseline_differences(const Study& study) {
     for (const std::string& property : study.features.baseline_redraws) {
         names.push_back(property == "pins" ? "pin positions" : "teeth in mesh");
     }
+    constexpr std::size_t kMostNamed = 2;
+    if (names.size() > kMostNamed + 1) {
+        names.push_back(fmt::format("{} other inputs", names.size() - kMostNamed));
+        names.erase(names.begin() + kMostNamed, names.end() - 1);
+    }
     return names.empty() ? "that has the same assembly, path and sensor mounting"
                          : fmt::format("that differs in {}", fmt::join(names, ", "));
 }

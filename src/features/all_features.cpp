@@ -52,12 +52,11 @@ constexpr std::array kFeatures{
     feature<sensor_rms>("sensor_rms", "overall vibration level", "m/s^2", AlarmSide::high,
                         "rms of the sensor signal over the span"),
     feature<window_ratio<Member::planet>>(
-        "window_ratio", "vibration at the worst tooth over that at the median tooth", "1",
-        AlarmSide::high,
+        "window_ratio", "tooth ratio", "1", AlarmSide::high,
         "largest tooth rms over the median tooth rms; after Liang (2016), Fig. 5.8"),
     feature<window_z<Member::planet>>(
-        "window_z", "vibration at the worst tooth against the scatter of its teeth", "1",
-        AlarmSide::high, "worst tooth's rms against the other teeth, robust standard score"),
+        "window_z", "tooth z-score", "1", AlarmSide::high,
+        "worst tooth's rms against the other teeth, robust standard score"),
     feature<te_fm4>(
         "te_fm4", "kurtosis of the irregular part of the transmission error", "1", AlarmSide::high,
         "kurtosis of the transmission error without mesh harmonics and first sidebands"),
@@ -99,12 +98,11 @@ constexpr std::array kFeatures{
     feature<window_m8a<Member::planet>>(
         "window_m8a", "eighth moment at the worst tooth over that at the median tooth", "1",
         AlarmSide::high, "largest planet tooth M8A over the median one"),
-    feature<window_ratio<Member::sun>>(
-        "sun_window_ratio", "vibration at the worst sun tooth over that at the median tooth", "1",
-        AlarmSide::high, "largest sun tooth rms over the median one"),
+    feature<window_ratio<Member::sun>>("sun_window_ratio", "sun tooth ratio", "1", AlarmSide::high,
+                                       "largest sun tooth rms over the median one"),
     feature<window_z<Member::sun>>(
-        "sun_window_z", "vibration at the worst sun tooth against the scatter of its teeth", "1",
-        AlarmSide::high, "worst sun tooth's rms against the others, robust standard score"),
+        "sun_window_z", "sun tooth z-score", "1", AlarmSide::high,
+        "worst sun tooth's rms against the others, robust standard score"),
     feature<window_kurtosis<Member::sun>>(
         "sun_window_kurtosis", "kurtosis at the worst sun tooth over that at the median tooth", "1",
         AlarmSide::high, "largest sun tooth kurtosis over the median one"),
@@ -114,12 +112,12 @@ constexpr std::array kFeatures{
     feature<window_m8a<Member::sun>>(
         "sun_window_m8a", "eighth moment at the worst sun tooth over that at the median tooth", "1",
         AlarmSide::high, "largest sun tooth M8A over the median one"),
-    feature<window_ratio<Member::ring>>(
-        "ring_window_ratio", "vibration at the worst ring tooth over that at the median tooth", "1",
-        AlarmSide::high, "largest ring tooth rms over the median one"),
+    feature<window_ratio<Member::ring>>("ring_window_ratio", "ring tooth ratio", "1",
+                                        AlarmSide::high,
+                                        "largest ring tooth rms over the median one"),
     feature<window_z<Member::ring>>(
-        "ring_window_z", "vibration at the worst ring tooth against the scatter of its teeth", "1",
-        AlarmSide::high, "worst ring tooth's rms against the others, robust standard score"),
+        "ring_window_z", "ring tooth z-score", "1", AlarmSide::high,
+        "worst ring tooth's rms against the others, robust standard score"),
     feature<window_kurtosis<Member::ring>>(
         "ring_window_kurtosis", "kurtosis at the worst ring tooth over that at the median tooth",
         "1", AlarmSide::high, "largest ring tooth kurtosis over the median one"),
@@ -134,9 +132,7 @@ constexpr std::array kFeatures{
                  "peak-to-peak of the average over the sum of its mesh harmonics' amplitudes; "
                  "Stewart (1977)"),
     feature<whitened_window_ratio>(
-        "whitened_window_ratio",
-        "pre-whitened vibration at the worst tooth over that at the median tooth", "1",
-        AlarmSide::high,
+        "whitened_window_ratio", "tooth ratio after pre-whitening", "1", AlarmSide::high,
         "largest over median tooth rms after cepstral pre-whitening; Borghesani et al. (2013)"),
     feature<te_speed_kurtosis>("te_speed_kurtosis", "kurtosis of the speed error", "1",
                                AlarmSide::high,
@@ -165,10 +161,10 @@ constexpr std::string_view kChangeFeatures[] = {"sensor_rms",    "window_ratio",
 
 // Features of the change that no single record has, and of the record and its change together.
 constexpr Feature kurtosis_of_change() {
-    Feature change = feature<turn_kurtosis>(
-        "change_kurtosis", "kurtosis of the change since the baseline record", "1", AlarmSide::high,
-        "kurtosis, normal = 3, of the average of the record less "
-        "the gearbox's own baseline record");
+    Feature change =
+        feature<turn_kurtosis>("change_kurtosis", "kurtosis of the change", "1", AlarmSide::high,
+                               "kurtosis, normal = 3, of the average of the record less "
+                               "the gearbox's own baseline record");
     change.baseline_use = BaselineUse::change;
     return change;
 }
@@ -191,7 +187,7 @@ class Catalogue {
             Feature change = *std::find_if(kFeatures.begin(), kFeatures.end(),
                                            [&](const Feature& f) { return f.name == name; });
             change.name = text("change_", change.name, "");
-            change.title = text("", change.title, " in the change since the baseline record");
+            change.title = text("", change.title, " of the change");
             change.doc =
                 text("", change.doc, ", of the record less the gearbox's own baseline record");
             change.baseline_use = BaselineUse::change;
@@ -201,7 +197,7 @@ class Catalogue {
         all_.push_back(correlation_with_baseline());
         for (Feature ratio : kFeatures) {
             ratio.name = text("own_", ratio.name, "");
-            ratio.title = text("", ratio.title, " relative to the baseline record");
+            ratio.title = text("", ratio.title, " relative to the baseline");
             ratio.doc =
                 text("", ratio.name.substr(4), " over that of the gearbox's own baseline record");
             ratio.unit = "1";

@@ -12,12 +12,13 @@ import os
 import statistics
 import tempfile
 
-from measuring import arguments, bench_program, finished, number_in, parsed, ratio, show, table
+from measuring import arguments, bench_program, finished, number_in, parsed, ratio, show, table, times_in
 
 COMMANDS = ["studies/planet-crack-ideal.toml", "studies/reference-10k.toml",
             "studies/reference-10k.toml --set numerics.tolerance=1e-3", "studies/planet-crack.toml"]
 LIVES = "studies/planet-life.toml"
 OPERATIONS = 1e11
+PARTS = ["sampling", "stiffness", "integration", "signals", "noise", "features", "waiting"]
 
 
 def rate(peaks: str) -> float:
@@ -28,11 +29,12 @@ def rate(peaks: str) -> float:
 def run(program: str, peaks: str, command: str, out: str) -> dict[str, float]:
     before = rate(peaks)
     done = finished([program, "run", *command.split(), "--out", out, "--force"])
-    share = {phase: number_in(rf"^  {phase} +([\d.]+) %", done.output) for phase in ("integration", "noise", "features")}
-    return {"gearboxes": number_in(r"^gearboxes: \d+ of (\d+) failed", done.output), "wall": done.wall_s,
-            "processor": done.processor_s, "integration": share["integration"],
-            "noise and features": share["noise"] + share["features"],
-            "detection": number_in(r"detection and results ([\d.]+) s", done.output),
+    times = times_in(out)
+    percent = 100 / sum(times[part] for part in PARTS)
+    return {"gearboxes": times["rows"], "wall": done.wall_s,
+            "processor": done.processor_s, "integration": percent * times["integration"],
+            "noise and features": percent * (times["noise"] + times["features"]),
+            "detection": done.wall_s - times["setup"] - times["ensemble"],
             "ratio": done.processor_s / (OPERATIONS * (1 / before + 1 / rate(peaks)) / 2)}
 
 

@@ -14,7 +14,7 @@ of the largest number in the same round.
 import argparse
 import tempfile
 
-from measuring import arguments, finished, number_in, parsed, processor_s, ratio, show, table
+from measuring import arguments, finished, parsed, processor_s, ratio, show, table, times_in
 
 PHASES = ["sampling", "stiffness", "integration", "signals", "noise", "features", "output"]
 
@@ -28,7 +28,8 @@ def run(options: argparse.Namespace, graded: int, folder: str) -> dict[str, floa
     whole = finished(command)
     detection = processor_s([options.program, "report", results])
     times = {"gearboxes": whole.processor_s - detection, "detection": detection}
-    return times | {p: number_in(rf"^  {p} +[0-9.]+ % +([0-9.]+)", whole.output) for p in PHASES}
+    parts = times_in(results)
+    return times | {part: parts[part] for part in PHASES}
 
 
 def line_through(sizes: list[int], seconds: list[float]) -> tuple[float, float]:

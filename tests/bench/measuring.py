@@ -15,6 +15,8 @@ import tempfile
 import time
 from collections.abc import Sequence
 
+import h5py
+
 Part = dict[str, list | dict]
 SUCCESS = (0, 3)  # 3: some gearboxes failed
 
@@ -46,6 +48,14 @@ def finished(command: Sequence[str], environment: dict[str, str] | None = None) 
 
 def processor_s(command: Sequence[str]) -> float:
     return finished(command).processor_s
+
+
+def times_in(results: str) -> dict[str, float]:
+    """Seconds of a results file by part of the work, and its number of rows."""
+    with h5py.File(results) as file:
+        times = {name.removesuffix("_thread_s").removesuffix("_s"): float(value[()])
+                 for name, value in file["timing"].items()}
+        return times | {"rows": len(file["status"])}
 
 
 def number_in(pattern: str, text: str) -> float:

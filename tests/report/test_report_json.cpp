@@ -1,9 +1,12 @@
 // Checks a report's JSON for any results: each number is finite or null, and missing results have a
 // reason.
+#include <filesystem>
 #include <nlohmann/json.hpp>
+#include <sstream>
 
 #include "mc/report/run_report.hpp"
 #include "mc/results/reliability_of_results.hpp"
+#include "mc/study/study.hpp"
 #include "tests/report/report_cases.hpp"
 #include "tests/test.hpp"
 
@@ -22,6 +25,59 @@ Json case_json(const std::string& name) {
         std::find_if(cases.begin(), cases.end(), [&](const auto& c) { return c.name == name; });
     REQUIRE(found != cases.end());
     return json_of(found->results);
+}
+
+// Checks that the screen of a report fits, and that its first 12 lines have the answer, the
+// condition and the next step.
+void check_screen(const mc::Results& results, bool curves) {
+    const mc::ColumnRows rows(results);
+    const auto reliability = curves ? mc::reliability_of(results, rows, "", 2) : std::nullopt;
+    const mc::RunFindings run = mc::findings_of_run(results, rows, reliability);
+    std::istringstream screen(screen_text(run.report, mc::screen_end("results.h5", false)));
+    std::string first;
+    std::size_t lines = 0;
+    for (std::string line; std::getline(screen, line); ++lines) {
+        INFO(line);
+        CHECK(line.size() <= analysis::kScreenColumns);
+        first += lines < 12 ? line.substr(line.starts_with("  ") ? 2 : 0) + " " : "";
+    }
+    INFO(first);
+    CHECK(lines <= analysis::kScreenLines);
+    for (const char* key : {"headline", "assumptions", "next"}) {
+        CHECK_THAT(first, Catch::Contains(statement_text(run.report, key)));
+    }
+    for (const analysis::Section& section : run.report.sections) {
+        INFO(section.key);
+        CHECK(std::ranges::count(mc::kRunSections, section.key) == 1);
+    }
+}
+
+TEST_CASE("The first screen of any results has 40 lines of 80 columns") {
+    for (const tests::ReportCase& each : tests::report_cases()) {
+        INFO(each.name);
+        check_screen(each.results, true);
+    }
+}
+
+TEST_CASE("The screen of every shipped study begins with answer, condition and next step") {
+    const auto cases = tests::report_cases();
+    const auto usual = std::ranges::find(cases, std::string("usual"), &tests::ReportCase::name);
+    std::size_t studies = 0;
+    for (const auto& file :
+         std::filesystem::recursive_directory_iterator(GEARPOD_SOURCE_DIR "/studies")) {
+        if (file.path().extension() != ".toml") {
+            continue;
+        }
+        INFO(file.path().string());
+        const mc::StudyReading reading = mc::read_study(file.path().string(), {});
+        REQUIRE(reading.study);
+        mc::Results results = usual->results;
+        std::erase_if(results.provenance, [](const auto& entry) { return entry.first == "study"; });
+        results.provenance.emplace_back("study", mc::resolved_text(*reading.study));
+        check_screen(results, false);
+        ++studies;
+    }
+    CHECK(studies > 30);
 }
 
 void check_numbers(const Json& json) {

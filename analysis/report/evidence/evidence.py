@@ -26,7 +26,9 @@ SUBJECTS = (
     ("further", "Further findings", "", ""))
 
 # Subject of the findings in each section of a report; those of other sections are further findings.
-SECTIONS = {"state": "limits", "headline": "detection", "limits": "limits", "values": "data",
+SECTIONS = {"state": "limits", "answer": "detection", "headline": "detection",
+            "limits": "limits", "values": "data", "thresholds": "threshold", "pod": "detection",
+            "false_alarms": "false_alarms", "time": "software",
             "too_many": "limits", "rates": "detection", "conditions": "threshold",
             "over_time": "detection", "monitoring": "detection", "sensors": "detection",
             "other_fault": "false_alarms", "contact": "limits", "numerical": "limits",
@@ -37,7 +39,7 @@ KEYS = {"threshold": ("thresholds.", "threshold", "tails", "costs", "facts", "mo
         "false_alarms": ("shortage", "false_", "no_false_alarms.", "monitoring.sample",
                          "monitoring.drift", "monitoring.note", "noise.", "trade_off", "effect"),
         "detection": ("headline", "rates.", "curves.", "responses", "unranked."),
-        "limits": ("assumptions", "holds", "unknown", "warning.", "interpolation", "failed", "note."),
+        "limits": ("assumptions", "next", "record", "holds", "unknown", "warning.", "interpolation", "failed", "note."),
         "data": ("table",),
         "further": ("effects",)}
 

@@ -18,6 +18,21 @@ std::string size_text(const SizeGroup& size, const SizeUnit& unit) {
                                  : number_text(size.low / unit.per_unit(), 4) + " to " + high;
 }
 
+// At most `most` of the indices below `count`, evenly spread, with the first, the last and
+// `needed`.
+std::vector<std::size_t> spread(std::size_t count, std::size_t most, std::size_t needed) {
+    std::vector<std::size_t> chosen;
+    for (std::size_t i = 0; i < std::min(count, most); ++i) {
+        chosen.push_back(count <= most ? i : i * (count - 1) / (most - 1));
+    }
+    if (std::ranges::count(chosen, needed) == 0 && count > 0) {
+        *std::ranges::min_element(chosen.begin() + 1, chosen.end() - 1, {}, [&](std::size_t i) {
+            return i < needed ? needed - i : i - needed;
+        }) = needed;
+    }
+    return chosen;
+}
+
 template <typename Has>
 bool any_feature(const Findings& findings, std::size_t level, Has has) {
     return std::any_of(findings.detection.begin(), findings.detection.end(),
@@ -107,33 +122,6 @@ Table rate_table(const Findings& findings, std::size_t n) {
     return table;
 }
 
-Table reliable_table(const Findings& findings) {
-    const SizeUnit& unit = findings.request.size;
-    const bool noise = findings.subject == Subject::gearboxes;
-    Table table{"reliable_sizes",
-                fmt::format("Smallest tested size at and above which the lower bound of Pd is at "
-                            "least {}",
-                            number_text(kReliablePd)),
-                {noise ? "noise" : ""},
-                {}};
-    for (const FeatureDetection& feature : findings.detection) {
-        table.columns.push_back(feature.feature);
-    }
-    for (std::size_t n = 0; n < findings.levels(); ++n) {
-        std::vector<std::string> row{noise ? "x " + number_text(findings.request.noise_levels[n])
-                                           : "size"};
-        for (const FeatureDetection& feature : findings.detection) {
-            const auto size = reliable_size(feature.levels[n], kReliablePd);
-            const std::string shown = unit.shown_unit();
-            row.push_back(std::isnan(feature.levels[n].threshold) ? "no threshold"
-                          : !size                                 ? "not reached"
-                                  : size_text(*size, unit) + (shown.empty() ? "" : " " + shown));
-        }
-        table.rows.push_back(std::move(row));
-    }
-    return table;
-}
-
 // Every fit of the thresholds beyond the healthy sample.
 Table tail_table(const Findings& findings) {
     Table table{"tails",
@@ -141,7 +129,7 @@ Table tail_table(const Findings& findings) {
                 {"feature", "noise", "rarer than one in the sample", "values fitted",
                  "fitted above", "shape", "threshold", "expected rate of the threshold used"},
                 {},
-                true};
+                Shown::page};
     for (const FeatureDetection& feature : findings.detection) {
         for (const LevelDetection& level : feature.levels) {
             for (const TailChoice& choice :
@@ -250,7 +238,7 @@ void add_ranking(Section& section, const Findings& findings, std::size_t n) {
                             ranking.healthy, ranking.faulty, plural(findings.subject)),
                 {"rank", "feature", "area", "p against the first"},
                 {},
-                true};
+                Shown::page};
     for (std::size_t i = 0; i < ranking.ranks.size(); ++i) {
         const FeatureRank& rank = ranking.ranks[i];
         table.rows.push_back({fmt::format("{}", i + 1), rank.name,
@@ -266,11 +254,12 @@ void add_ranking(Section& section, const Findings& findings, std::size_t n) {
 
 void add_responses(Section& section, const Findings& findings, std::size_t n) {
     const SizeUnit& unit = findings.request.size;
-    Table table{fmt::format("responses.{}", n),
-                "The feature itself over the size (a-hat against a)",
-                {"feature", "scale", in_unit("a50", unit), in_unit("a90", unit),
-                 in_unit(findings.bound(), unit)},
-                {}};
+    Table table{
+        fmt::format("responses.{}", n),
+        fmt::format("The feature itself over the size (a-hat against a){}", findings.at_noise(n)),
+        {"feature", "scale", in_unit("a50", unit), in_unit("a90", unit),
+         in_unit(findings.bound(), unit)},
+        {}};
     std::vector<std::string> refused;
     for (const std::size_t f : findings.order[n]) {
         const SignalResponsePod& pod = findings.reliable(f, n).signal_response;
@@ -287,9 +276,10 @@ void add_responses(Section& section, const Findings& findings, std::size_t n) {
     section.add(std::move(table));
     section.state(fmt::format("responses_refused.{}", n),
                   refused.empty() ? ""
-                                  : fmt::format("No line through the values (a-hat against a) of "
-                                                "{}; reasons: report --json.",
-                                                joined(refused)));
+                                  : fmt::format("No curve of the feature itself over the size "
+                                                "(a-hat against a){} for {}; reasons: report "
+                                                "--json.",
+                                                findings.at_noise(n), joined(refused)));
 }
 
 std::string beyond_text(double extrapolation, bool importance_sampled) {
@@ -311,7 +301,7 @@ void add_false_alarms(Section& section, const Findings& findings, std::size_t n)
                 {"feature", "false-alarm rate", "alarm beyond", "rarer than one in the sample",
                  in_unit("a90", unit), "lower bound", "upper bound"},
                 {},
-                n != findings.reference,
+                n == findings.reference ? Shown::full : Shown::page,
                 2};
     int features = 0;
     for (const std::size_t f : findings.order[n]) {
@@ -402,33 +392,103 @@ std::string condition_title(const Findings& findings, const ConditionDetection& 
 
 }  // namespace
 
-void add_detection(Section& section, const Findings& findings, std::size_t level) {
-    if (findings.unassessable.empty()) {
-        section.state(fmt::format("headline.{}", level), headline_text(findings, level));
+Table noise_table(const Findings& findings) {
+    constexpr std::size_t kMostSizes = 9, kMostLevels = 4;
+    const std::size_t best = findings.best(findings.reference);
+    const bool noise = findings.subject == Subject::gearboxes, sized = has_sizes(findings.request);
+    const auto& cells = findings.detection[best].levels.front().cells;
+    std::vector<std::size_t> faulty;
+    for (std::size_t c = 0; c < cells.size(); ++c) {
+        if (cells[c].size.high > 0.0) {
+            faulty.push_back(c);
+        }
     }
-    section.add(threshold_table(findings, level));
-    section.add(rate_table(findings, level));
+    Table table{"rates_by_noise",
+                "",
+                {sized ? in_unit("size", findings.request.size) : ""},
+                {},
+                Shown::screen};
+    const std::size_t sizes = faulty.size();
+    const std::vector<std::size_t> levels =
+        spread(findings.levels(), kMostLevels, findings.reference);
+    table.title =
+        fmt::format("Alarms of {} in % of the {}, with {} interval{}{}", findings.name(best),
+                    plural(findings.subject), findings.percent(),
+                    sizes > kMostSizes ? fmt::format("; {} of {} sizes", kMostSizes, sizes) : "",
+                    findings.levels() > kMostLevels
+                        ? fmt::format("; {} of {} noise levels", kMostLevels, findings.levels())
+                        : "");
+    std::vector<std::string> healthy{"healthy"};
+    for (const std::size_t n : levels) {
+        const LevelDetection& level = findings.detection[best].levels[n];
+        table.columns.push_back(noise ? "noise x " + number_text(level.noise_level) : "alarms");
+        healthy.push_back(
+            std::isnan(level.threshold)
+                ? "no threshold"
+                : percent_rate_text(findings.request.false_alarm_rate, level.threshold_rate));
+    }
+    table.rows.push_back(std::move(healthy));
+    for (const std::size_t i : spread(sizes, kMostSizes, 0)) {
+        const SizeGroup& size = cells[faulty[i]].size;
+        std::vector<std::string> row{sized ? size_text(size, findings.request.size) : "faulty"};
+        for (const std::size_t n : levels) {
+            const DetectionCell& cell = findings.detection[best].levels[n].cells[faulty[i]];
+            row.push_back(percent_rate_text(cell.pd, {cell.lower, cell.upper}));
+        }
+        table.rows.push_back(std::move(row));
+    }
+    return table;
 }
 
-Section rates_section(const Findings& findings) {
-    Section section{"rates", "", {}};
-    if (has_sizes(findings.request)) {
-        section.add(reliable_table(findings));
+Section thresholds_section(const Findings& findings) {
+    Section section{"thresholds", "Thresholds", {}};
+    for (std::size_t n = 0; n < findings.levels(); ++n) {
+        section.add(threshold_table(findings, n));
     }
     section.add(tail_table(findings));
     add_warnings(section, findings);
     return section;
 }
 
-void add_curves(Section& section, const Findings& findings, std::size_t level) {
-    section.add(curve_table(findings, level));
-    add_ranking(section, findings, level);
-    if (has_sizes(findings.request)) {
-        section.state(fmt::format("unknown.{}", level), unknown_text(findings, level));
-        add_responses(section, findings, level);
-        add_false_alarms(section, findings, level);
-        add_costs(section, findings, level);
+Section rates_section(const Findings& findings) {
+    Section section{"rates", "Detection rates", {}};
+    for (std::size_t n = 0; n < findings.levels(); ++n) {
+        if (findings.unassessable.empty()) {
+            section.state(fmt::format("headline.{}", n), headline_text(findings, n));
+        }
+        section.add(rate_table(findings, n));
     }
+    return section;
+}
+
+Section pod_section(const Findings& findings) {
+    const bool sized = has_sizes(findings.request);
+    Section section{"pod", sized ? "Probability of detection" : "Area under the ROC", {}};
+    for (std::size_t n = 0; n < findings.levels(); ++n) {
+        section.add(curve_table(findings, n));
+        if (sized) {
+            section.state(fmt::format("unknown.{}", n), unknown_text(findings, n));
+            add_responses(section, findings, n);
+        }
+    }
+    return section;
+}
+
+Section ranking_section(const Findings& findings) {
+    Section section{"ranking", "Ranking of the features", {}};
+    for (std::size_t n = 0; n < findings.levels(); ++n) {
+        add_ranking(section, findings, n);
+    }
+    return section;
+}
+
+Section false_alarms_section(const Findings& findings) {
+    Section section{"false_alarms", "Detection by false-alarm rate and cost", {}};
+    for (std::size_t n = 0; has_sizes(findings.request) && n < findings.levels(); ++n) {
+        add_false_alarms(section, findings, n);
+        add_costs(section, findings, n);
+    }
+    return section;
 }
 
 Section conditions_section(const Findings& findings) {

@@ -4,8 +4,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <initializer_list>
 #include <numeric>
+#include <utility>
 
+#include "analysis/detection/threshold.hpp"
 #include "analysis/report/false_alarm_text.hpp"
 #include "analysis/report/wording.hpp"
 
@@ -73,25 +76,39 @@ std::string source_text(const Findings& findings, const SmallestFault& found) {
                              number_text(found.source.noise_level));
 }
 
-// Feature that finds most of the largest faults, the best ranked one of several, with its cell.
-struct BestRate {
-    std::string feature;
-    const DetectionCell* cell = nullptr;
+// Cell of the largest faults with a rate; null without one.
+const DetectionCell* largest_cell(const LevelDetection& level) {
+    const auto last = std::find_if(
+        level.cells.rbegin(), level.cells.rend(),
+        [](const DetectionCell& cell) { return cell.size.high > 0.0 && !std::isnan(cell.pd); });
+    return last == level.cells.rend() ? nullptr : &*last;
+}
+
+// Sizes from the largest down of which every fault was found.
+struct FoundSizes {
+    long found = 0;
+    double from = kNan;  // smallest of them
 };
 
-BestRate best_rate(const Findings& findings, std::size_t level) {
-    BestRate best;
-    for (const std::size_t f : findings.order[level]) {
-        const FeatureDetection& feature = findings.detection[f];
-        const auto& cells = feature.levels[level].cells;
-        const auto last = std::find_if(cells.rbegin(), cells.rend(), [](const DetectionCell& cell) {
-            return cell.size.high > 0.0 && !std::isnan(cell.pd);
-        });
-        if (last != cells.rend() && (best.cell == nullptr || last->pd > best.cell->pd)) {
-            best = {feature.feature, &*last};
+FoundSizes sizes_without_miss(const LevelDetection& level) {
+    FoundSizes sizes;
+    for (auto cell = level.cells.rbegin(); cell != level.cells.rend(); ++cell) {
+        if (cell->size.high <= 0.0 || cell->tested == 0 || cell->detected < cell->tested) {
+            break;
         }
+        sizes.found += cell->tested;
+        sizes.from = cell->size.low;
     }
-    return best;
+    return sizes;
+}
+
+// Most gearboxes with a value of one size.
+long most_per_size(const LevelDetection& level) {
+    long most = 0;
+    for (const DetectionCell& cell : level.cells) {
+        most = cell.size.high > 0.0 ? std::max(most, cell.tested) : most;
+    }
+    return most;
 }
 
 // Number of features without a threshold, whose detection is therefore unknown; "" if all have one.
@@ -118,26 +135,24 @@ Table smallest_table(const Findings& findings) {
     Table table{
         "smallest_fault",
         fmt::format("Smallest {} found with {}", findings.fault_name(), findings.probability()),
-        {noise ? "noise" : "", in_unit("size", request.size), "feature", "alarm if",
-         fmt::format("false alarms [{}]", findings.percent())},
-        {}};
+        {noise ? "noise" : "", in_unit("size", request.size), "feature", "alarm if"},
+        {},
+        Shown::screen};
     for (std::size_t n = 0; n < findings.levels(); ++n) {
         const std::string label =
             noise ? "x " + number_text(request.noise_levels[n]) : "recordings";
         const auto& found = findings.smallest[n];
-        if (!found) {
-            table.rows.push_back(
-                {label, without_threshold(findings.detection, n) ? "no threshold" : "none", "-",
-                 "-", "-"});
-            continue;
-        }
-        const std::size_t f = findings.feature(found->feature);
-        const LevelDetection& level = findings.detection[f].levels[n];
-        table.rows.push_back({label,
-                              number_text(found->size / request.size.per_unit()) +
-                                  (found->from_curve ? "" : "*") + (found->from_itself ? "" : "+"),
-                              found->feature, findings.alarm_if(f, n, 4),
-                              rate_text(request.false_alarm_rate, level.threshold_rate)});
+        table.rows.push_back(
+            found ? std::vector<std::string>{label,
+                                             number_text(found->size / request.size.per_unit()) +
+                                                 (found->from_curve ? "" : "*") +
+                                                 (found->from_itself ? "" : "+"),
+                                             found->feature,
+                                             findings.alarm_if(findings.feature(found->feature), n,
+                                                               4)}
+                  : std::vector<std::string>{
+                        label, without_threshold(findings.detection, n) ? "no threshold" : "none",
+                        "-", "-"});
     }
     return table;
 }
@@ -153,13 +168,14 @@ void add_notes(Section& section, const Findings& findings) {
             carried.push_back(source_text(findings, *found));
         }
     }
-    section.state("note.tested", tested ? kTestedAlone : "");
+    section.state("note.tested", tested ? kTestedAlone : "", Shown::screen);
     section.state("note.carried",
                   carried.empty()
                       ? ""
                       : fmt::format("+ Bound of another feature or noise level, which detects no "
                                     "more faults of any tested size: {}.",
-                                    joined(carried)));
+                                    joined(carried)),
+                  Shown::screen);
 }
 
 // How the smallest fault found depends on noise.
@@ -258,7 +274,19 @@ std::string Findings::unit(std::size_t feature) const {
 }
 
 std::size_t Findings::best(std::size_t level) const {
-    return smallest[level] ? feature(smallest[level]->feature) : order[level].front();
+    if (smallest[level]) {
+        return feature(smallest[level]->feature);
+    }
+    std::size_t best = order[level].front();
+    double most = -1.0;
+    for (const std::size_t f : order[level]) {
+        const DetectionCell* largest = largest_cell(detection[f].levels[level]);
+        if (largest != nullptr && largest->pd > most) {
+            best = f;
+            most = largest->pd;
+        }
+    }
+    return best;
 }
 
 std::string Findings::fault_name() const {
@@ -300,56 +328,196 @@ std::string Findings::alarm_if(std::size_t feature, std::size_t level, int digit
                              shown.empty() ? "" : " ", shown);
 }
 
-Section level_section(const Findings& findings, std::size_t level) {
-    Section section{fmt::format("level.{}", level), capitalised(findings.noise(level)), {}};
-    add_detection(section, findings, level);
-    if (findings.has_curves()) {
-        add_curves(section, findings, level);
-        add_influences(section, findings, level);
-    }
-    return section;
-}
-
 void add_detection_sections(Report& report, const Findings& findings) {
     if (findings.detection.empty()) {
         return;
     }
-    for (std::size_t n = 0; n < findings.levels(); ++n) {
-        report.add(level_section(findings, n));
-    }
+    report.add(thresholds_section(findings));
     report.add(rates_section(findings));
+    if (findings.has_curves()) {
+        report.add(pod_section(findings));
+        report.add(ranking_section(findings));
+        report.add(false_alarms_section(findings));
+        report.add(inputs_section(findings));
+    }
     report.add(conditions_section(findings));
 }
+
+namespace {
+
+// "cracks", "pitting"
+std::string faults(const Findings& findings) {
+    return findings.fault.starts_with("a ") ? findings.fault_name() + "s" : findings.fault_name();
+}
+
+// What the best feature finds where 90 % probability is not shown.
+std::string best_text(const Findings& findings, std::size_t f, std::size_t level) {
+    const LevelDetection& detected = findings.detection[f].levels[level];
+    const FoundSizes all = sizes_without_miss(detected);
+    const long needed = tests_to_show(kReliablePd, findings.request.confidence);
+    const bool sized = has_sizes(findings.request);
+    const long most = most_per_size(detected);
+    const std::string few = fmt::format(
+        "up to {} per size cannot show 90 %: {} without a miss are needed", most, needed);
+    if (all.found > 0 && most < needed) {
+        return sized
+                   ? fmt::format("finds all {} {} of {} or more, but {}", all.found,
+                                 faults(findings), with_unit(all.from, findings.request.size), few)
+                   : fmt::format("finds all {}, but {} without a miss are needed", all.found,
+                                 needed);
+    }
+    const DetectionCell& cell = *largest_cell(detected);
+    return fmt::format("finds {} % of {}{}", percent_rate_text(cell.pd, {cell.lower, cell.upper}),
+                       sized ? "those of " + range_text(cell.size, findings.request.size)
+                             : "the faulty " + plural(findings.subject),
+                       sized && most < needed ? "; " + few : "");
+}
+
+}  // namespace
 
 std::string headline_text(const Findings& findings, std::size_t level) {
     if (!findings.unassessable.empty()) {
         return findings.unassessable;
     }
     const std::string at_noise = findings.at_noise(level);
+    const std::string start = at_noise.empty() ? "" : at_noise.substr(1) + " ";
     const bool sized = has_sizes(findings.request);
-    if (const auto& found = findings.smallest[level]) {
-        return fmt::format("{} found with {} by {}{}.",
+    const std::size_t best = findings.best(level);
+    const LevelDetection& detected = findings.detection[best].levels[level];
+    const auto& found = findings.smallest[level];
+    const FoundSizes all = sizes_without_miss(detected);
+    if (found && !found->from_itself && sized && all.found > 0) {
+        return fmt::format(
+            "{} finds all {} {} of {} or more{}: up to {} per size, where {} without a miss show "
+            "{}. "
+            "{} of {} is shown by {}, which finds no more.",
+            capitalised(feature_text(found->feature)), all.found, faults(findings),
+            with_unit(all.from, findings.request.size), at_noise, most_per_size(detected),
+            tests_to_show(kReliablePd, findings.request.confidence), findings.probability(),
+            capitalised(findings.fault), size_and_share(findings, found->size),
+            source_text(findings, *found));
+    }
+    if (found) {
+        return fmt::format("{} found with {} by {}{}{}.",
                            sized ? fmt::format("{} of {} is", capitalised(findings.fault),
                                                size_and_share(findings, found->size))
                                  : "The faulty " + plural(findings.subject) + " are",
-                           findings.probability(), feature_text(found->feature), at_noise);
+                           findings.probability(), feature_text(found->feature), at_noise,
+                           found->from_itself
+                               ? ""
+                               : fmt::format(": it finds no less than {}, whose size this is",
+                                             source_text(findings, *found)));
     }
     if (without_threshold(findings.detection, level)) {
-        return capitalised((at_noise.empty() ? "" : at_noise.substr(1) + " ") +
-                           "no feature has a threshold, so detection is unknown.");
+        return capitalised(start + "no feature has a threshold, so detection is unknown.");
     }
-    const BestRate best = best_rate(findings, level);
-    if (best.cell == nullptr) {
-        return capitalised((at_noise.empty() ? "" : at_noise.substr(1) + " ") +
-                           "no feature has a detection rate.");
+    if (largest_cell(detected) == nullptr) {
+        return capitalised(start + "no feature has a detection rate.");
     }
-    return fmt::format("No tested {} is found with {}{}. The best is {}, which finds {} of {}.{}",
+    return fmt::format("No tested {} is found with {}{}. The best feature is {}: it {}.{}",
                        findings.fault_name(), findings.probability(), at_noise,
-                       feature_text(best.feature),
-                       rate_text(best.cell->pd, best.cell->lower, best.cell->upper),
-                       sized ? "those of " + range_text(best.cell->size, findings.request.size)
-                             : "the faulty " + plural(findings.subject),
+                       feature_text(findings.name(best)), best_text(findings, best, level),
                        silent_text(findings, level));
+}
+
+namespace {
+
+// Step that makes detection assessable.
+std::string assessable_step(const Findings& findings) {
+    const DetectionRequest& request = findings.request;
+    if (findings.subject == Subject::recordings) {
+        return fmt::format(
+            "measure at least {} healthy and {} faulty recordings",
+            std::max<long>(kFewestReported, std::min(sample_for_threshold(request.false_alarm_rate),
+                                                     sample_for_tail(request.false_alarm_rate))),
+            kFewestReported);
+    }
+    if (findings.detection.empty()) {
+        return "name features (features.use)";
+    }
+    if (findings.healthy == 0 && findings.faulty == 0) {
+        return "continue the run with --resume, or read why its gearboxes failed (section "
+               "failures)";
+    }
+    if (findings.faulty < kFewestReported) {
+        return fmt::format(
+            "for detection rates, give the fault's size levels in [random], with "
+            "{} gearboxes each (ensemble.instances)",
+            tests_to_show(kReliablePd, request.confidence));
+    }
+    return fmt::format("raise ensemble.threshold_instances to {}",
+                       std::max(kFewestReported, sample_for_threshold(request.false_alarm_rate)));
+}
+
+// Gearboxes of the study with which each size has enough of them.
+std::string more_gearboxes(const Findings& findings, const LevelDetection& detected) {
+    const long needed = tests_to_show(kReliablePd, findings.request.confidence);
+    if (findings.subject == Subject::recordings) {
+        return fmt::format("test at least {} faulty machines of each size", needed);
+    }
+    const auto sizes = static_cast<long>(detected.cells.size());
+    return fmt::format("run it with --resume --instances {}, {} gearboxes for each of {} sizes",
+                       needed * sizes, needed, sizes);
+}
+
+// Loudest noise below the reference at which a fault is found.
+std::optional<std::size_t> quieter_level(const Findings& findings) {
+    for (std::size_t n = findings.reference; n-- > 0;) {
+        if (findings.smallest[n]) {
+            return n;
+        }
+    }
+    return std::nullopt;
+}
+
+}  // namespace
+
+std::string next_step(const Findings& findings) {
+    if (!findings.unassessable.empty()) {
+        return assessable_step(findings);
+    }
+    const std::size_t level = findings.reference, best = findings.best(level);
+    const LevelDetection& detected = findings.detection[best].levels[level];
+    const DetectionCell* largest = largest_cell(detected);
+    if (largest == nullptr) {
+        return assessable_step(findings);
+    }
+    const long needed = tests_to_show(kReliablePd, findings.request.confidence);
+    const auto& found = findings.smallest[level];
+    if (most_per_size(detected) < needed &&
+        (found ? !found->from_itself : largest->upper >= kReliablePd)) {
+        return more_gearboxes(findings, detected);
+    }
+    const bool simulated = findings.subject == Subject::gearboxes;
+    if (found) {
+        const auto first = std::ranges::find_if(
+            detected.cells, [](const DetectionCell& cell) { return cell.size.high > 0.0; });
+        if (has_sizes(findings.request) && found->size <= first->size.high) {
+            return fmt::format("test {} smaller than {}, the smallest tested", faults(findings),
+                               with_unit(first->size.high, findings.request.size));
+        }
+        return !simulated ? "test the alarm on recordings that did not set its threshold"
+               : findings.levels() > 1
+                   ? "measure the noise at your sensor, and read the row of its level below"
+                   : "measure the noise at your sensor, and repeat the study with it";
+    }
+    if (const auto quieter = quieter_level(findings)) {
+        return fmt::format(
+            "reduce the noise at the sensor: at {} {}{} is found", findings.noise(*quieter),
+            findings.fault,
+            has_sizes(findings.request)
+                ? " of " + with_unit(findings.smallest[*quieter]->size, findings.request.size)
+                : "");
+    }
+    const std::string& name = findings.name(best);
+    const bool compared = name.starts_with("own_") || name.starts_with("change_");
+    return fmt::format(
+        "test larger {}, {}", faults(findings),
+        !simulated ? "another sensor or another feature"
+        : compared ? "or records at a torque closer to the baseline's "
+                     "(features.baseline_torque_scatter); no tested noise level decides it"
+                   : "or features that compare a gearbox with its own healthy record (own_ and "
+                     "change_ in features.use)");
 }
 
 std::string figure_text(const Findings& findings) {
@@ -399,15 +567,17 @@ std::string unknown_text(const Findings& findings, std::size_t level) {
 Section headline_section(const Findings& findings, const std::string& assumptions,
                          const std::string& facts) {
     const std::size_t reference = findings.reference;
-    Section section{"headline", "", {}};
+    Section section{"answer", "", {}};
     const std::string shortage =
         sample_shortage(findings.detection, findings.request, findings.subject);
-    section.state("headline", headline_text(findings, reference));
-    section.state("figure", figure_text(findings), true);
-    section.state("assumptions", assumptions);
-    section.state("shortage", findings.unassessable.empty() ? shortage : "");
+    section.state("headline", headline_text(findings, reference), Shown::screen);
+    section.state("figure", figure_text(findings), Shown::page);
+    section.state("assumptions", assumptions, Shown::screen);
+    section.state("next", "Next step: " + next_step(findings) + ".", Shown::screen);
+    section.state("shortage", findings.unassessable.empty() ? shortage : "", Shown::screen);
     if (findings.unassessable.empty()) {
-        section.state("unknown", unknown_text(findings, reference));
+        section.state("unknown", unknown_text(findings, reference), Shown::screen);
+        section.add(noise_table(findings));
         if (has_sizes(findings.request)) {
             section.add(smallest_table(findings));
             add_notes(section, findings);
@@ -423,15 +593,19 @@ Section limits_section(const Findings& findings, const std::string& numerical,
     if (!findings.unassessable.empty() || !has_sizes(findings.request)) {
         return section;
     }
-    section.state("limit.noise", noise_limit(findings));
-    section.state("limit.other_fault", other_fault);
-    if (const auto& found = findings.smallest[findings.reference]) {
-        if (findings.has_curves()) {
-            section.state("limit.misses", misses_text(findings, findings.feature(found->feature),
-                                                      findings.reference));
-        }
-        section.state("limit.sample", sample_limit(findings, *found));
-        section.state("limit.numerical", numerical);
+    const auto& found = findings.smallest[findings.reference];
+    const bool curves = findings.has_curves();
+    constexpr std::size_t kOnScreen = 2;
+    // The strongest first.
+    for (const auto& [key, text] : std::initializer_list<std::pair<const char*, std::string>>{
+             {"limit.other_fault", other_fault},
+             {"limit.noise", noise_limit(findings)},
+             {"limit.sample", found ? sample_limit(findings, *found) : ""},
+             {"limit.misses",
+              curves ? misses_text(findings, findings.best(findings.reference), findings.reference)
+                     : ""},
+             {"limit.numerical", found ? numerical : ""}}) {
+        section.state(key, text, section.blocks.size() < kOnScreen ? Shown::screen : Shown::full);
     }
     return section;
 }

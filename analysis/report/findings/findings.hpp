@@ -45,7 +45,8 @@ struct Findings : AssessedDetection {
     const std::string& name(std::size_t feature) const { return detection[feature].feature; }
     std::size_t feature(const std::string& name) const;
     std::string unit(std::size_t feature) const;
-    // Feature of the smallest fault, otherwise the best ranked one.
+    // Feature of the smallest fault, otherwise the one that finds most of the largest faults, the
+    // better ranked of several.
     std::size_t best(std::size_t level) const;
 
     std::string fault_name() const;                 // "crack"
@@ -62,6 +63,8 @@ struct Findings : AssessedDetection {
 
 // Sentence on the smallest fault found at a noise level, or why there is none.
 std::string headline_text(const Findings& findings, std::size_t level);
+// Step after this answer, without a full stop.
+std::string next_step(const Findings& findings);
 // Description of the figure next to the answer.
 std::string figure_text(const Findings& findings);
 // Misses of a feature: number, and the inputs that influence them significantly. "" where they
@@ -70,26 +73,27 @@ std::string misses_text(const Findings& findings, std::size_t feature, std::size
 // Range of a90 over the epistemic inputs, which more gearboxes do not narrow; "" without them.
 std::string unknown_text(const Findings& findings, std::size_t level);
 
-// The answer at the reference level, `assumptions` and `facts`, and the smallest fault by noise.
+// Rates of the best feature by size and noise.
+Table noise_table(const Findings& findings);
+
+// The answer at the reference level, `assumptions`, the next step, `facts`, and tables by noise.
 Section headline_section(const Findings& findings, const std::string& assumptions,
                          const std::string& facts);
 // Limits of the answer. `numerical`, `other_fault`: sentences on the numerical error of the
 // answer's feature, and on the alarms that another fault raises.
 Section limits_section(const Findings& findings, const std::string& numerical,
                        const std::string& other_fault = "");
-// Everything at one noise level.
-Section level_section(const Findings& findings, std::size_t level);
-// Smallest reliable sizes from the rates alone, warnings.
+// At every noise level, in order.
+Section thresholds_section(const Findings& findings);
 Section rates_section(const Findings& findings);
+Section pod_section(const Findings& findings);
+Section ranking_section(const Findings& findings);
+Section false_alarms_section(const Findings& findings);
+Section inputs_section(const Findings& findings);
 // Thresholds and rates by the values of one input.
 Section conditions_section(const Findings& findings);
 
 // Adds the sections on detection other than the answer and its limits.
 void add_detection_sections(Report& report, const Findings& findings);
-
-// Parts of level_section().
-void add_detection(Section& section, const Findings& findings, std::size_t level);
-void add_curves(Section& section, const Findings& findings, std::size_t level);
-void add_influences(Section& section, const Findings& findings, std::size_t level);
 
 }  // namespace gearpod::analysis

@@ -29,7 +29,7 @@ void add_misses(Section& section, const Findings& findings, std::size_t n) {
                         miss_count(misses)),
             {"input", "probability that missed is larger", "p, adjusted"},
             {},
-            true};
+            Shown::page};
         for (const InputInfluence& input : misses.inputs) {
             table.rows.push_back({input_name(input.name, input.unit),
                                   rate_text(input.larger_in_misses, input.bounds),
@@ -64,14 +64,15 @@ Table effect_table(const Findings& findings, std::size_t f, std::size_t n) {
     const LevelReliability& level = findings.reliable(f, n);
     const SizeUnit& unit = findings.request.size;
     const std::string shown = unit.shown_unit();
-    Table table{fmt::format("effects.{}", n),
-                fmt::format("{} by random input: Pd at {} in the lowest and highest fifth of each "
-                            "significant input; a90{} at its 5, 50 and 95 % quantiles",
-                            findings.name(f),
-                            range_text({level.inputs.smallest, level.inputs.largest}, unit),
-                            shown.empty() ? "" : " in " + shown),
-                {"input", "from", "to", "Pd low", "Pd high", "a90 low", "middle", "high", "p"},
-                {}};
+    Table table{
+        fmt::format("effects.{}", n),
+        fmt::format("{} by random input{}: Pd at {} in the lowest and highest fifth of each "
+                    "significant input; a90{} at its 5, 50 and 95 % quantiles",
+                    findings.name(f), findings.at_noise(n),
+                    range_text({level.inputs.smallest, level.inputs.largest}, unit),
+                    shown.empty() ? "" : " in " + shown),
+        {"input", "from", "to", "Pd low", "Pd high", "a90 low", "middle", "high", "p"},
+        {}};
     const auto a90 = [&](const SizeBounds& bounds) {
         return findings.size(bounds.estimate, level.hit_miss);
     };
@@ -122,7 +123,7 @@ void add_input_details(Section& section, const Findings& findings, std::size_t f
                                    : fmt::format("p {}, adjusted", p_text(effect->p_value))),
                    {"input", "found", "detection rate"},
                    {},
-                   true};
+                   Shown::page};
         for (const InputBin& bin : effect->bins) {
             bins.rows.push_back(
                 {quantity_text(bin.low, unit) + " to " + quantity_text(bin.high, unit),
@@ -133,7 +134,7 @@ void add_input_details(Section& section, const Findings& findings, std::size_t f
                   in_unit(fmt::format("a90 of {} by {}", findings.name(f), name), size),
                   {"noise", "input", "a90", "lower bound", "upper bound"},
                   {},
-                  true};
+                  Shown::page};
         for (std::size_t level = 0; level < findings.levels(); ++level) {
             const LevelReliability& reliability = findings.reliable(f, level);
             const std::string noise = "x " + number_text(findings.request.noise_levels[level]);
@@ -184,17 +185,18 @@ std::string misses_text(const Findings& findings, std::size_t feature, std::size
                                                    singular(findings.subject), joined(named)));
 }
 
-void add_influences(Section& section, const Findings& findings, std::size_t level) {
-    if (!has_sizes(findings.request)) {
-        return;
+Section inputs_section(const Findings& findings) {
+    Section section{"inputs", "Influence of the inputs", {}};
+    for (std::size_t n = 0; has_sizes(findings.request) && n < findings.levels(); ++n) {
+        add_misses(section, findings, n);
+        const std::size_t best = findings.best(n);
+        section.state(fmt::format("effects_text.{}", n), effects_text(findings, best, n));
+        section.add(effect_table(findings, best, n));
+        if (n == findings.reference) {
+            add_input_details(section, findings, best, n);
+        }
     }
-    add_misses(section, findings, level);
-    const std::size_t best = findings.best(level);
-    section.state(fmt::format("effects_text.{}", level), effects_text(findings, best, level));
-    section.add(effect_table(findings, best, level));
-    if (level == findings.reference) {
-        add_input_details(section, findings, best, level);
-    }
+    return section;
 }
 
 }  // namespace gearpod::analysis

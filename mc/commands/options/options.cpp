@@ -300,6 +300,10 @@ void add_ensemble(CLI::App& command, const char* instances, StudyOptions& option
     add_whole_key(command, "seed", "seed of all random numbers", options);
 }
 
+void add_full(CLI::App& command, bool& full) {
+    command.add_flag("--full", full, "print all findings, not only the first screen");
+}
+
 void add_json(CLI::App& command, std::string& file) {
     add_file(command, "--json", file, "write JSON to a file, or - for standard output");
 }

@@ -121,6 +121,9 @@ CLI::Option* add_study(CLI::App& command, StudyOptions& options);
 // Adds --instances and --seed, which set keys of the study. `instances`: help text of the first.
 void add_ensemble(CLI::App& command, const char* instances, StudyOptions& options);
 
+// Adds --full, which prints all findings instead of the first screen.
+void add_full(CLI::App& command, bool& full);
+
 // Adds --json, and --html for a page with figures.
 void add_json(CLI::App& command, std::string& file);
 void add_page(CLI::App& command, std::string& file);

@@ -119,8 +119,12 @@ StudyScene load_scene(const StudyOptions& options) {
 }
 
 void warn_of_shortage(const EnsemblePlan& plan, const std::string& path) {
-    if (const std::string shortage = plan.healthy_shortage(); !shortage.empty()) {
-        fmt::print(stderr, "{}\n", wrapped_text(fmt::format("{}: warning: {}", path, shortage), 2));
+    for (const std::string& shortage :
+         {plan.healthy_shortage(), analysis::size_shortage(plan.test_gearboxes, plan.request)}) {
+        if (!shortage.empty()) {
+            fmt::print(stderr, "{}\n",
+                       wrapped_text(fmt::format("{}: warning: {}", path, shortage), 2));
+        }
     }
 }
 

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <chrono>
 #include <exception>
-#include <filesystem>
 #include <set>
 
 #include "machine/clocks.hpp"
@@ -135,24 +134,20 @@ class Run {
         }
     }
 
-    struct Texts {
-        std::string report, headline;
-    };
-
-    // Texts of results that have been written.
-    Texts texts_of(const Results& all, const RowSource& rows) const {
+    // First screen of results that have been written.
+    std::string screen_of(const Results& all, const RowSource& rows) const {
+        analysis::Report report;
         try {
-            const analysis::Report report = results_report(
+            report = results_report(
                 all, rows,
                 reliability_on_machines(all, rows, ranks_, threads_of_machine(ensemble_, ranks_)));
-            return {report_text(report), "\n" + headline_text(report)};
         } catch (const machine::Cancelled&) {
-            return {"the time limit is reached; `gearpod report` shows the results", ""};
+            fmt::print(stderr, "the time limit is reached; `gearpod report` shows the results\n");
         }
+        return screen_text(report, screen_end(results_path(options_), !part_.empty()));
     }
 
     int conclude(EnsembleOutcome outcome, const Interruption& interruption) {
-        const auto start = WallClock::now();
         Results examples;
         if (outcome.failure.empty() && outcome.interruption.empty()) {
             add_examples(examples, interruption, outcome);
@@ -164,7 +159,7 @@ class Run {
         threads_ += outcome.threads();
         const std::string path = results_path(options_);
         std::string problem = outcome.failure;
-        Texts texts;
+        std::string screen;
         const StoredRows rows(*checkpoint_, plan_, outcome.batches);
         Results all;
         if (problem.empty() && (whole || !options_.merges)) {
@@ -178,7 +173,7 @@ class Run {
                 all.timing.push_back({"output_s", outcome.output_s});
                 write_results(path, all, rows);
                 if (whole && prints_results()) {
-                    texts = texts_of(all, rows);
+                    screen = screen_of(all, rows);
                 }
             } catch (const std::exception& error) {
                 problem = exception_text(error);
@@ -192,34 +187,13 @@ class Run {
         }
         const RowCounts counts = count_rows(rows, plan_.threshold_records());
         checkpoint_->remove();
-        if (prints_results()) {
-            fmt::print("{}\n", texts.report);
-            print_failures(counts, tile_.solve->convergence.max_meshes);
-            print_computing_times(outcome);
-            fmt::print(
-                "set-up {:.2f} s, detection and results {:.2f} s{}\n", setup_s_,
-                seconds_since(start),
-                ranks_.machines() == 1 ? "" : fmt::format(" on {} machines", ranks_.machines()));
-            print_end(path);
-            fmt::print("{}", texts.headline);
-        }
+        fmt::print("{}", screen);
         return counts.failed() == 0 ? kDone : kSomeFailed;
     }
 
     std::string state_of(const EnsembleOutcome& outcome) const {
         return !outcome.interruption.empty() ? "interrupted by " + outcome.interruption
                                              : "complete";
-    }
-
-    void print_end(const std::string& path) const {
-        fmt::print("results: {}\n", path);
-        if (part_.empty()) {
-            const auto page = std::filesystem::path(path).replace_extension(".html").string();
-            fmt::print("to create its page: gearpod report {} --html {}\n", path, page);
-        } else {
-            fmt::print("to merge it with all other parts: gearpod merge {} ... --out WHOLE.h5\n",
-                       path);
-        }
     }
 
     // Ends the run early; the checkpoint remains. That of a merge is deleted, because the parts

@@ -181,7 +181,7 @@ analysis::Section files_section(const std::vector<VariedKey>& keys,
     section.state("common",
                   "Every study draws the same gearboxes (common random numbers), so the points are "
                   "correlated: their intervals may overlap although the points differ.",
-                  true);
+                  analysis::Shown::page);
     std::vector<std::string> varied;
     for (const VariedKey& key : keys) {
         std::vector<std::string> values;
@@ -193,8 +193,9 @@ analysis::Section files_section(const std::vector<VariedKey>& keys,
         }
         varied.push_back(fmt::format("{} = {}", key.key, fmt::join(values, ", ")));
     }
-    section.state("varied", fmt::format("Varied: {}.", fmt::join(varied, "; ")), true);
-    analysis::Table table{"files", "Results files", key_columns(keys), {}, true};
+    section.state("varied", fmt::format("Varied: {}.", fmt::join(varied, "; ")),
+                  analysis::Shown::page);
+    analysis::Table table{"files", "Results files", key_columns(keys), {}, analysis::Shown::page};
     table.columns.emplace_back("file");
     for (const auto& [point, results] : points) {
         table.rows.push_back(point.labels);

@@ -301,7 +301,7 @@ analysis::Table all_features_table(const LivesSweep& sweep) {
     analysis::Table table = lives_table(sweep, "features", "Features, each with its best detector",
                                         {"feature", "detector"});
     append(table.columns, life_result_columns(sweep.points.front().plan));
-    table.detail = true;
+    table.shown = analysis::Shown::page;
     for (const LivesPoint& point : sweep.points) {
         for (const MonitoredFeature& one : sweep.order) {
             std::vector<std::string> row = point.point.labels;
@@ -317,7 +317,7 @@ analysis::Table records_table(const LivesSweep& sweep) {
     analysis::Table table =
         lives_table(sweep, "records", "Records and interpolation errors",
                     {"record", "error at the first depths", "at the last", "between loads"});
-    table.detail = true;
+    table.shown = analysis::Shown::page;
     const auto error = [](double share) {
         return std::isnan(share) ? std::string("-") : percent_text(share);
     };
@@ -346,14 +346,18 @@ LivesSweep summarise_lives(const std::string& title, const std::vector<VariedKey
 analysis::Report lives_sweep_report(const LivesSweep& sweep) {
     analysis::Report report;
     analysis::Section headline{"headline", "", {}};
-    headline.state("headline", lives_headline_text(sweep));
-    headline.state("differences", lives_differences_text(sweep));
+    headline.state("headline", lives_headline_text(sweep), analysis::Shown::screen);
+    headline.state("differences", lives_differences_text(sweep), analysis::Shown::screen);
     const std::string withheld = exempt_points_text(
         "", sweep, [](const LivesPoint& point) { return !point.withheld.empty(); });
-    headline.state("withheld", withheld.empty() ? ""
-                                                : "Results are withheld" + withheld.substr(2) +
-                                                      "; `lives` there states why.");
-    headline.add(best_table(sweep));
+    headline.state("withheld",
+                   withheld.empty() ? ""
+                                    : "Results are withheld" + withheld.substr(2) +
+                                          "; `lives` there states why.",
+                   analysis::Shown::screen);
+    analysis::Table table = best_table(sweep);
+    table.shown = analysis::Shown::screen;
+    headline.add(std::move(table));
     report.add(std::move(headline));
     report.add({"details", "", {all_features_table(sweep), records_table(sweep)}});
     report.add(files_section(sweep.keys, {sweep.points.begin(), sweep.points.end()}));

@@ -214,6 +214,7 @@ using analysis::feature_text;
 using analysis::number_text;
 using analysis::percent_text;
 using analysis::Section;
+using analysis::Shown;
 using analysis::Table;
 
 std::string studies_text(std::size_t count) {
@@ -438,22 +439,25 @@ Table points_table(const RunSweep& sweep, const std::set<double>& levels) {
 
 Section headline(const RunSweep& sweep) {
     Section section{"headline", "", {}};
-    section.state("headline", headline_text(sweep));
-    section.state("differences", differences_text(sweep));
+    section.state("headline", headline_text(sweep), Shown::screen);
+    section.state("differences", differences_text(sweep), Shown::screen);
     std::set<std::string> shortages;
     std::set<double> levels;
     bool tested = false;
     for (const PointSummary& point : sweep.points) {
         if (!point.shortage.empty() && shortages.insert(point.shortage).second) {
-            section.state(fmt::format("shortage.{}", shortages.size() - 1), point.shortage);
+            section.state(fmt::format("shortage.{}", shortages.size() - 1), point.shortage,
+                          Shown::screen);
         }
         for (const LevelSummary& level : point.levels) {
             levels.insert(level.noise_level);
             tested |= level.smallest && !level.smallest->from_curve;
         }
     }
-    section.add(points_table(sweep, levels));
-    section.state("note.tested", tested ? analysis::kTestedAlone : "");
+    Table table = points_table(sweep, levels);
+    table.shown = Shown::screen;
+    section.add(std::move(table));
+    section.state("note.tested", tested ? analysis::kTestedAlone : "", Shown::screen);
     return section;
 }
 
@@ -461,7 +465,7 @@ Section headline(const RunSweep& sweep) {
 Section features_section(const RunSweep& sweep) {
     Section section{"features", "", {}};
     const PointSummary& first = sweep.points.front();
-    Table table{"features", "a90 and area under the ROC", key_columns(sweep.keys), {}, true};
+    Table table{"features", "a90 and area under the ROC", key_columns(sweep.keys), {}, Shown::page};
     table.columns.insert(table.columns.end(),
                          {"feature", analysis::in_unit("a90", first.size()), "area under the ROC"});
     for (const PointSummary& point : sweep.points) {

@@ -7,6 +7,7 @@
 #include <cstdlib>
 #include <iterator>
 
+#include "analysis/report/false_alarm_text.hpp"
 #include "mc/files/input/terminal_text.hpp"
 #include "mc/numerics/numerics_choice.hpp"
 
@@ -173,13 +174,18 @@ std::string varied_depth(double deepest_m) {
 }
 
 std::string output_sections() {
+    // As many as show 90 % at 95 % confidence at each of the depths, in whole batches.
+    constexpr long kDepths = 7, kBatch = 16;
+    const long needed = kDepths * analysis::tests_to_show(0.9, 0.95);
     return "\n[features]\n"
            "use = [\"te_kurtosis\", \"sensor_rms\", \"window_ratio\", \"window_z\", "
            "\"own_window_ratio\", \"change_window_ratio\"]\n"
            "baseline_torque_scatter = 0.02\n"
            "\n[detection]\nfalse_alarm_rate = 0.05\nconfidence = 0.95\n"
-           "\n[ensemble]                                  # more gearboxes narrow the intervals\n"
-           "instances = 128\nthreshold_instances = 96\nseed = 1\n";
+           "\n[ensemble]\n" +
+           line("instances", std::to_string((needed + kBatch - 1) / kBatch * kBatch),
+                "enough to show 90 % detection at each depth; more narrow the intervals") +
+           "threshold_instances = 96\nseed = 1\n";
 }
 
 NewStudy checked_study(

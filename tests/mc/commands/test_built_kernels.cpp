@@ -41,7 +41,7 @@ TEST_CASE("Single-precision gearboxes that do not converge are counted with sixt
             " --set ensemble.threshold_instances=8 --out " + folder.file(integrator + ".h5"));
         INFO(run.output);
         CHECK(run.code == 3);
-        CHECK(run.mentions(" of 16 failed (0 diverged, "));
+        CHECK(run.mentions(" of 16 gearboxes failed: 0 diverged, "));
     }
 }
 

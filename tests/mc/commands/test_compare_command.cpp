@@ -83,7 +83,8 @@ TEST_CASE("Gearboxes with several records are counted once") {
     const Json comparison = compared(file + " " + file, folder.file("c.json"));
     CHECK(comparison["files"][0]["gearboxes"] == 96);
     CHECK(comparison["first_records"] == true);
-    CHECK(program("compare " + file + " " + file).mentions("the first record of each healthy"));
+    CHECK(program("compare --full " + file + " " + file)
+              .mentions("the first record of each healthy"));
     const Json report = Json::parse(program("report " + file + " --json -").output);
     CHECK(report["gearboxes"] == 96);
     CHECK(report["provenance"]["gearboxes_asked_for"] == "96");
@@ -116,7 +117,7 @@ TEST_CASE("compare reports every missing or incomplete file") {
     check_mentions(refused, {"text.h5: is not a results file", "cut.h5: is truncated",
                              "none.h5: cannot be read"});
 
-    check_mentions(require_success("compare " + a + " " + part), {"part 1/2 only"});
+    check_mentions(require_success("compare --full " + a + " " + part), {"part 1/2 only"});
 }
 
 }  // namespace gearpod::test_compare_command

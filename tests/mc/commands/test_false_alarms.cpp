@@ -21,7 +21,7 @@ TEST_CASE(
     const std::string results = folder.file("r.h5");
     check_mentions(require_success("run " + rare + " --quiet --out " + results),
                    {"Too few healthy gearboxes"});  // also where only problems are printed
-    const Outcome report = program("report " + results);
+    const Outcome report = program("report " + results + " --full");
     CHECK(report.output.starts_with("Too few healthy gearboxes for a false-alarm rate of 0.001"));
     CHECK(report.mentions("no threshold, so detection is unknown"));
     CHECK(!report.mentions("No tested"));
@@ -43,7 +43,7 @@ TEST_CASE("A sweep begins with what its healthy samples cannot determine, also o
                               folder.file("s") + " --vary sensor.noise_m_s2=[1,2]";
     require_success(sweep);
     // Finished points are not computed again; the warning appears again, once.
-    const Outcome again = require_success(sweep + " --html " + folder.file("s.html"));
+    const Outcome again = require_success(sweep + " --full --html " + folder.file("s.html"));
     const std::size_t warning_position = again.output.find("Too few healthy gearboxes");
     CHECK(warning_position < again.output.find("smallest fault found"));
     CHECK_FALSE(contains(again.output.substr(warning_position + 1), "Too few healthy gearboxes"));

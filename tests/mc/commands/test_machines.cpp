@@ -28,7 +28,7 @@ std::string on_two_machines(const Folder& folder) {
 // Output of a run without its times and its number of ranks.
 std::string tables(const Outcome& run) {
     const std::size_t first = run.output.find("These results hold"),
-                      last = run.output.find("computing time (");
+                      last = run.output.find("Time: ");
     INFO(run.output);
     REQUIRE(first < last);
     REQUIRE(last != std::string::npos);

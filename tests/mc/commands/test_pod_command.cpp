@@ -33,7 +33,7 @@ TEST_CASE("pod reads hits and misses with units, and states the kind of bound") 
     // A method of asymptotic bounds alone is that of the handbook.
     CHECK(pod_of(table + " --bounds likelihood-ratio")["hit_miss"]["a90"] ==
           handbook["hit_miss"]["a90"]);
-    check_mentions(program("pod " + table + " --specimen specimen"),
+    check_mentions(program("pod --full " + table + " --specimen specimen"),
                    {"120 specimens and 120 repeated measurements", "robust covariance", "(mm)"});
 }
 
@@ -141,7 +141,7 @@ TEST_CASE("pod reports data that determine no curve") {
         text += std::to_string(i) + (i > 6 ? ",1\n" : ",0\n");
     }
     const std::string table = written(folder, "separated.csv", text);
-    check_mentions(require_success("pod " + table), {"do not overlap", "--firth"});
+    check_mentions(require_success("pod --full " + table), {"do not overlap", "--firth"});
     CHECK_THAT(program("pod " + table + " --firth").output, Catch::Contains("a90"));
 }
 

@@ -17,10 +17,11 @@ TEST_CASE("A run ends with the table and a file from which report prints the sam
         require_success("run " + study("planet-crack-ideal.toml") +
                         " --instances 14 --set ensemble.threshold_instances=40 --out " + out);
     CHECK(mentions(run, "window_ratio"));
-    CHECK(mentions(run, "computing time ("));
+    CHECK(mentions(run, "Time: "));
     CHECK(mentions(run, out));
     const Outcome text = require_success("report " + out);
     CHECK(contains(run.output, text.output));
+    CHECK(std::ranges::count(text.output, '\n') <= 40);
     const Outcome json = program("report " + out + " --json -");
     const auto parsed = nlohmann::json::parse(json.output);
     CHECK(parsed["gearboxes"] == 54);
@@ -28,7 +29,11 @@ TEST_CASE("A run ends with the table and a file from which report prints the sam
     CHECK(parsed["detection"]["features"].size() == 7);
     CHECK(parsed["provenance"]["seed"] == "2");
     CHECK(parsed["reliability"]["features"].size() == 7);
-    CHECK(mentions(text, "against fault depth at noise"));
+    CHECK(mentions(require_success("report " + out + " --full"), "against fault depth at noise"));
+    const Outcome pod = require_success("report " + out + " --section pod");
+    CHECK(mentions(pod, "against fault depth at noise"));
+    CHECK(!mentions(pod, "Alarm thresholds"));
+    check_refused("report --section fault_sizes " + out, {"fault_sizes", "pod, ranking"});
     check_refused("report --by gearbox_colour " + out, {"torque_N_m"});
 }
 
@@ -146,7 +151,7 @@ TEST_CASE("Gearboxes that fail are counted; the run exits with 3 and keeps its f
                                     " --set numerics.max_meshes=1 --out " +
                                     folder.file("r.h5"));
     CHECK(outcome.code == 3);
-    CHECK(mentions(outcome, "27 of 27 failed (0 diverged, 27 did not converge)"));
+    CHECK(mentions(outcome, "27 of 27 gearboxes failed: 0 diverged, 27 did not converge"));
     CHECK(fs::exists(folder.file("r.h5")));
 }
 

@@ -127,7 +127,7 @@ TEST_CASE("The report on recordings has thresholds, POD where sizes are known, a
     CHECK(json["over_time"][6]["recordings"] == 1);  // loud, of unknown condition
     CHECK(json["over_time"][6]["alarms"]["window_ratio"] == 1);
     CHECK(json["over_time"][0]["alarms"]["window_ratio"].get<int>() <= 2);
-    CHECK(program("report " + results).mentions("Alarms over time, day"));
+    CHECK(program("report " + results + " --full").mentions("Alarms over time, day"));
 }
 
 TEST_CASE("The report monitors a gearbox's recordings in sequence") {
@@ -157,13 +157,14 @@ TEST_CASE("The report monitors a gearbox's recordings in sequence") {
     CHECK(found);
     CHECK(detectors ==
           std::set<std::string>{"single", "2 of 3", "ewma 0.2", "cusum 0.5", "trend 100"});
-    check_mentions(program("report " + results), {"Monitoring over time", "fused"});
+    check_mentions(program("report " + results + " --full"), {"Monitoring over time", "fused"});
 
     const std::string others = recorded.folder.file("others.h5");
     recorded.features("--set monitoring.baseline_records=25 --out " + others);
-    CHECK(program("report " + others).mentions("5 healthy recordings after the first 25"));
+    CHECK(program("report " + others + " --full")
+              .mentions("5 healthy recordings after the first 25"));
     recorded.features("--set monitoring.torque_regression=true --force --out " + others);
-    CHECK(program("report " + others).mentions("no column torque"));
+    CHECK(program("report " + others + " --full").mentions("no column torque"));
     check_refused(
         recorded.features("--set 'monitoring.detectors=[\"cusum\",\"single\",\"single\"]' --csv -"),
         {"\"cusum\" is not a detector", "names \"single\" twice"});
@@ -193,14 +194,15 @@ TEST_CASE("Alarms over time count recordings with a value, and none without a th
     // Recordings without gearbox names are monitored as one machine, and this is reported.
     CHECK(json["monitoring"]["note"].get<std::string>().find("of one machine") !=
           std::string::npos);
-    check_mentions(program("report " + results), {"are assumed to be of one machine", "5 of 5"});
+    check_mentions(program("report " + results + " --full"),
+                   {"are assumed to be of one machine", "5 of 5"});
 }
 
 TEST_CASE(
     "On the terminal, recordings are called recordings and have a size only where it is known") {
     const Recorded& recorded = recorded_once();
     const std::string& results = recorded.results;
-    const Outcome sized = require_success("report " + results);
+    const Outcome sized = require_success("report " + results + " --full");
     check_mentions(sized, {"healthy: alarms/recordings", "size mm", "a90/95"});
     CHECK(!sized.mentions(" boxes"));
     CHECK(!sized.mentions("Noise x"));
@@ -215,7 +217,7 @@ TEST_CASE(
     const std::string by_label = recorded.folder.file("labels.h5");
     require_success("features --manifest " + recorded.folder.file("labels.csv") + " --study " +
                     kSmall + " --samples-per-mesh 8 --quiet --out " + by_label);
-    const Outcome labelled = require_success("report " + by_label);
+    const Outcome labelled = require_success("report " + by_label + " --full");
     check_mentions(labelled, {"label", "Area under the ROC, healthy against faulty"});
     for (const char* word : {"boxes", "size", "a90", "Noise x"}) {
         INFO(word);

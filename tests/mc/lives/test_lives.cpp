@@ -322,7 +322,7 @@ TEST_CASE("Too coarse an interpolation withholds the results, and quiet runs pri
                           life_arguments();
     const Outcome quiet = require_success(command + " --quiet");
     CHECK(quiet.output.empty());
-    check_mentions(program(command), {"Effect of the crack", "count as false"});
+    check_mentions(program(command + " --full"), {"Effect of the crack", "count as false"});
     command +=
         " --set life.speed_scatter=0.02 --set life.integrated_speeds=3 "
         "--set life.interpolation_tolerance=0.1";

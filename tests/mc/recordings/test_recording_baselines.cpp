@@ -184,7 +184,8 @@ TEST_CASE("A fault sustains an alarm at its tooth, and a corrupt recording does 
     const auto& series = monitoring["recordings"][0];
     CHECK(series["tooth_rms"].back().size() == kTeeth);
     CHECK(series["level"]["change"].get<double>() == Approx(0.1).margin(0.05));
-    CHECK(program("report " + recorded.results).mentions("drifts: sensor_rms changes by"));
+    CHECK(program("report " + recorded.results + " --full")
+              .mentions("drifts: sensor_rms changes by"));
 }
 
 double largest(const std::string& csv, const std::string& column) {

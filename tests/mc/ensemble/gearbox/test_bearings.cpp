@@ -139,7 +139,7 @@ TEST_CASE("Alarms of another fault are counted at the thresholds of the healthy 
         any |= one.alarms > one.without;
     }
     CHECK(any);
-    check_mentions(program("report " + with_other_fault().path),
+    check_mentions(program("report " + with_other_fault().path + " --full"),
                    {"a fault of the inner ring of a bearing of the sun"});
     CHECK(program("describe " + kSmall + " " + inner_ring("other_fault"))
               .mentions("5.400 impulses per shaft turn"));

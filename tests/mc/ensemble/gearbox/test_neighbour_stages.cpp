@@ -138,7 +138,7 @@ TEST_CASE("Another fault is that of the stage, in the same records") {
     }
     // Results hold the stage's study.
     std::filesystem::remove(path);
-    check_mentions(require_success("report " + folder.file("other.h5")),
+    check_mentions(require_success("report " + folder.file("other.h5") + " --full"),
                    {"a fault of the neighbouring stage \"slow\""});
 }
 

@@ -320,10 +320,10 @@ TEST_CASE("Lengths of records that make no sense are refused, and reports state 
     CHECK(
         refused(" --set sensor.record_turns=4 --set 'features.use=[\"sun_window_ratio\"]'").code ==
         2);
-    const std::string conditions = run_conditions(ideal_crack_study({"sensor.record_turns=4"}));
+    const std::string conditions = record_conditions(ideal_crack_study({"sensor.record_turns=4"}));
     CHECK(contains(conditions, "begins at a random tooth position"));
     CHECK(contains(conditions, "10 of the 81 ring teeth that it can meet (12 %)"));
-    CHECK(run_conditions(ideal_crack_study({})).find("81 of the 81 ring teeth") !=
+    CHECK(record_conditions(ideal_crack_study({})).find("81 of the 81 ring teeth") !=
           std::string::npos);
 }
 
