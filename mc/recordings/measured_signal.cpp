@@ -284,9 +284,13 @@ class SignalReader : SignalsReader {
     std::vector<double> evenly_tracked(double& per_mesh) const {
         const auto last = static_cast<double>(phase_.size() - 1);
         per_mesh = last / (phase_.back() - phase_.front());
+        // Samples by which pulses and counts are off, as they are seen at the next sample. At a
+        // constant speed the phase is then less accurate than the samples' numbers.
+        constexpr double kTiming = 1.0;
         bool even = true;
         for (std::size_t i = 0; i < phase_.size() && even; ++i) {
-            even = std::abs((phase_[i] - phase_.front()) * per_mesh - static_cast<double>(i)) < 0.1;
+            even = std::abs((phase_[i] - phase_.front()) * per_mesh - static_cast<double>(i)) <
+                   kTiming;
         }
         const int grid = static_cast<int>(std::ceil(std::min(per_mesh, 1e4)));
         const signals::OrderTracking tracking(phase_);

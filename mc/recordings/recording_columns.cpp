@@ -152,7 +152,9 @@ std::size_t unexplained_step(const std::vector<double>& time, double step,
                              const WrittenPrecision& precision) {
     for (std::size_t i = 1; i < time.size(); ++i) {
         const double rounding = 0.5005 * (precision.unit(time[i - 1]) + precision.unit(time[i]));
-        if (std::abs(time[i] - time[i - 1] - step) > std::max(rounding, kEven * step)) {
+        // Times that were rounded twice are off by more than half a unit each.
+        const double twice = std::min(2.0 * rounding, 0.25 * step);
+        if (std::abs(time[i] - time[i - 1] - step) > std::max({rounding, twice, kEven * step})) {
             return i;
         }
     }

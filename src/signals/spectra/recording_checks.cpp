@@ -128,7 +128,7 @@ class Comb {
         if (harmonics != nullptr) {
             *harmonics = present;
         }
-        return all_ > 0.0 ? on / all_ * std::sqrt(static_cast<double>(present) / highest) : 0.0;
+        return all_ > 0.0 ? on / all_ * present / highest : 0.0;
     }
 
   private:
