@@ -449,6 +449,10 @@ Json noise_of(const InspectionRequest& request, const InspectionResult& result) 
 
 Report inspection_report(const InspectionRequest& request, const InspectionResult& result,
                          const InspectionNames& names) {
+    Section remarks{"remarks", "", {}};
+    for (std::size_t i = 0; i < names.remarks.size(); ++i) {
+        remarks.state(fmt::format("remark.{}", i), names.remarks[i]);
+    }
     Section method{"method", "", {}};
     method.state(
         "table",
@@ -471,6 +475,9 @@ Report inspection_report(const InspectionRequest& request, const InspectionResul
                  Shown::screen);
     method.state("target", target_text(request, result, names.size), Shown::screen);
     Report report;
+    if (!names.remarks.empty()) {
+        report.add(std::move(remarks));
+    }
     report.add(inspection_headline(request, result, names.size));
     report.add(std::move(method));
     return report;

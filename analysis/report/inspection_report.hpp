@@ -3,6 +3,7 @@
 
 #include <nlohmann/json_fwd.hpp>
 #include <string>
+#include <vector>
 
 #include "analysis/inspection.hpp"
 #include "analysis/report/report.hpp"
@@ -11,10 +12,11 @@ namespace gearpod::analysis {
 
 // Names that the report uses.
 struct InspectionNames {
-    std::string table;  // file of the table
-    SizeUnit size;      // name and unit of the size column
-    std::string value;  // name of the measured value
-    std::string unit;   // unit of responses; may be empty
+    std::string table;                      // file of the table
+    SizeUnit size;                          // name and unit of the size column
+    std::string value;                      // name of the measured value
+    std::string unit;                       // unit of responses; may be empty
+    std::vector<std::string> remarks = {};  // statements on the table that come first
 };
 
 // The sizes with POD 50 and 90 % with their bounds and the rule of the bounds, the curve with its

@@ -274,7 +274,8 @@ class SignalHdf5 : public NamedColumns {
             apply_scale(name, values);
             return values;
         } catch (const Hdf5Error&) {
-            throw SignalError(fmt::format("{}: {} cannot be read", path_, printable(name)));
+            throw SignalError(fmt::format("{}: {} {}", path_, printable(name),
+                                          missing_filter(datasets_.at(part_named(name).matrix))));
         }
     }
 
@@ -446,6 +447,29 @@ class SignalHdf5 : public NamedColumns {
     }
 
     // Values of a signal, of a matrix column, or of a row.
+    // Reason why the values of a dataset cannot be read: a filter that HDF5 lacks, or damage.
+    std::string missing_filter(const Dataset& dataset) const {
+        const Hdf5Handle opened = open_dataset(file_.get(), dataset.path);
+        const Hdf5Handle list(H5Dget_create_plist(opened.get()), H5Pclose, dataset.path);
+        const int filters = H5Pget_nfilters(list.get());
+        for (int i = 0; i < filters; ++i) {
+            unsigned flags = 0, config = 0;
+            std::size_t values = 0;
+            char name[80] = "";
+            const H5Z_filter_t filter =
+                H5Pget_filter2(list.get(), static_cast<unsigned>(i), &flags, &values, nullptr,
+                               sizeof name, name, &config);
+            if (filter > 0 && H5Zfilter_avail(filter) <= 0) {
+                return fmt::format(
+                    "is compressed by the filter {} ({}), which is not supported: "
+                    "write a copy without it, h5repack -f NONE IN OUT where that "
+                    "filter is installed, or ptrepack --complevel 0 IN OUT",
+                    filter, printable(name));
+            }
+        }
+        return "cannot be read";
+    }
+
     std::vector<double> stored_values(const std::string& name) const {
         const MatrixColumn part = part_named(name);
         const Dataset& dataset = inspected(part.matrix);

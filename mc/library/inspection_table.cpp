@@ -10,8 +10,10 @@
 
 #include "analysis/report/inspection_report.hpp"
 #include "machine/no_value.hpp"
+#include "mc/files/input/file_text.hpp"
 #include "mc/files/input/problems.hpp"
 #include "mc/files/input/terminal_text.hpp"
+#include "mc/files/signal_units.hpp"
 
 namespace gearpod::mc {
 namespace {
@@ -20,8 +22,8 @@ using analysis::InspectionNames;
 using analysis::InspectionRequest;
 using analysis::Inspections;
 
-constexpr const char* kUsualSizes[] = {"size", "a", "Size"};
-constexpr const char* kUsualHits[] = {"hit", "hit.miss", "hit_miss", "hitmiss", "Hit"};
+constexpr const char* kUsualSizes[] = {"size", "a"};
+constexpr const char* kUsualHits[] = {"hit", "hit.miss", "hit_miss", "hitmiss", "hits"};
 constexpr const char* kUsualValues[] = {"response", "ahat", "a-hat", "a_hat", "a.hat", "value"};
 
 // `line`: of the table, or 0.
@@ -50,7 +52,10 @@ std::vector<std::size_t> columns(const TextTable& table, const std::vector<std::
     return found;
 }
 
+constexpr const char* kUsualTrials[] = {"n", "trials", "inspections"};
+
 struct Columns {
+    std::optional<std::size_t> trials;  // numbers of inspections, of which the values are hits
     std::size_t size = 0;
     std::vector<std::size_t> values;
     std::optional<std::size_t> specimen;
@@ -90,15 +95,37 @@ Columns choose_columns(const TextTable& table, const InspectionOptions& options,
                    table.names());
         }
     }
+    // A table of counts has a column of trials, and its hits are above 1 or called so.
+    const auto trials = columns(table, {}, kUsualTrials, problems);
+    if (!trials.empty() && !chosen.responses && chosen.values.size() == 1) {
+        const std::size_t hits = chosen.values.front();
+        bool counts = lower_case(table.columns[hits].name) == "hits";
+        for (std::size_t r = 0; r < table.rows.size(); ++r) {
+            counts = counts || table.number(r, hits).value_or(0.0) > 1.0;
+        }
+        chosen.trials = counts ? std::optional(trials.front()) : std::nullopt;
+    }
     for (const std::size_t found : columns(table, named(options.specimen), {}, problems)) {
         chosen.specimen = found;
     }
     return chosen;
 }
 
-Inspections read_inspections(const TextTable& table, const Columns& chosen, Problems& problems) {
+// A hit or miss in words; empty if the text is neither.
+std::optional<double> hit_of_word(const std::string& text) {
+    const std::string word = lower_case(text);
+    if (is_among(word, "hit true yes y t found detected")) {
+        return 1.0;
+    }
+    return is_among(word, "miss false no n f missed undetected") ? std::optional(0.0)
+                                                                 : std::nullopt;
+}
+
+Inspections read_inspections(const TextTable& table, const Columns& chosen, Problems& problems,
+                             long& without_value) {
     Inspections data;
     std::map<std::string, long> specimens;
+    long counted = 0;  // inspections of a table of counts
     for (std::size_t r = 0; r < table.rows.size(); ++r) {
         const auto& row = table.rows[r];
         const int line = static_cast<int>(table.lines[r]);
@@ -122,11 +149,32 @@ Inspections read_inspections(const TextTable& table, const Columns& chosen, Prob
                 : static_cast<long>(r);
         for (const std::size_t c : chosen.values) {
             if (is_missing(row[c])) {
+                ++without_value;
                 continue;
             }
-            const double value = number(c);
+            const auto word = chosen.responses ? std::nullopt : hit_of_word(row[c]);
+            const double value = word ? *word : number(c);
+            if (chosen.trials) {
+                const double trials = number(*chosen.trials);
+                constexpr double kMostTrials = 1e5;
+                if (value < 0.0 || value > trials || value != std::floor(value) ||
+                    trials != std::floor(trials) || trials > kMostTrials) {
+                    reject(problems, line, "{:g} hits in {:g} inspections are no counts", value,
+                           trials);
+                    continue;
+                }
+                for (long trial = 0; trial < static_cast<long>(trials); ++trial) {
+                    data.size.push_back(size);
+                    data.value.push_back(static_cast<double>(trial) < value ? 1.0 : 0.0);
+                    data.specimen.push_back(chosen.specimen ? specimen : counted++);
+                }
+                continue;
+            }
             if (!chosen.responses && value != 0.0 && value != 1.0) {
-                reject(problems, line, "column {}: {:g} is neither 1 (hit) nor 0 (miss)",
+                reject(problems, line,
+                       "column {}: {:g} is neither 1 (hit) nor 0 (miss); counts of hits need a "
+                       "column n of "
+                       "the inspections",
                        table.columns[c].name, value);
             }
             data.size.push_back(size);
@@ -296,6 +344,32 @@ void refuse(const TextTable& table, Problems& problems) {
     throw BadInput(text);
 }
 
+// Statements on the table: fields without a value, and responses that may have been cut off.
+std::vector<std::string> remarks_on(const Inspections& data, const InspectionRequest& request,
+                                    long without_value) {
+    std::vector<std::string> remarks;
+    if (without_value > 0) {
+        remarks.push_back(fmt::format(
+            "Not used: {} field(s) without a value, taken as inspections that were not made.",
+            without_value));
+    }
+    constexpr long kFewest = 3;
+    constexpr double kFraction = 0.05;  // of the responses
+    if (request.responses) {
+        const double largest = *std::ranges::max_element(data.value);
+        const long equal = std::ranges::count(data.value, largest);
+        if (equal >= kFewest &&
+            static_cast<double>(equal) >= kFraction * static_cast<double>(data.value.size()) &&
+            largest < request.limits.right) {
+            remarks.push_back(fmt::format(
+                "Warning: {} of {} responses are equal to the largest, {:g}: give --right {:g} if "
+                "the instrument ends there. Sizes below are wrong then.",
+                equal, data.value.size(), largest, largest));
+        }
+    }
+    return remarks;
+}
+
 InspectionNames names_of(const TextTable& table, const Columns& chosen) {
     InspectionNames names;
     names.table = printable(table.path);
@@ -320,13 +394,15 @@ InspectedTable inspect_table(const TextTable& table, const InspectionOptions& op
     inspected.request = request_of(options, chosen, problems);
     refuse_misplaced(options, chosen, problems);
     refuse(table, problems);
-    inspected.data = read_inspections(table, chosen, problems);
+    long without_value = 0;
+    inspected.data = read_inspections(table, chosen, problems, without_value);
     refuse(table, problems);
     inspected.result = analysis::inspect(inspected.data, inspected.request);
     if (!inspected.result.refusal.empty()) {
         throw BadInput(fmt::format("{}: {}", table.path, inspected.result.refusal));
     }
     inspected.names = names_of(table, chosen);
+    inspected.names.remarks = remarks_on(inspected.data, inspected.request, without_value);
     return inspected;
 }
 

@@ -6,14 +6,25 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <string_view>
+
+#include "mc/files/input/file_text.hpp"
 
 namespace gearpod::mc {
 namespace {
 
+constexpr std::string_view kKnown[] = {"file",  "row",  "gearbox", "time",
+                                       "label", "size", "baseline"};
+
 class Reading {
   public:
     Reading(const std::string& path, Problems& problems)
-        : table_(read_text_table(path)), problems_(problems) {}
+        : table_(read_text_table(path)), problems_(problems) {
+        for (TableColumn& column : table_.columns) {
+            const std::string name = lower_case(column.name);
+            column.name = std::ranges::count(kKnown, name) > 0 ? name : column.name;
+        }
+    }
 
     RecordingList read() {
         const auto file = table_.find("file");
@@ -50,16 +61,13 @@ class Reading {
 
   private:
     void choose_inputs() {
-        static const std::vector<std::string> known{"file",  "row",  "gearbox", "time",
-                                                    "label", "size", "baseline"};
         for (std::size_t c = 0; c < table_.columns.size(); ++c) {
             const TableColumn& column = table_.columns[c];
             if (column.name == "time") {
                 list_.time = column;
             } else if (column.name == "size") {
                 list_.size = column;
-            } else if (!column.name.empty() &&
-                       std::find(known.begin(), known.end(), column.name) == known.end()) {
+            } else if (!column.name.empty() && std::ranges::count(kKnown, column.name) == 0) {
                 if (std::ranges::count(list_.inputs, column.name, &TableColumn::name) > 0) {
                     problems_.push_back({table_.path, 0, column.name, "is the name of two columns",
                                          "give each condition a name"});

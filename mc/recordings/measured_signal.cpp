@@ -18,6 +18,9 @@
 #include "mc/files/signal_units.hpp"
 #include "mc/recordings/quantisation.hpp"
 #include "mc/recordings/recording_columns.hpp"
+#include "mc/recordings/sample_faults.hpp"
+#include "mc/study/gears.hpp"
+#include "mc/study/member.hpp"
 #include "signals/rotation/shaft_motion.hpp"
 #include "signals/spectra/recording_checks.hpp"
 #include "signals/spectra/resampling.hpp"
@@ -29,7 +32,8 @@ std::vector<std::string> rate_problems(std::span<const double> phase, const Meas
     constexpr double kFewestSamples = 2.0;  // per mesh period
     constexpr double kRateTolerance = 1.02;
     const double per_mesh = static_cast<double>(phase.size() - 1) / (phase.back() - phase.front());
-    const double mesh_Hz = plan.record.mesh_frequency_Hz;
+    // Sampling rate of a recording with these samples per mesh period at the study's speed.
+    const double study_Hz = per_mesh * plan.record.mesh_frequency_Hz;
     const double low_pass = plan.features.low_pass_Hz;
     std::vector<std::string> problems;
     if (has.te && per_mesh < kFewestSamples) {
@@ -40,15 +44,17 @@ std::vector<std::string> rate_problems(std::span<const double> phase, const Meas
     }
     if (has.sensor && per_mesh > kRateTolerance * plan.record.samples) {
         problems.push_back(
-            fmt::format("{:.6g} samples per mesh period, but the study's grid has {}; set "
-                        "sensor.sampling_Hz to that of the recording, about {:.6g} Hz",
-                        per_mesh, plan.record.samples, per_mesh * mesh_Hz));
+            fmt::format("{:.6g} samples per mesh period, but the study's grid has {}; check the "
+                        "speed, or set sensor.sampling_Hz to that of the recording, at the study's "
+                        "speed about {:.6g} Hz",
+                        per_mesh, plan.record.samples, study_Hz));
     }
-    if (has.sensor && per_mesh * mesh_Hz < 2.0 * low_pass) {
+    if (has.sensor && study_Hz < 2.0 * low_pass) {
         problems.push_back(
-            fmt::format("{:.6g} Hz ({:.6g} samples per mesh period) is too low for signals up "
-                        "to {:.6g} Hz; set sensor.low_pass_Hz to at most {:.6g}",
-                        per_mesh * mesh_Hz, per_mesh, low_pass, 0.5 * per_mesh * mesh_Hz));
+            fmt::format("{:.6g} samples per mesh period are too few for signals up to {:.6g} Hz "
+                        "at the study's speed; check the speed, or set sensor.low_pass_Hz to at "
+                        "most {:.6g}",
+                        per_mesh, low_pass, 0.5 * study_Hz));
     }
     return problems;
 }
@@ -101,6 +107,11 @@ class SignalReader : SignalsReader {
         } closed{file_};
         read_signals();
         phase_ = phases(std::max(sensor_.size(), te_.size()), tracking_);
+        if (phase_.size() > 1 && problems_.empty() && columns_.samples_per_mesh == 0.0 &&
+            (!counted_ || speed_column_)) {
+            mean_mesh_Hz_ = (phase_.back() - phase_.front()) /
+                            static_cast<double>(phase_.size() - 1) * rate_Hz();
+        }
         for (const std::string& text : file_->notes()) {
             notes_.push_back(printable(text));
         }
@@ -115,6 +126,16 @@ class SignalReader : SignalsReader {
         measured.has_te = !te.empty();
         measured.tracking = std::move(tracking_);
         measured.notes = std::move(notes_);
+        check_samples(measured);
+        measured.sensor_rounding = rounding_rms(sensor);
+        keep(sensor, phase.size());
+        keep(te, phase.size());
+        const double ratio = speed_of_lines(measured);
+        stop_at_problems();
+        if (ratio != 1.0) {
+            phase = scaled(std::move(phase), ratio);
+            measured.tracking += fmt::format(", multiplied by {:.5f} to fit the mesh lines", ratio);
+        }
         for (const std::string& problem :
              rate_problems(phase, plan_, {!sensor.empty(), !te.empty()})) {
             reject(problem);
@@ -124,23 +145,32 @@ class SignalReader : SignalsReader {
             extend_periodically({&sensor, &te}, phase,
                                 columns_.samples_per_mesh * record_.span.planet_teeth);
         }
-        measured.sensor_rounding = rounding_rms(sensor);
-        keep(sensor, phase.size());
-        keep(te, phase.size());
         resample(sensor, te, phase, measured);
-        const double ratio = speed_of_lines(measured);
-        stop_at_problems();
-        if (ratio != 1.0) {
-            phase = scaled(std::move(phase), ratio);
-            measured.tracking += fmt::format(", multiplied by {:.5f} to fit the mesh lines", ratio);
-            resample(sensor, te, phase, measured);
-        }
         check_losses(measured);
         stop_at_problems();
         return measured;
     }
 
   private:
+    // Removes the mean of the sensor signal and reports samples that are no vibration.
+    void check_samples(MeasuredSignal& measured) {
+        if (sensor_.empty()) {
+            return;
+        }
+        constexpr double kStatedMean = 0.1;  // of the rms about the mean
+        const std::string name = columns_.sensor.empty() ? kSensor : columns_.sensor;
+        reject_column(name, stretches_text(sensor_));
+        const double mean = subtract_mean(sensor_), rms = rms_of(sensor_);
+        if (std::abs(mean) > kStatedMean * rms) {
+            measured.notes.push_back(fmt::format(
+                "column {}: its mean, {:.4g} m/s^2, is removed: gravity or a bias", name, mean));
+        }
+        for (const std::string& text : {spikes_text(sensor_), level_step_text(sensor_)}) {
+            if (!text.empty()) {
+                measured.notes.push_back(fmt::format("column {}: {}", name, text));
+            }
+        }
+    }
     void resample(const std::vector<double>& sensor, const std::vector<double>& te,
                   const std::vector<double>& phase, MeasuredSignal& measured) const {
         const signals::OrderTracking tracking(phase);
@@ -183,6 +213,7 @@ class SignalReader : SignalsReader {
             how = fmt::format("constant speed, {:.6g} Hz at the mesh", record_.mesh_frequency_Hz);
             return scaled(std::move(phase), record_.mesh_frequency_Hz);
         }
+        speed_column_ = true;
         const std::vector<double> speed_rpm = column(speed_name, Quantity::speed);
         reject_column(kSpeed, sign_change_text(speed_rpm));
         how = speed_rpm.empty() || speed_rpm.front() >= 0.0
@@ -215,6 +246,17 @@ class SignalReader : SignalsReader {
         if (!problems_.empty()) {
             return {};
         }
+        const auto [low, high] = std::ranges::minmax(written);
+        constexpr double kFewestCounts = 100.0;
+        if (file_->unit(columns_.encoder).empty() && high - low >= kFewestCounts &&
+            std::ranges::all_of(written, [](double v) { return v == std::round(v); })) {
+            reject_column(columns_.encoder,
+                          fmt::format("runs from {:g} to {:g}: counts? divide by the counts per "
+                                      "turn and name it \"{} [turns]\"; without a unit the angle "
+                                      "is in rad",
+                                      low, high, columns_.encoder));
+            return {};
+        }
         const double meshes_per_rad = meshes_per_turn() / (2.0 * std::numbers::pi);
         signals::ShaftAngle angle =
             signals::shaft_angle(std::move(written), kSmallestJump / meshes_per_rad);
@@ -238,32 +280,140 @@ class SignalReader : SignalsReader {
         }
     }
 
+    // Samples evenly spaced in mesh phase, and their number per mesh period.
+    std::vector<double> evenly_tracked(double& per_mesh) const {
+        const auto last = static_cast<double>(phase_.size() - 1);
+        per_mesh = last / (phase_.back() - phase_.front());
+        // Samples by which pulses and counts are off, as they are seen at the next sample. At a
+        // constant speed the phase is then less accurate than the samples' numbers.
+        constexpr double kTiming = 1.0;
+        bool even = true;
+        for (std::size_t i = 0; i < phase_.size() && even; ++i) {
+            even = std::abs((phase_[i] - phase_.front()) * per_mesh - static_cast<double>(i)) <
+                   kTiming;
+        }
+        const int grid = static_cast<int>(std::ceil(std::min(per_mesh, 1e4)));
+        const signals::OrderTracking tracking(phase_);
+        if (even || tracking.meshes(grid) < 1) {
+            return sensor_;
+        }
+        per_mesh = grid;
+        return tracking.resample(sensor_, grid, tracking.meshes(grid));
+    }
+
     // Ratio of the speed shown by the mesh lines to the stated speed; 1 if the lines do not
-    // contradict it.
-    double speed_of_lines(const MeasuredSignal& measured) {
-        if (columns_.speed == SpeedCheck::ignore || !measured.has_sensor) {
+    // contradict it. Adds a note if there are no lines that could.
+    double speed_of_lines(MeasuredSignal& measured) {
+        constexpr double kFewestTurns = 4.0;  // of an average, which may have no mesh lines
+        const bool average = columns_.samples_per_mesh > 0.0 &&
+                             phase_.back() - phase_.front() < kFewestTurns * record_.path_meshes();
+        if (columns_.speed == SpeedCheck::ignore || !measured.has_sensor || average) {
             return 1.0;
         }
-        const auto found =
-            signals::mesh_speed(measured.sensor, record_.samples, record_.path_meshes());
-        constexpr double kClearly = 0.5;  // relative to the best fit
+        double per_mesh = 0.0;
+        const std::vector<double> samples = evenly_tracked(per_mesh);
+        const auto found = signals::mesh_speed(samples, per_mesh, record_.path_meshes());
+        if (!found || found->fits()) {
+            return 1.0;
+        }
+        if (!found->contradicts()) {
+            measured.notes.push_back(no_lines_text(*found, samples, per_mesh, measured.tracking));
+            return 1.0;
+        }
         // harmonics; with fewer, a ratio that is off by one tooth fits as well
         constexpr int kEnough = 4;
-        if (!found || found->stated > kClearly * found->fit) {
-            return 1.0;
-        }
-        const std::string lines = fmt::format(
-            "the mesh lines fit {:.4f}{} times the stated speed ({})", found->ratio,
-            found->other > 0.0 ? fmt::format(" or {:.4f}", found->other) : "", measured.tracking);
+        const bool clear = found->other == 0.0 && found->harmonics >= kEnough;
+        const std::string lines =
+            fmt::format("the mesh lines fit {:.4f}{} times the stated speed ({}{})", found->ratio,
+                        found->other > 0.0 ? fmt::format(" or {:.4f}", found->other) : "",
+                        measured.tracking, measured_speed_text());
         if (columns_.speed == SpeedCheck::refuse) {
             reject(fmt::format(
-                "{}: they hold {:.0f} % of the amplitudes at that speed, {:.0f} % at the stated "
-                "one; correct the speed, or use the fitted one with --speed found",
-                lines, 100.0 * found->fit, 100.0 * found->stated));
-        } else if (found->other > 0.0 || found->harmonics < kEnough) {
+                "{}: they hold {:.0f} % of the lines at that speed, {:.0f} % at the stated one; {}",
+                lines, 100.0 * found->fit, 100.0 * found->stated,
+                clear ? speed_remedy(found->ratio) : "correct the speed"));
+        } else if (!clear) {
             reject(lines + ", but they are too few to determine the speed; correct it");
         }
         return found->ratio;
+    }
+
+    // Speed, rpm, of the member whose speed the study gives, at a mesh frequency.
+    double speed_rpm(double mesh_Hz) const { return 60.0 * std::abs(mesh_Hz) / meshes_per_turn(); }
+
+    // Measured mean speed next to that of the study; "" if it is not measured.
+    std::string measured_speed_text() const {
+        return mean_mesh_Hz_ > 0.0
+                   ? fmt::format("; it is {:.5g} rpm in the mean, the study states {:.5g} rpm",
+                                 speed_rpm(mean_mesh_Hz_), speed_rpm(record_.mesh_frequency_Hz))
+                   : "";
+    }
+
+    // Remedy for a speed that must be multiplied by `ratio`.
+    std::string speed_remedy(double ratio) const {
+        constexpr double kAgreement = 0.01;
+        std::string shaft;
+        const double given = 1.0 / meshes_per_turn();
+        for (const Member member : {Member::sun, Member::planet, Member::ring, Member::carrier,
+                                    Member::pinion, Member::gear}) {
+            const double turns = turns_per_mesh(member);
+            if (turns > 0.0 && std::abs(ratio * turns / given - 1.0) < kAgreement &&
+                std::abs(turns / given - 1.0) > kAgreement) {
+                shaft = fmt::format(
+                    "is that the speed of the {}, {:.5g} times that of the study's "
+                    "member? ",
+                    member_name(member), turns / given);
+                ratio = given / turns;
+            }
+        }
+        const double pulses = columns_.pulses_per_turn / ratio, whole = std::round(pulses);
+        const bool counted = whole >= 1.0 && std::abs(pulses / whole - 1.0) < kAgreement;
+        if (!columns_.tachometer.empty()) {
+            return fmt::format("{}give --pulses-per-turn {:.5g}", shaft, counted ? whole : pulses);
+        }
+        return shaft +
+               (counted_ && !speed_column_
+                    ? fmt::format("correct the study's {:.6g} rpm to {:.6g} rpm",
+                                  speed_rpm(record_.mesh_frequency_Hz),
+                                  ratio * speed_rpm(record_.mesh_frequency_Hz))
+                    : "correct the speed") +
+               ", or use the fitted one with --speed found";
+    }
+
+    // Turns of a member per mesh period; 0 if it stands still or the gearbox has none.
+    double turns_per_mesh(Member member) const {
+        const bool pair = record_.path_meshes() <= 1 && record_.planet_sources == 0;
+        const bool of_pair = member == Member::pinion || member == Member::gear;
+        return pair == of_pair ? record_.drivetrain->shaft_turns_per_mesh(member) : 0.0;
+    }
+
+    // Reason why the mesh lines show no constant speed.
+    std::string no_lines_text(const signals::MeshSpeed& found, std::span<const double> samples,
+                              double per_mesh, const std::string& tracking) const {
+        constexpr std::size_t kParts = 8;
+        const std::size_t length = samples.size() / kParts;
+        std::vector<double> ratios;
+        for (std::size_t part = 0; part < kParts; ++part) {
+            const auto in_part = signals::mesh_speed(samples.subspan(part * length, length),
+                                                     per_mesh, record_.path_meshes());
+            if (in_part && in_part->fit > 0.4 && in_part->harmonics >= 2) {
+                ratios.push_back(in_part->ratio);
+            }
+        }
+        std::string varies;
+        if (ratios.size() > kParts / 2) {
+            const auto [low, high] = std::ranges::minmax(ratios);
+            varies = fmt::format(
+                "; in parts of it the lines fit {:.3f} to {:.3f} times the stated "
+                "speed: give the speed with --tachometer, --encoder or a column "
+                "speed_rpm",
+                low, high);
+        }
+        return fmt::format(
+            "no mesh harmonic of this gearbox stands out of the noise at the stated speed ({}{}; "
+            "{} lines of any origin stand out): another channel, a machine at rest, or a speed "
+            "that is wrong or varies{}",
+            tracking, measured_speed_text(), found.lines, varies);
     }
 
     // Checks for lost samples if the phase comes only from sample numbers, times and speed. Lost
@@ -318,6 +468,8 @@ class SignalReader : SignalsReader {
     std::vector<double> phase_;
     std::string tracking_;  // source of the phase
     std::size_t first_sample_ = 0;
+    double mean_mesh_Hz_ = 0.0;  // measured; 0: not known
+    bool speed_column_ = false;  // true if the column of speeds is used
     bool counted_ = false;  // true if the phase comes only from sample numbers, times and speed
 };
 

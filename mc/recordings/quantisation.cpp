@@ -10,6 +10,7 @@
 
 #include "features/modulation_indicators.hpp"
 #include "features/statistics/signal_statistics.hpp"
+#include "mc/recordings/sample_faults.hpp"
 #include "mc/study/member.hpp"
 
 namespace gearpod::mc {
@@ -18,14 +19,6 @@ namespace {
 constexpr double kClearFactor = 4.0;  // RMS of a part over that of its rounding error
 constexpr double kNumerical = 1e-12;  // of the signal's RMS
 constexpr std::size_t kStepSamples = 65536;
-
-double rms_of(std::span<const double> values) {
-    double sum = 0.0;
-    for (const double value : values) {
-        sum += value * value;
-    }
-    return std::sqrt(sum / static_cast<double>(values.size()));
-}
 
 double rms_about_mean(std::span<const double> values) {
     double sum = 0.0;

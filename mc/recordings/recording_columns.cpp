@@ -152,7 +152,9 @@ std::size_t unexplained_step(const std::vector<double>& time, double step,
                              const WrittenPrecision& precision) {
     for (std::size_t i = 1; i < time.size(); ++i) {
         const double rounding = 0.5005 * (precision.unit(time[i - 1]) + precision.unit(time[i]));
-        if (std::abs(time[i] - time[i - 1] - step) > std::max(rounding, kEven * step)) {
+        // Times that were rounded twice are off by more than half a unit each.
+        const double twice = std::min(2.0 * rounding, 0.25 * step);
+        if (std::abs(time[i] - time[i - 1] - step) > std::max({rounding, twice, kEven * step})) {
             return i;
         }
     }
@@ -467,14 +469,24 @@ std::vector<double> RecordingColumns::chosen(const std::string& name, const std:
 }
 
 std::vector<double> RecordingColumns::times(std::size_t samples) {
-    const std::string written_as = columns_.sampling_Hz > 0.0 ? "" : found(kTimeColumn, false);
+    const std::string written_as = time_column();
     if (!written_as.empty()) {
         std::vector<double> written = column(written_as, Quantity::time);
         if (!problems_.empty()) {
             return {};
         }
+        const auto counts = [&](double& value) {
+            return value == written.front() + static_cast<double>(&value - written.data());
+        };
+        if (file_->unit(written_as).empty() && std::ranges::all_of(written, counts)) {
+            reject_column(written_as,
+                          fmt::format("counts the samples ({:g}, {:g}, ...): it is not in s; give "
+                                      "--sampling-Hz",
+                                      written[0], written[1]));
+            return {};
+        }
         SampleTimes time = sample_times(std::move(written), factor(written_as, Quantity::time));
-        reject_column(kTimeColumn, time.problem);
+        reject_column(written_as, time.problem);
         if (time.problem.empty()) {
             compare_with_stated_rate(static_cast<double>(time.seconds.size() - 1) /
                                      (time.seconds.back() - time.seconds.front()));
@@ -486,7 +498,7 @@ std::vector<double> RecordingColumns::times(std::size_t samples) {
     if (!(rate > 0.0 && std::isfinite(rate))) {
         reject(
             fmt::format("no sampling rate: the file has neither a column {} or {} nor "
-                        "sampling_Hz; its columns are {}; give --sampling-Hz",
+                        "sampling_Hz; its columns are {}; give --sampling-Hz or --time",
                         kTimeColumn, "mesh_phase", file_->contents()));
         return {};
     }
@@ -510,8 +522,41 @@ void RecordingColumns::compare_with_stated_rate(double used_Hz) {
     }
 }
 
+std::string RecordingColumns::time_column() {
+    if (columns_.sampling_Hz > 0.0) {
+        return "";
+    }
+    if (!columns_.time.empty()) {
+        const std::string name = found(columns_.time, true);
+        if (name.empty()) {
+            reject_missing(columns_.time);
+        }
+        return name;
+    }
+    for (const char* usual : {kTimeColumn, "Time", "TIME", "t", "T", "X_Value", "X:Time",
+                              "Timestamp", "timestamp", "TIMESTAMP"}) {
+        if (const std::string name = found(usual, false); !name.empty()) {
+            return name;
+        }
+    }
+    return "";
+}
+
+double RecordingColumns::rate_Hz() {
+    if (columns_.sampling_Hz > 0.0) {
+        return columns_.sampling_Hz;
+    }
+    if (const std::string time = time_column(); !time.empty()) {
+        const std::vector<double> values = file_->read(time);
+        const double rate = static_cast<double>(values.size() - 1) /
+                            ((values.back() - values.front()) * factor(time, Quantity::time));
+        return std::isfinite(rate) && rate > 0.0 ? rate : 0.0;
+    }
+    return file_->sampling_Hz_of(first_).value_or(0.0);
+}
+
 std::string RecordingColumns::moment(std::size_t sample) {
-    const std::string time = columns_.sampling_Hz > 0.0 ? "" : found(kTimeColumn, false);
+    const std::string time = time_column();
     const double rate = columns_.sampling_Hz > 0.0 ? columns_.sampling_Hz
                                                    : file_->sampling_Hz_of(first_).value_or(0.0);
     const double seconds = sample == 0 || time.empty()

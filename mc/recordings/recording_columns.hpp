@@ -75,6 +75,7 @@ struct SignalColumns {
     double pulses_per_turn = 1.0;
     std::string encoder = {};  // angle of that member; "": none
     SpeedCheck speed = SpeedCheck::refuse;
+    std::string time = {};  // default "time", or another usual name, if it exists
 };
 
 // The values, each multiplied by the factor.
@@ -96,6 +97,8 @@ class RecordingColumns {
     std::string found(const std::string& name, bool requested);
     // Factor that converts a column to the program's units.
     double factor(const std::string& name, Quantity quantity);
+    // Name of the column of times: that of --time, or one of its usual names; "": none.
+    std::string time_column();
     // Reads a column that the user requested.
     std::vector<double> present(const std::string& name, Quantity quantity);
     // Reads a column and checks that it is finite and as long as the others.
@@ -104,6 +107,8 @@ class RecordingColumns {
                                Quantity quantity);
     // Time of every sample, s.
     std::vector<double> times(std::size_t samples);
+    // Sampling rate as stated or by the times; 0 if it is not known.
+    double rate_Hz();
     // Adds a note if the file states another sampling rate than the one used.
     void compare_with_stated_rate(double used_Hz);
     // Time of a sample as text, " (1.5 s)"; "" if it is not known. Samples are numbered from 1.

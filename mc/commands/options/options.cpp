@@ -349,6 +349,8 @@ void add_columns(CLI::App& command, SignalColumns& columns) {
         "--sensor", columns.sensor,
         "column of the acceleration (default: sensor); in HDF5 and MAT files a name or path, "
         "and data:2 for the second column of a matrix");
+    command.add_option("--time", columns.time,
+                       "column of the times (default: time, Time, t, X_Value, Timestamp)");
     add_number(command, "--sampling-Hz", columns.sampling_Hz,
                "sampling rate (default: from the file)", above(0.0, "Hz"));
     add_number(command, "--samples-per-mesh", columns.samples_per_mesh,

@@ -263,7 +263,12 @@ std::optional<std::size_t> find_column(const std::vector<TableColumn>& columns,
     }
     const auto remarked =
         only([&](const TableColumn& column) { return without_remark(column.name) == name; });
-    return remarked.size() == 1 ? std::optional(remarked.front()) : std::nullopt;
+    if (!remarked.empty()) {
+        return remarked.size() == 1 ? std::optional(remarked.front()) : std::nullopt;
+    }
+    const auto spelled = only(
+        [&](const TableColumn& column) { return lower_case(column.name) == lower_case(name); });
+    return spelled.size() == 1 ? std::optional(spelled.front()) : std::nullopt;
 }
 
 std::string column_names(const std::vector<TableColumn>& columns) {

@@ -75,8 +75,8 @@ struct TableColumn {
 TableColumn column_of(std::string_view header);
 
 // Index of the column with this name; else of that with this header; else of the only one whose
-// name is this and a remark in parentheses. Throws SignalError (signal_file.hpp) if two columns
-// have the name.
+// name is this and a remark in parentheses; else of the only one that differs in case. Throws
+// SignalError (signal_file.hpp) if two columns have the name.
 std::optional<std::size_t> find_column(const std::vector<TableColumn>& columns,
                                        std::string_view name, const std::string& path);
 

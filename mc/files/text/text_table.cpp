@@ -383,6 +383,38 @@ char choose_separator(const std::vector<SampledLine>& sample) {
     return best;
 }
 
+// Form of a table of numbers without a line of names: columns 1, 2, ...; empty for others.
+std::optional<TextDialect> unnamed_columns(const std::vector<SampledLine>& sample) {
+    for (const char separator : {';', '\t', ',', kBlanks, kOneField}) {
+        std::size_t count = 0;
+        bool numbers = !TextLayout(sample, separator).commented_header();
+        for (const SampledLine& line : sample) {
+            std::vector<std::string_view> fields;
+            if (line.comment) {
+                continue;
+            }
+            split_fields(line.text, separator, fields);
+            while (fields.size() > 1 && trimmed_field(fields.back()).empty()) {
+                fields.pop_back();
+            }
+            count = count == 0 ? fields.size() : count;
+            numbers = numbers && fields.size() == count &&
+                      std::ranges::all_of(fields, [](std::string_view field) {
+                          return number_of(trimmed_field(field), true).has_value();
+                      });
+        }
+        if (numbers && count > (separator == kOneField ? 0U : 1U)) {
+            TextDialect dialect;
+            dialect.separator = separator;
+            for (std::size_t c = 1; c <= count; ++c) {
+                dialect.columns.push_back({std::to_string(c), "", std::to_string(c)});
+            }
+            return dialect;
+        }
+    }
+    return std::nullopt;
+}
+
 }  // namespace
 
 TextDialect text_dialect(const std::string& path) {
@@ -395,17 +427,13 @@ TextDialect text_dialect(const std::string& path) {
     if (text == sample.end()) {
         throw SignalError(path + ": is empty; a header line of column names must come first");
     }
+    if (const auto unnamed = unnamed_columns(sample)) {
+        return *unnamed;
+    }
     const char separator = stated.value_or('\0') != '\0' ? *stated : choose_separator(sample);
     const TextLayout layout(sample, separator);
     const auto commented = layout.has_header() ? std::nullopt : layout.commented_header();
     const TextDialect dialect = commented ? *commented : layout.dialect(path);
-    for (std::size_t c = 0; c < dialect.columns.size(); ++c) {
-        if (!layout.has_header() && !commented && number_of(dialect.columns[c].name, true)) {
-            throw SignalError(
-                fmt::format("{}:{}: column {} has no name; the first line must name the columns",
-                            path, dialect.header_line, c + 1));
-        }
-    }
     if (dialect.columns.size() > kMostColumns) {
         throw SignalError(fmt::format("{}:{}: {} columns; at most {} are supported", path,
                                       dialect.header_line, dialect.columns.size(), kMostColumns));

@@ -36,7 +36,8 @@ struct TextDialect {
 //   units        a line of units between the names and the first row
 //   remarks      other lines before the header, comments too
 //
-// Lines that begin with # are comments, except one with the names if no other line has them.
+// Lines that begin with # are comments, except one with the names if no other line has them. The
+// columns of a table of numbers alone are called 1, 2, ....
 // Throws SignalError (signal_file.hpp) if there is no header.
 TextDialect text_dialect(const std::string& path);
 

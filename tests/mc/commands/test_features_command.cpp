@@ -154,7 +154,9 @@ TEST_CASE("Every problem of a signal is reported in one message, with exit code 
     write_bytes(folder.file("empty.csv"), "# nothing\n\n");
     refused(folder.file("empty.csv"), "is empty");
     write_bytes(folder.file("bare.csv"), "0.5,0.25\n0.5,0.75\n");
-    refused(folder.file("bare.csv"), ":1: column 1 has no name");
+    refused(folder.file("bare.csv"), "its columns are 1, 2; choose with --sensor");
+    write_bytes(folder.file("blanks.txt"), "0.5 0.25 7\n0.5 0.75 8\n");
+    refused(folder.file("blanks.txt"), "its columns are 1, 2, 3; choose with --sensor");
     write_bytes(folder.file("ragged.csv"), "time,sensor\n0,1\n1\n");
     refused(folder.file("ragged.csv"), ":3: 1 values, but the header names 2 columns");
     write_bytes(folder.file("word.csv"), "time,sensor\n0,1\n1,one\n");
@@ -183,7 +185,7 @@ TEST_CASE("Every problem of a signal is reported in one message, with exit code 
     write_csv(folder.file("rate.csv"), "sensor", {good});
     refused(folder.file("rate.csv"), "no sampling rate");
     refused(folder.file("rate.csv") + " --sampling-Hz 5000",
-            "set sensor.sampling_Hz to that of the recording, about 5000 Hz");
+            "set sensor.sampling_Hz to that of the recording, at the study's speed about 5000 Hz");
     refused(folder.file("rate.csv") + " --sampling-Hz 100", "set sensor.low_pass_Hz to at most ");
     time[50] += 1e-3;
     write_csv(folder.file("uneven.csv"), "time,sensor", {time, good});

@@ -213,4 +213,39 @@ TEST_CASE(
     CHECK(held >= kTablesTried - 1);  // 95 % each
 }
 
+TEST_CASE(
+    "Counts of hits, words for hits and blank fields are read, and cut-off responses questioned") {
+    const Folder folder;
+    const auto text_of = [&](const std::string& name, const std::string& text,
+                             const std::string& options) {
+        return require_success("pod " + written(folder, name, text) + options).output;
+    };
+    std::string counts = "Size [mm],n,hits\n", lines = "size [mm],hit\n", words = lines;
+    const int hits[] = {0, 1, 3, 5, 6, 6};
+    for (int i = 0; i < 6; ++i) {
+        const double size = 0.5 + 0.3 * i;
+        counts += fmt::format("{},6,{}\n", size, hits[i]);
+        for (int k = 0; k < 6; ++k) {
+            lines += fmt::format("{},{}\n", size, k < hits[i] ? 1 : 0);
+            words += fmt::format("{},{}\n", size, k < hits[i] ? "TRUE" : "Miss");
+        }
+    }
+    words += "1.5,\n";
+    const auto sizes = [](const std::string& out) {
+        return out.substr(out.find("Sizes with"), 200);
+    };
+    const std::string plain = text_of("lines.csv", lines, "");
+    CHECK(sizes(text_of("counts.csv", counts, "")) == sizes(plain));
+    const std::string worded = text_of("words.csv", words, "");
+    CHECK(sizes(worded) == sizes(plain));
+    CHECK(worded.find("Not used: 1 field(s) without a value") < 5);
+    std::string cut = "size,response\n";
+    for (int i = 0; i < 40; ++i) {
+        const double value = 20.0 + 3.0 * i + 5.0 * std::sin(7.0 * i);
+        cut += fmt::format("{},{}\n", 1.0 + 0.1 * i, std::min(value, 80.0));
+    }
+    CHECK_THAT(text_of("cut.csv", cut, " --threshold 50"),
+               Catch::Contains("are equal to the largest, 80: give --right 80"));
+}
+
 }  // namespace gearpod::test_pod_command
