@@ -24,7 +24,8 @@ struct MeshSpeed {
     int lines = 0;        // number of lines above the noise, of any origin
 
     // True if the lines confirm the assumed speed. At a wrong speed chance covers a tenth of them.
-    bool fits() const { return stated > 0.6 * fit && stated > 0.1; }
+    // The dense comb of a lower speed covers more.
+    bool fits() const { return stated > (ratio < 1.0 ? 0.5 : 0.6) * fit && stated > 0.1; }
     // True if enough lines fit another speed to name it.
     bool contradicts() const { return !fits() && fit > 0.3 && harmonics >= 3; }
 };
