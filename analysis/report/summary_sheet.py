@@ -126,7 +126,7 @@ def _table(sheet, report):
 
 def _figure(sheet, report, height):
     sheet.y += 0.25  # titles and labels are outside the axes
-    detection_figures.of_feature(sheet.axes(0.075, 1.0, height - 0.75), report,
+    detection_figures.of_feature(sheet.axes(0.075, 0.85, height - 0.75), report,
                                  detection_figures.best(report))
     sheet.y += height - 0.25
 

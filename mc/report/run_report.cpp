@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
 #include <functional>
 #include <map>
 #include <nlohmann/json.hpp>
@@ -137,7 +136,7 @@ std::string other_fault_of(const analysis::Findings& findings, const Results& fr
 // Computing time with the shares of its parts.
 analysis::Section time_section(const Results& frame) {
     constexpr std::string_view kThreads = "_thread_s";
-    constexpr double kLeastShown = 0.01;
+    constexpr std::size_t kMostShown = 2;
     double all = 0.0;
     std::map<std::string, double> values;
     std::vector<std::pair<double, std::string>> parts;
@@ -152,17 +151,19 @@ analysis::Section time_section(const Results& frame) {
     std::ranges::sort(parts, std::greater());
     std::vector<std::string> shares;
     for (const auto& [seconds, part] : parts) {
-        if (seconds > kLeastShown * all) {
+        if (shares.size() < kMostShown) {
             shares.push_back(fmt::format("{} {:.0f} %", part, 100.0 * seconds / all));
         }
     }
     analysis::Section section{"time", "", {}};
-    const std::string threads = frame.provenance_value("threads");
+    const std::string threads = frame.provenance_value("threads"),
+                      ranks = frame.provenance_value("ranks");
     section.state("time",
-                  all > 0.0
-                      ? fmt::format("Time: {:.1f} s with {} thread{} ({}).", values["ensemble_s"],
-                                    threads, threads == "1" ? "" : "s", analysis::joined(shares))
-                      : "",
+                  all > 0.0 ? fmt::format("Time: {:.1f} s with {} thread{}{} ({}).",
+                                          values["ensemble_s"], threads, threads == "1" ? "" : "s",
+                                          ranks == "1" ? "" : " in " + ranks + " ranks",
+                                          analysis::joined(shares))
+                            : "",
                   analysis::Shown::screen);
     const double superposed = values["superposed_records"],
                  full = values["superposition_fallback_records"];
@@ -327,9 +328,7 @@ std::vector<std::string> screen_end(const std::string& file, bool part) {
         return {"results: " + file,
                 "Join it with all other parts: gearpod merge " + file + " ... --out WHOLE.h5"};
     }
-    const auto page = std::filesystem::path(file).replace_extension(".html").string();
-    return {"results: " + file,
-            fmt::format("All findings: gearpod report {} --full; page: --html {}", file, page)};
+    return {"results: " + file, fmt::format("All findings: gearpod report {} --full", file)};
 }
 
 nlohmann::json definition_json(std::string_view name, std::string_view unit,

@@ -393,7 +393,7 @@ std::string condition_title(const Findings& findings, const ConditionDetection& 
 }  // namespace
 
 Table noise_table(const Findings& findings) {
-    constexpr std::size_t kMostSizes = 9, kMostLevels = 4;
+    constexpr std::size_t kMostSizes = 7, kMostLevels = 4;
     const std::size_t best = findings.best(findings.reference);
     const bool noise = findings.subject == Subject::gearboxes, sized = has_sizes(findings.request);
     const auto& cells = findings.detection[best].levels.front().cells;
@@ -411,13 +411,12 @@ Table noise_table(const Findings& findings) {
     const std::size_t sizes = faulty.size();
     const std::vector<std::size_t> levels =
         spread(findings.levels(), kMostLevels, findings.reference);
-    table.title =
-        fmt::format("Alarms of {} in % of the {}, with {} interval{}{}", findings.name(best),
-                    plural(findings.subject), findings.percent(),
-                    sizes > kMostSizes ? fmt::format("; {} of {} sizes", kMostSizes, sizes) : "",
-                    findings.levels() > kMostLevels
-                        ? fmt::format("; {} of {} noise levels", kMostLevels, findings.levels())
-                        : "");
+    table.title = fmt::format(
+        "Alarms of {} in % with {} interval{}{}", findings.name(best), findings.percent(),
+        sizes > kMostSizes ? fmt::format("; {} of {} sizes", kMostSizes, sizes) : "",
+        findings.levels() > kMostLevels
+            ? fmt::format("; {} of {} noise levels", kMostLevels, findings.levels())
+            : "");
     std::vector<std::string> healthy{"healthy"};
     for (const std::size_t n : levels) {
         const LevelDetection& level = findings.detection[best].levels[n];

@@ -498,7 +498,7 @@ std::string next_step(const Findings& findings) {
         }
         return !simulated ? "test the alarm on recordings that did not set its threshold"
                : findings.levels() > 1
-                   ? "measure the noise at your sensor, and read the row of its level below"
+                   ? "measure the noise at your sensor, and read its row below"
                    : "measure the noise at your sensor, and repeat the study with it";
     }
     if (const auto quieter = quieter_level(findings)) {

@@ -144,7 +144,11 @@ class Run {
         } catch (const machine::Cancelled&) {
             fmt::print(stderr, "the time limit is reached; `gearpod report` shows the results\n");
         }
-        return screen_text(report, screen_end(results_path(options_), !part_.empty()));
+        std::vector<std::string> end = screen_end(results_path(options_), !part_.empty());
+        if (ranks_.machines() > 1) {
+            end.push_back(fmt::format("Statistics on {} machines.", ranks_.machines()));
+        }
+        return screen_text(report, end);
     }
 
     int conclude(EnsembleOutcome outcome, const Interruption& interruption) {

@@ -49,7 +49,7 @@ TEST_CASE("Machines share the detection statistics, and the report is that of on
     INFO(two.output);
     REQUIRE(one.code == 0);
     REQUIRE(two.code == 0);
-    check_mentions(two, {"(3 ranks, 3 threads in total", "on 2 machines"});
+    check_mentions(two, {"3 threads in 3 ranks", "on 2 machines"});
     CHECK_FALSE(one.mentions("machines"));
     CHECK(tables(one) == tables(two));
 
