@@ -169,15 +169,14 @@ TEST_CASE("Short records show single teeth of ring and sun as the whole signal d
     const auto [turns, names] =
         GENERATE(std::tuple{3, "\"ring_window_ratio\",\"ring_window_kurtosis\""},
                  std::tuple{9, "\"ring_window_ratio\",\"sun_window_ratio\",\"sun_window_m8a\""});
-    const Study study =
-        test::shipped_study("planet-crack.toml",
-                            {"gearbox.planets=3", "gearbox.sun.teeth=18", "gearbox.planet.teeth=21",
-                             "gearbox.ring.teeth=60", "gearbox.sun.bore_mm=20",
-                             "gearbox.planet.bore_mm=30", "gearbox.ring.outer_mm=240",
-                             "operation.carrier_speed_rpm=2", "numerics.precision=\"double\"",
-                             "numerics.settle_tolerance=1e-11", "sensor.noise_levels=[0.001]",
-                             fmt::format("sensor.record_turns={}", turns * 21.0 / 60.0 + 0.01),
-                             fmt::format("features.use=[{}]", names)});
+    const Study study = test::shipped_study(
+        "planet-crack.toml",
+        {"gearbox.planets=3", "gearbox.sun.teeth=18", "gearbox.planet.teeth=21",
+         "gearbox.ring.teeth=60", "gearbox.sun.bore_mm=20", "gearbox.planet.bore_mm=30",
+         "gearbox.ring.outer_mm=240", "numerics.precision=\"double\"",
+         "numerics.settle_tolerance=1e-11", "sensor.noise_levels=[0.001]",
+         fmt::format("sensor.record_turns={}", turns * 21.0 / 60.0 + 0.01),
+         fmt::format("features.use=[{},\"own_sensor_rms\"]", names)});
     const GearboxId id{Group::test, 16};
     const Records alone = records_of(study, id, 1, false), whole = records_of(study, id, 1, true);
     for (std::size_t feature = 0; feature < alone.values[0].size(); ++feature) {
