@@ -23,7 +23,7 @@ LARGEST_FILE, MOST_TAGS, DEEPEST_NESTING = 64 << 20, 2_000_000, 16  # a matrix h
 MOST_MEMORY, MOST_SECONDS = 4 << 30, 15
 MOST_PROBLEMS, MOST_STAGES, MOST_PAIRS = 1000, 200, 200
 NEWEST_VERSION = 6  # of 1.x
-LAST_LINE = 65535  # libxml2 counts no further
+LAST_LINE = 65535  # libxml2 counts no further; a remainder of 0 is no line
 BLANKS = " \t\r\n"
 NUMBER = re.compile(r"[+-]?([0-9]+\.?[0-9]*|\.[0-9]+)([eE][+-]?[0-9]+)?")
 
@@ -32,7 +32,6 @@ SHIFTS = ("addendum_modification_coefficient", "profile_shift_coefficient")
 SHIFTS_MM = ("addendum_modification", "profile_shift")
 HELICES = ("helix_angle_reference_diameter", "helix_angle")
 DISTANCES = ("center_distance", "centre_distance")
-
 COUNTS = ("number_of_teeth", "number_of_planets")  # whole numbers
 
 # Factors that convert the attributes to the first unit. Blanks in units do not matter. "mum" is REXS's micrometre.
@@ -49,19 +48,18 @@ UNITS = {name: units for names, units in (
                              "rad/s": 30.0 / math.pi}),
     (("torque_around_u_axis",), {"Nm": 1.0, "kNm": 1e3, "Nmm": 1e-3, "MNm": 1e6})) for name in names}
 
-# Attributes that messages about the study's keys name, and defaults that notes name.
-STAGE_NAMES = {"normal_module_mm": "normal_module", "module_mm": "normal_module", "helix_angle_deg": HELICES[0],
-               "pressure_angle_deg": "normal_pressure_angle", "face_width_mm": "face_width", "young_modulus_Pa": "elastic_modulus",
-               "poisson_ratio": "poisson_ratio", "centre_distance_mm": DISTANCES[0]}
-GEAR_NAMES = {"teeth": "number_of_teeth", "shift": SHIFTS[0], "tip_mm": "tip_diameter"}
-LACKING = {"pressure_angle_deg": "normal pressure angle (20 deg)", "helix_deg": "helix angle (0 deg)", "face_width_mm": "face width",
-           "centre_distance_mm": "centre distance", "young_modulus_Pa": "Young's modulus", "poisson_ratio": "Poisson's ratio",
-           "quality": "tooth quality"}
+# By the study's keys: attributes that messages name, and texts of notes on values that a model lacks.
+OF_STAGE = {"normal_module_mm": ("normal_module", ""), "module_mm": ("normal_module", ""),
+            "pressure_angle_deg": ("normal_pressure_angle", "normal pressure angle (20 deg)"),
+            "helix_angle_deg": (HELICES[0], "helix angle (0 deg)"), "face_width_mm": ("face_width", "face width"),
+            "centre_distance_mm": (DISTANCES[0], "centre distance"), "young_modulus_Pa": ("elastic_modulus", "Young's modulus"),
+            "poisson_ratio": ("poisson_ratio", "Poisson's ratio")}
+OF_GEAR = {"teeth": "number_of_teeth", "shift": SHIFTS[0], "tip_mm": "tip_diameter"}
 
-# Attributes that place a component in space or describe it to a user.
-POSITIONS = {"support_vector", "u_axis_vector", "v_axis_vector", "w_axis_vector", "reference_component_for_position",
-             "u_coordinate_on_shaft", "u_coordinate_on_shaft_inner_side", "u_coordinate_on_shaft_outer_side",
-             "rotating_angle_around_neg_u_axis", "name", "display_color", "is_driving_gear", "transmits_torque"}
+# Attributes that place a component in space, describe it to a user or choose among loads. Notes do not name them.
+IGNORED = {"support_vector", "u_axis_vector", "v_axis_vector", "w_axis_vector", "reference_component_for_position",
+           "u_coordinate_on_shaft", "u_coordinate_on_shaft_inner_side", "u_coordinate_on_shaft_outer_side", "display_color",
+           "rotating_angle_around_neg_u_axis", "name", "is_driving_gear", "defines_torque", "transmits_torque"}
 
 
 class Unusable(Exception):
@@ -70,7 +68,8 @@ class Unusable(Exception):
 
 class Attribute:
     def __init__(self, node):
-        self.id, self.unit, self.line, self.used = node.get("id", ""), node.get("unit", "").strip(BLANKS), line_of(node), False
+        self.id, self.unit, self.used = node.get("id", ""), node.get("unit", "").strip(BLANKS), False
+        self.line = node.sourceline % LAST_LINE
         array, matrix = (node.find(kind) is not None for kind in ("array", "matrix")) if len(node) else (False, False)
         self.scalar = not array and not matrix
         text = node.findtext("array[1]/c") if array else "matrix" if matrix else node.text  # the first value of an array counts
@@ -78,15 +77,11 @@ class Attribute:
         value = float(self.text) if NUMBER.fullmatch(self.text) else math.inf
         self.value = value if math.isfinite(value) else None
 
-    def ignored(self):
-        """True if a study has to take nothing from it: used, a position, zero, false or empty."""
-        return self.used or self.id in POSITIONS or self.text in ("", "false") or self.value == 0.0
-
 
 class Component:
     def __init__(self, node, model):
         self.id, self.type, self.name = (node.get(key, "") for key in ("id", "type", "name"))
-        self.label, self.line, self.considered, self.attributes = f"{self.type} {self.id}", line_of(node), False, {}
+        self.label, self.line, self.considered, self.attributes = f"{self.type} {self.id}", node.sourceline % LAST_LINE, False, {}
         for new in map(Attribute, node.iterfind("attribute")):
             old = self.attributes.setdefault(new.id, new)
             if (old.text, old.unit) != (new.text, new.unit):
@@ -99,14 +94,6 @@ class Component:
         if found:
             found.used = True
         return found
-
-
-def line_of(node):
-    return node.sourceline if (node.sourceline or LAST_LINE) < LAST_LINE else 0
-
-
-def magnitude(value):
-    return None if value is None else abs(value)
 
 
 def content(path):
@@ -153,9 +140,11 @@ def root_of(data):
                 node.tag = node.tag.rpartition("}")[2]
     except etree.XMLSyntaxError as error:
         first = next(iter(error.error_log.filter_from_errors()), None)
-        raise Unusable(f"is not well-formed XML ({first.message if first else error.msg})", "", first.line if first else 0) from error
+        what, line = (first.message, first.line) if first else (error.msg, 0)
+        raise Unusable(f"is not well-formed XML ({what})", "", line) from error
     if root.tag != "model":
-        raise Unusable(f"is XML, but not REXS: its root is <{root.tag}>", "a REXS file has the root <model>", line_of(root))
+        raise Unusable(f"is XML, but not REXS: its root is <{root.tag}>", "a REXS file has the root <model>",
+                       root.sourceline % LAST_LINE)
     return root
 
 
@@ -164,19 +153,20 @@ class Model:
 
     def __init__(self):
         self.problems, self.notices = [], []  # each as line, key, what is wrong, remedy
-        self.notes, self.lacking, self.components = [], [], {}
+        self.notes, self.lacking, self.components, self.options = [], [], {}, {}
         # Relations, each as components by role: all by type, and by type, role and component.
         self.relations, self.index = collections.defaultdict(list), collections.defaultdict(list)
 
     def read(self, path):
         root = root_of(content(path))
-        self.version, known = root.get("version", ""), re.fullmatch(r"1\.([0-9]{1,9})", root.get("version", ""))
+        self.version, line = root.get("version", ""), root.sourceline % LAST_LINE
+        known = re.fullmatch(r"1\.([0-9]{1,9})", self.version)
         if not known:
             self.problem("model", f"version {self.version} of REXS is not known" if self.version else "states no version",
-                         "export the model in version 1.0 to 1.6", line_of(root))
+                         "export the model in version 1.0 to 1.6", line)
         elif int(known[1]) > NEWEST_VERSION:
-            self.notices.append((line_of(root), "model", f"version {self.version} is newer than 1.{NEWEST_VERSION}, the newest "
-                                 "that this program knows", "attributes that were renamed since count as missing"))
+            self.notices.append((line, "model", f"version {self.version} is newer than 1.{NEWEST_VERSION}, the newest that "
+                                 "this program knows", "attributes that were renamed since count as missing"))
         for new in (Component(node, self) for node in root.iterfind("components[1]/component")):
             if self.components.setdefault(new.id, new) is not new:
                 self.problem(new.label, "the id occurs twice", "give every component its own id", new.line)
@@ -185,7 +175,7 @@ class Model:
             for role, name in ((ref.get("role", ""), ref.get("id", "")) for ref in node.iterfind("ref")):
                 relation.setdefault(role, self.components.get(name))
                 if name not in self.components:
-                    self.problem(f"relation {kind}", f"component {name} ({role}) does not exist", "", line_of(node))
+                    self.problem(f"relation {kind}", f"component {name} ({role}) does not exist", "", node.sourceline % LAST_LINE)
             self.relations[kind].append(relation)
             for role, component in relation.items():
                 self.index[kind, role, component].append(relation)
@@ -227,14 +217,12 @@ class Model:
         if factor is None:
             self.reject(component, attribute.id, f"unit {attribute.unit} is not known" if attribute.unit
                         else "states no unit", "the units known here are " + ", ".join(filter(None, units)))
-        if value is None or factor is None:
-            return None
-        value *= factor
-        if names[0] not in COUNTS:
-            return value
-        if value != round(value) or abs(value) > 1e6:
-            return self.reject(component, names[0], f"must be a whole number, but is {value:g}")
-        return int(value)
+        number = None if None in (value, factor) else value * factor
+        if number is None or names[0] not in COUNTS:
+            return number
+        if number != round(number) or abs(number) > 1e6:
+            return self.reject(component, names[0], f"must be a whole number, but is {number:g}")
+        return int(number)
 
     def flag(self, component, name):
         """True for "true"; None if the attribute is missing. Of an array, for its first value."""
@@ -274,7 +262,7 @@ class Model:
         for component in self.components.values():
             types[component.type] += not component.considered
             for attribute in component.attributes.values() if component.considered else []:
-                if not attribute.ignored():
+                if not attribute.used and attribute.id not in IGNORED and attribute.text not in ("", "false") and attribute.value != 0.0:
                     unit = "" if attribute.unit == "none" else " " + attribute.unit
                     here = attribute.text + unit if attribute.scalar else "an array"
                     if attributes[component.type].setdefault(attribute.id, here) != here:
@@ -291,8 +279,8 @@ class Stage:
     `obstacle`: reason why no study can be written."""
 
     def __init__(self, model, component, pairs):
-        self.component, self.kind, self.first, self.second = component, component.type.removesuffix("_stage"), None, None
-        self.planets, self.first_pairs, self.second_pairs, self.teeth = [], [], [], ""
+        self.model, self.component, self.kind = model, component, component.type.removesuffix("_stage")
+        self.first, self.second, self.planets, self.first_pairs, self.second_pairs, self.teeth = None, None, [], [], [], ""
         nameless = [pair for pair, *gears in pairs if None in gears]
         if self.kind not in ("planetary", "cylindrical"):
             self.obstacle = "only planetary and cylindrical stages are simulated"
@@ -303,9 +291,9 @@ class Stage:
         else:
             self.obstacle = self.sort(pairs)
         if self.first:
-            teeth = [model.number(gear, "number_of_teeth") if gear.find("number_of_teeth") else "?"
+            teeth = [gear.find("number_of_teeth") and abs(model.number(gear, "number_of_teeth") or 0)
                      for gear in (self.first, *self.planets[:1], self.second)]
-            self.teeth = "/".join(number if number == "?" else str(abs(number or 0)) for number in teeth) + " teeth"
+            self.teeth = "/".join("?" if number is None else str(number) for number in teeth) + " teeth"
             self.teeth += f", {len(self.planets)} planet{'s' * (len(self.planets) > 1)}" if self.planets else ""
 
     def sort(self, pairs):
@@ -316,9 +304,9 @@ class Stage:
             return "internal gears on fixed shafts are not simulated" if "ring_gear" in (self.first.type, self.second.type) else ""
         suns, planets, rings, inner = {}, {}, {}, []  # dicts keep the order
         for pair, *gears in pairs:
-            ring = next((gear for gear in gears if gear.type == "ring_gear"), None)
-            if ring:
-                rings[ring] = planets[gears[gears[0] is ring]] = True
+            if "ring_gear" in [gear.type for gear in gears]:
+                ring, planet = sorted(gears, key=lambda gear: gear.type != "ring_gear")
+                rings[ring] = planets[planet] = True
                 self.second_pairs.append(pair)
             else:
                 inner.append((pair, *gears))
@@ -341,12 +329,168 @@ class Stage:
         obstacle = f"; not possible: {self.obstacle}" if self.obstacle else ""
         return f"{self.component.id} ({', '.join(filter(None, [self.component.name, kind, self.teeth]))}{obstacle})"
 
-    def carriers(self, model):
-        return model.related("planet_carrier_shaft", "planetary_stage", self.component, "shaft")
+    def carriers(self):
+        return self.model.related("planet_carrier_shaft", "planetary_stage", self.component, "shaft")
 
-    def ends(self, model):
+    def ends(self):
         """Shafts of the first member, and of the second: the carrier of a planetary stage."""
-        return [model.shaft_of(self.first), self.carriers(model) if self.planets else model.shaft_of(self.second)]
+        return [self.model.shaft_of(self.first), self.carriers() if self.planets else self.model.shaft_of(self.second)]
+
+    def datasheet(self, load):
+        """Values under the names of the program's structs, and the gears by the names that they have in a study."""
+        model = self.model
+        first, second = (self.second, self.first) if load.second_drives and not self.planets else (self.first, self.second)
+        gears = {"sun": [first], "planet": self.planets, "ring": [second]} if self.planets else {"pinion": [first], "gear": [second]}
+        members = {member: Gear(model, parts) for member, parts in gears.items()}
+        values = {member: gear.teeth for member, gear in members.items()} | self.shared_values(list(members.values()))
+        for gear in members.values():
+            self.check_tip(gear)
+        if self.planets:
+            values["planets"] = self.number_of_planets()
+        for name in () if self.planets else {"input", "planets"} & set(model.options):
+            model.problem(f"--{name}", "a gear pair has none", "leave it out for a cylindrical stage")
+        for planet in self.planets:
+            self.bearings(model.shaft_of(planet))  # all count as considered
+        shafts = {member: model.shaft_of(parts[0]) for member, parts in gears.items()}
+        shafts |= {"carrier": self.carriers()} if self.planets else {}
+        owners = {"planet": "planets'", "pinion": "driving gear's", "gear": "driven gear's"}
+        owners = {member: owners.get(member, f"{member}'s") for member in shafts}
+        stiffness = {member: self.bearings(held, re.sub("'s?$", "", owners[member])) for member, held in shafts.items()}
+        for key, title, numbers in (("shift", "shift", {member: gear.shift for member, gear in members.items()}),
+                                    ("tip_mm", "tip circle", {member: gear.tip for member, gear in members.items()}),
+                                    ("bearing_N_m", "bearing stiffness", stiffness)):
+            values |= {f"{member}_{key}": value for member, value in numbers.items()}
+            model.lacking += [f"{owners[member]} {title}" for member, value in numbers.items() if value is None]
+        if self.planets:
+            values["input"] = load.drive_other(model, members["sun"], members["ring"])
+        else:
+            model.lacking.append("shafts, motor and load")
+            model.notes.append(f"{first.label} drives (the study's pinion)")
+        model.notes += load.notes
+        return values | load.values(model), members
+
+    def shared_values(self, gears):
+        """Values that all gears of the stage share."""
+        model, pairs = self.model, self.first_pairs + self.second_pairs
+        gear_data = [data for pair in pairs for data in model.related("stage_gear_data", "stage", pair, "stage_gear_data")]
+        for part in [self.component] + pairs + gear_data:
+            part.considered = True
+        stated = {name: [(gear.values[name], gear.component) for gear in gears if gear.values[name] is not None]
+                  for name in gears[0].values}
+        values = {name: model.same(stated[name], OF_STAGE[name][0], "that of {} is {:.9g}; meshing gears have the same")
+                  for name in ("module_mm", "pressure_angle_deg", "helix_angle_deg")}
+        values["centre_distance_mm"] = (distance := model.common(pairs, *DISTANCES)) and abs(distance)
+        for pair, meshing in ((self.first_pairs[0], gears[:2]), *((pair, gears[1:]) for pair in self.second_pairs[:1])):
+            self.check_centre_distance(pair, values, *meshing)
+        width = values["face_width_mm"] = self.combined(stated["face_width_mm"], min, "face widths {}; a study has one, the common "
+                                                        "{:g} mm", " mm", model.common(pairs, "common_face_width"))
+        for name, title in (("young_modulus_Pa", "Young's modulus, Pa"), ("poisson_ratio", "Poisson's ratio")):
+            # The mean of stiffnesses in series.
+            values[name] = self.combined(stated[name], lambda numbers: len(numbers) / sum(1.0 / number for number in numbers),
+                                         title + ": {}; a study has one value, their harmonic mean {:.6g}")
+        if self.kind == "cylindrical":
+            first, second = (model.number(gear, *HELICES) or 0.0 for gear in (self.first, self.second))
+            if first * second > 0.0:
+                model.reject(self.second, HELICES[0], f"{second:g} and {first:g} deg of {self.first.label} have the same "
+                             "sign; external gears on parallel shafts have opposite hands")
+        values |= {name: model.options[name] for name in ("face_width_mm", "addendum", "quality") if name in model.options}
+        model.lacking += [text for name, (_, text) in OF_STAGE.items() if text and values[name] is None]
+        model.lacking += [] if "quality" in values else ["tooth quality"]
+        values["helix_deg"] = values.pop("helix_angle_deg")
+        if "face_width_mm" in model.options and width is not None:
+            model.notes.append(f"an option replaces the model's face width of {width:g} mm")
+        return values
+
+    def combined(self, stated, combine, note, unit="", value=None):
+        """Combination of values, each with the component that states it, or a given value. Notes values that differ."""
+        numbers = [number for number, _ in stated]
+        if value is None and numbers:
+            value = combine(numbers) if len(set(numbers)) > 1 else numbers[0]
+        if any(number != value for number in numbers):
+            self.model.notes.append(note.format(", ".join(f"{number:.6g}{unit} of {by.label}" for number, by in stated), value))
+        return value
+
+    def check_centre_distance(self, pair, values, gear_1, gear_2):
+        """Rejects a centre distance that does not fit the teeth and shifts of two gears, with the one that does. Notes
+        a small backlash."""
+        distance, module, number = values["centre_distance_mm"], values["module_mm"], gear_1.teeth + gear_2.side * gear_2.teeth
+        if None in (distance, module, gear_1.shift, gear_2.shift) or not (module > 0.0 and gear_1.teeth and gear_2.teeth and number):
+            return
+        helix = math.radians(values["helix_angle_deg"] or 0.0)
+        normal = 20.0 if values["pressure_angle_deg"] is None else values["pressure_angle_deg"]
+        angle = math.atan(math.tan(math.radians(normal)) / math.cos(helix))
+        shift = (gear_1.shift + gear_2.shift) * math.cos(helix)
+        working = angle if shift == 0.0 else inverse_involute(math.tan(angle) - angle + 2.0 * math.tan(angle) * shift / number)
+        fits = 0.5 * abs(number) * module / math.cos(helix) * math.cos(angle) / math.cos(working)
+        # Backlash in modules: larger distances open external meshes and close internal ones. Shifts are rounded to two
+        # decimals; no allowance of tooth thickness is 0.1.
+        gap = gear_2.side * (distance - fits) * 2.0 * math.tan(angle) / module
+        if 0.01 < gap <= 0.1:
+            self.model.notes.append(f"{gear_1.component.label} and {gear_2.component.label} have a backlash of about "
+                                    f"{gap * module:.3g} mm at {distance:.6g} mm")
+        elif not -0.01 <= gap <= 0.1:
+            self.model.reject(pair, DISTANCES[0], f"is {distance:.6g} mm, but {gear_1.teeth} and {gear_2.teeth} teeth with "
+                              f"shifts of {gear_1.shift:g} and {gear_2.shift:g} fit at {fits:.6g} mm", "correct the distance, the "
+                              "teeth or the shifts (a positive shift makes teeth thicker, also those of a ring: ISO 21771)")
+
+    def check_tip(self, gear):
+        """Rejects a tip circle inside the root circle, such as a placeholder. The option --addendum replaces tip circles."""
+        if gear.tip is None or not gear.teeth:
+            return
+        if "addendum" in self.model.options:
+            self.model.notes.append(f"an option replaces the tip diameter of {gear.component.label}, {gear.tip:g} mm")
+            gear.tip = None
+            return
+        helix, shift = math.radians(gear.values["helix_angle_deg"] or 0.0), gear.side * (2.0 * (gear.shift or 0.0) - 2.5)
+        root = (gear.values["module_mm"] or 0.0) * (gear.teeth / math.cos(helix) + shift)
+        if gear.side * (gear.tip - root) <= 0.0:
+            self.model.reject(gear.component, "tip_diameter", f"{gear.tip:g} mm lies {'in' if gear.side == 1 else 'out'}side the "
+                              f"root circle, {root:.6g} mm", "remove it from the model, and the rule is used, or give --addendum")
+
+    def bearings(self, shafts, member=""):
+        """Radial stiffness of all bearings between these shafts and other parts. None without bearings, or if any of
+        them is rigid or has none; a note on the member names these."""
+        total, unusable = 0.0, []
+        for bearing, *parts in self.model.parts("side", "assembly", "inner_part", "outer_part"):
+            if bearing and "bearing" in bearing.type and set(shafts) & set(parts):
+                bearing.considered = True
+                stiffness = self.model.number(bearing, "radial_stiffness")
+                if stiffness is not None and 0.0 < stiffness < 1e13:
+                    total += stiffness
+                else:
+                    unusable.append(bearing.label + ("" if stiffness is None else f" ({stiffness:g} N/m)"))
+        if unusable and member:
+            self.model.notes.append(f"bearings of the {member} that are rigid or state no radial stiffness, replaced by the "
+                                    "rule: " + ", ".join(unusable))
+        return None if unusable else total or None
+
+    def number_of_planets(self):
+        """Number of planets: given as an option, stated or modelled. Rejects a turning ring. Notes planets that are not
+        spaced equally."""
+        model, ring = self.model, self.model.shaft_of(self.second)
+        turning = [f"its {shaft.label} turns at {speed:.6g} rpm" for shaft in ring if (speed := model.number(shaft, "rotational_speed"))]
+        turning += [f"{held.label} stands still instead (rotational_speed 0)" for _ in ring
+                    for held in self.carriers() + model.shaft_of(self.first)
+                    if model.number(held, "rotational_speed") == 0.0 and model.flag(held, "defines_speed")]
+        if turning:
+            model.problem(self.component.label, f"the ring is not the fixed member: {turning[0]}",
+                          "new writes studies with a fixed ring; edit operation.fixed in one")
+        modelled, stated = len(self.planets), model.number(self.component, "number_of_planets")
+        given, here = model.options.get("planets"), (3 if modelled == 1 else modelled) if stated is None else stated
+        if stated is not None and modelled > 1 and stated != modelled:
+            model.reject(self.component, "number_of_planets", f"is {stated}, but the model has {modelled} planet gears",
+                         "correct one of them")
+        if modelled == 1 and stated is None and given is None:
+            model.lacking.append("number of planets (3; the model has one planet gear)")
+        if given not in (None, here) and modelled > 1:
+            model.notes.append(f"an option replaces the model's number of planets, {here}")
+        angles = [model.number(pair, "rotating_angle_around_neg_u_axis") for pair in self.first_pairs]
+        angles = sorted(angle % 360.0 for angle in angles if angle is not None)
+        if any(abs(angle - angles[0] - 360.0 * i / len(angles)) > 0.5 for i, angle in enumerate(angles)):
+            listed = ", ".join(f"{angle - angles[0]:.4g}" for angle in angles)
+            model.notes.append(f"planets at {listed} deg; the study spaces them equally or as nearly as the teeth allow "
+                               "(gearbox.planet_positions_deg)")
+        return here if given is None else given
 
 
 def stages_of(model):
@@ -354,29 +498,31 @@ def stages_of(model):
     pairs = {pair[0]: pair for pair in model.parts("stage", "stage", "gear_1", "gear_2")}
     planetary, within = collections.defaultdict(list), set()
     for whole, part in model.parts("assembly", "assembly", "part"):
-        if whole and part and whole.type == "planetary_stage" and part in pairs and part not in within:
+        if whole and whole.type == "planetary_stage" and part in pairs and part not in within:
             within.add(part)
             planetary[whole].append(pairs[part])
-    return [Stage(model, component, planetary[component] if component.type == "planetary_stage" else
-                  [pairs.get(component, (component, None, None))])
-            for component in model.components.values() if component.type.endswith("_stage")
-            and (component.type == "planetary_stage" or component not in within)]
+    return [Stage(model, part, planetary[part] if part.type == "planetary_stage" else [pairs.get(part, (part, None, None))])
+            for part in model.components.values()
+            if part.type.endswith("_stage") and (part.type == "planetary_stage" or part not in within)]
 
 
-def chosen_stage(model, stages, name):
-    """Stage with that id, or the only one that is possible. Refuses with a list of all."""
+def chosen_stage(model, stages):
+    """Stage that the option names, or the only one that is possible. Refuses with a list of all."""
     if not stages:
         raise Unusable("has no gear stages", "name a model with a planetary or cylindrical stage")
     if len(stages) > MOST_STAGES:
         raise Unusable(f"has {len(stages)} gear stages", f"models of up to {MOST_STAGES} are read")
+    name, remedy = model.options.get("stage", ""), "the model has "
     found = [stage for stage in stages if (stage.component.id == name if name else not stage.obstacle)]
-    if len(found) == 1 and not found[0].obstacle:
+    if len(found) > 1:
+        what, remedy = f"the model has {len(stages)} stages", "choose one: "
+    elif not found:
+        what = f"there is no stage {name}" if name else "no stage of the model can be simulated"
+    elif found[0].obstacle:
+        what = f"stage {name} is not possible: {found[0].obstacle}"
+    else:
         return found[0]
-    several = len(found) > 1
-    what = (f"the model has {len(stages)} stages" if several else f"stage {name} is not possible: {found[0].obstacle}" if found
-            else f"there is no stage {name}" if name else "no stage of the model can be simulated")
-    model.problem("--stage", what, ("choose one: " if several else "the model has ") +
-                  "; ".join(stage.description() for stage in stages))
+    model.problem("--stage", what, remedy + "; ".join(stage.description() for stage in stages))
     raise Unusable
 
 
@@ -398,12 +544,13 @@ class Gear:
             if not any(gear.find(name) for gear in gears):
                 model.reject(self.component, name, "is missing")
         self.values = {
-            "module_mm": model.common(gears, "normal_module"), "helix_deg": magnitude(model.common(gears, *HELICES)),
+            "module_mm": model.common(gears, "normal_module"), "helix_angle_deg": (helix := model.common(gears, *HELICES)) and abs(helix),
             "pressure_angle_deg": model.common(parts, "normal_pressure_angle"),
             "face_width_mm": model.common(gears, "face_width"),
             "young_modulus_Pa": max(model.common(made_of, "elastic_modulus") or 0.0, 0.0) or None,
             "poisson_ratio": max(model.common(made_of, "poisson_ratio") or 0.0, 0.0) or None}
-        self.tip, module = magnitude(model.common(parts, "tip_diameter")), self.values["module_mm"]
+        tip, module = model.common(parts, "tip_diameter"), self.values["module_mm"]
+        self.tip = tip and abs(tip)
         self.shift, shift_mm = model.common(parts, *SHIFTS), model.common(parts, *SHIFTS_MM)
         if shift_mm is not None and module:
             from_mm = shift_mm / module
@@ -430,10 +577,9 @@ class Load:
     def __init__(self, model, stages, stage):
         self.speed, self.torque, self.notes, self.links = None, None, [], collections.defaultdict(list)
         self.connect_shafts(model, stages)
-        self.second_drives = stage.kind == "cylindrical" and any(
-            [model.flag(data, "is_driving_gear") for data in
-             model.related("stage_gear_data", "gear", stage.second, "stage_gear_data")])
-        speeds, torques, ends = {}, [], stage.ends(model)
+        gear_data = model.related("stage_gear_data", "gear", stage.second, "stage_gear_data")
+        self.second_drives = stage.kind == "cylindrical" and any(model.flag(data, "is_driving_gear") for data in gear_data)
+        speeds, torques, ends = {}, [], stage.ends()
         for part in model.components.values():
             if part.type == "shaft" and (speed := model.number(part, "rotational_speed")):
                 speeds[part] = speed
@@ -453,11 +599,10 @@ class Load:
             if stage.first and stage.second:
                 first, second = (abs(model.number(gear, "number_of_teeth") or 0) for gear in (stage.first, stage.second))
                 whole = first + second if stage.planets else second
-                connected += [(*shafts, first / whole) for shafts in itertools.product(*stage.ends(model)) if whole]
+                connected += [(*shafts, first / whole) for shafts in itertools.product(*stage.ends()) if whole]
         for between, *shafts in model.parts("side", "assembly", "inner_part", "outer_part"):
-            if between and between.type.endswith("coupling") and model.flag(between, "is_engaged") is not False and \
-                    all(shaft and shaft.type == "shaft" for shaft in shafts):
-                connected.append((*shafts, 1.0))
+            if between and between.type.endswith("coupling") and model.flag(between, "is_engaged") is not False:
+                connected += [(*shafts, 1.0)] if all(shaft and shaft.type == "shaft" for shaft in shafts) else []
         for a, b, ratio in connected:
             if a is not b and ratio > 0.0:
                 self.links[a].append((b, ratio))
@@ -496,228 +641,62 @@ class Load:
     def follow_speed(self, model, speeds, driver):
         reached = self.reached_from(driver)
         followed = [(abs(speed) / reached[shaft][0], shaft, speed) for shaft, speed in speeds.items() if shaft in reached]
-        for here, shaft, speed in followed:
-            self.speed, source, first = followed[0]
-            if shaft is source:
-                self.notes.append(f"speed from {shaft.label} ({speed:.6g} rpm)")
-            elif abs(here - self.speed) > 0.01 * here:
+        for self.speed, source, first in followed[:1]:
+            self.notes.append(f"speed from {source.label} ({first:.6g} rpm)")
+        for here, shaft, speed in followed[1:]:
+            if abs(here - self.speed) > 0.01 * here:
                 model.reject(shaft, "rotational_speed", f"{speed:.6g} rpm contradict {first:.6g} rpm of {source.label}: the "
                              f"stage's driving shaft would turn at {here:.6g} and at {self.speed:.6g} rpm", "correct one of them")
 
-    def drive_other(self, model, sun, ring, options):
+    def drive_other(self, model, sun, ring):
         """Driving member of a planetary stage: the model's, or with the balancing load that of an option."""
         modelled = "carrier" if self.second_drives else "sun"
-        given = options.get("input", modelled)
-        if given != modelled and sun.teeth:
-            faster = 1.0 + ring.teeth / sun.teeth
-            faster = 1.0 / faster if modelled == "sun" else faster
-            if None not in (self.speed, self.torque):
-                model.notes.append(f"an option replaces the model's input, the {modelled}")
-            self.speed = None if self.speed is None else self.speed * faster
-            self.torque = None if self.torque is None else self.torque / faster
-            return given
-        return modelled
+        given = model.options.get("input", modelled)
+        if given == modelled or not sun.teeth:
+            return modelled
+        faster = 1.0 + ring.teeth / sun.teeth
+        faster = 1.0 / faster if modelled == "sun" else faster
+        if None not in (self.speed, self.torque):
+            model.notes.append(f"an option replaces the model's input, the {modelled}")
+        self.speed = self.speed and self.speed * faster
+        self.torque = self.torque and self.torque / faster
+        return given
 
-    def values(self, model, options):
+    def values(self, model):
         """Torque, speed and power: given ones, completed by the model's."""
-        given = {name: options[name] for name in ("torque_N_m", "speed_rpm", "power_kW") if name in options}
-        stated = {"torque_N_m": (self.torque, "torque", "N m"), "speed_rpm": (self.speed, "speed", "rpm")}
-        for name in ("speed_rpm", "torque_N_m"):
-            if len(given) < 2 and stated[name][0] is not None:
-                given.setdefault(name, stated[name][0])
-        if len(given) < 2:
-            has, lacks = ("torque", "speed") if self.torque is not None else ("speed", "torque")
-            none = self.torque is None and self.speed is None
-            model.problem("--torque, --speed, --power", "the model states neither torque nor speed of the stage"
-                          if none else f"the model states a {has}, but no {lacks} of the stage",
-                          "give two of the three, for the driving member" if none else f"give --{lacks} or --power")
-            return given
-        model.notes += [f"an option replaces the model's {title} of {value:.6g} {unit}"
-                        for name, (value, title, unit) in stated.items() if value not in (None, given.get(name))]
+        given = {name: model.options[name] for name in ("torque_N_m", "speed_rpm", "power_kW") if name in model.options}
+        stated = [("torque_N_m", self.torque, "torque", "N m"), ("speed_rpm", self.speed, "speed", "rpm")]
+        for name, value, _, _ in reversed(stated):
+            if len(given) < 2 and value is not None:
+                given.setdefault(name, value)
+        lacks = [title for _, value, title, _ in stated if value is None]
+        if len(given) > 1:
+            model.notes += [f"an option replaces the model's {title} of {value:.6g} {unit}"
+                            for name, value, title, unit in stated if value not in (None, given.get(name))]
+        elif len(lacks) == 2:
+            model.problem("--torque, --speed, --power", "the model states neither torque nor speed of the stage",
+                          "give two of the three, for the driving member")
+        else:
+            has = "speed" if lacks == ["torque"] else "torque"
+            model.problem("--torque, --speed, --power", f"the model states a {has}, but no {lacks[0]} of the stage",
+                          f"give --{lacks[0]} or --power")
         return given
 
 
-class Datasheet:
-    """Datasheet of a stage. Options replace the model's values."""
-
-    def __init__(self, model, stage, options):
-        self.model, self.stage, self.options = model, stage, options
-
-    def read(self, load):
-        """Values under the names of the program's structs, and the gears by the names that they have in a study."""
-        model, stage, options = self.model, self.stage, self.options
-        first, second = (stage.second, stage.first) if load.second_drives and not stage.planets else (stage.first, stage.second)
-        gears = {"sun": [first], "planet": stage.planets, "ring": [second]} if stage.planets else \
-            {"pinion": [first], "gear": [second]}
-        members = {member: Gear(model, parts) for member, parts in gears.items()}
-        values = {member: gear.teeth for member, gear in members.items()} | self.shared_values(list(members.values()))
-        for gear in members.values():
-            self.check_tip(gear)
-        if stage.planets:
-            values["planets"] = self.planets()
-        for name in () if stage.planets else {"input", "planets"} & set(options):
-            model.problem(f"--{name}", "a gear pair has none", "leave it out for a cylindrical stage")
-        for planet in stage.planets:
-            self.bearings(model.shaft_of(planet))  # all count as considered
-        shafts = {member: model.shaft_of(parts[0]) for member, parts in gears.items()}
-        shafts |= {"carrier": stage.carriers(model)} if stage.planets else {}
-        owners = {"planet": "planets'", "pinion": "driving gear's", "gear": "driven gear's"}
-        owners = {member: owners.get(member, f"{member}'s") for member in shafts}
-        for key, title, numbers in (
-                ("shift", "shift", {member: gear.shift for member, gear in members.items()}),
-                ("tip_mm", "tip circle", {member: gear.tip for member, gear in members.items()}),
-                ("bearing_N_m", "bearing stiffness", {member: self.bearings(held, re.sub("'s?$", "", owners[member]))
-                                                      for member, held in shafts.items()})):
-            values |= {f"{member}_{key}": value for member, value in numbers.items()}
-            model.lacking += [f"{owners[member]} {title}" for member, value in numbers.items() if value is None]
-        if stage.planets:
-            values["input"] = load.drive_other(model, members["sun"], members["ring"], options)
-        else:
-            model.lacking.append("shafts, motor and load")
-            model.notes.append(f"{first.label} drives (the study's pinion)")
-        model.notes += load.notes
-        return values | load.values(model, options), members
-
-    def shared_values(self, gears):
-        """Values that all gears of the stage share."""
-        model, stage, pairs = self.model, self.stage, self.stage.first_pairs + self.stage.second_pairs
-        for part in [stage.component] + pairs + [data for pair in pairs for data in model.related(
-                "stage_gear_data", "stage", pair, "stage_gear_data")]:
-            part.considered = True
-        values = {name: self.equal(gears, name, attribute) for name, attribute in (
-            ("module_mm", "normal_module"), ("pressure_angle_deg", "normal_pressure_angle"), ("helix_deg", HELICES[0]))}
-        values["centre_distance_mm"] = magnitude(model.common(pairs, *DISTANCES))
-        for pair, meshing in ((stage.first_pairs[0], gears[:2]), *((pair, gears[1:]) for pair in stage.second_pairs[:1])):
-            self.check_centre_distance(pair, values, *meshing)
-        width = values["face_width_mm"] = self.combined(
-            gears, "face_width_mm", min, "face widths {}; a study has one, the common {:g} mm", " mm",
-            model.common(pairs, "common_face_width"))
-        for name, title in (("young_modulus_Pa", "Young's modulus, Pa"), ("poisson_ratio", "Poisson's ratio")):
-            values[name] = self.combined(  # the mean of stiffnesses in series
-                gears, name, lambda numbers: len(numbers) / sum(1.0 / number for number in numbers),
-                title + ": {}; a study has one value, their harmonic mean {:.6g}")
-        if stage.kind == "cylindrical":
-            first, second = (model.number(gear, *HELICES) or 0.0 for gear in (stage.first, stage.second))
-            if first * second > 0.0:
-                model.reject(stage.second, HELICES[0], f"{second:g} and {first:g} deg of {stage.first.label} have the same "
-                             "sign; external gears on parallel shafts have opposite hands")
-        values |= {name: self.options[name] for name in ("face_width_mm", "addendum", "quality") if name in self.options}
-        model.lacking += [title for name, title in LACKING.items() if values.get(name) is None]
-        if "face_width_mm" in self.options and width is not None:
-            model.notes.append(f"an option replaces the model's face width of {width:g} mm")
-        return values
-
-    def equal(self, gears, name, attribute):
-        """Value of a property that all gears of a stage should share. A gear that differs is a problem."""
-        return self.model.same([(gear.values[name], gear.component) for gear in gears if gear.values[name] is not None],
-                               attribute, "that of {} is {:.9g}; meshing gears have the same")
-
-    def combined(self, gears, name, combine, note, unit="", value=None):
-        """Combination of the gears' values, or a given value. Notes values that differ."""
-        stated = [(gear.values[name], gear.component.label) for gear in gears if gear.values[name] is not None]
-        numbers = [number for number, _ in stated]
-        value = combine(numbers) if value is None and len(set(numbers)) > 1 else next(iter(numbers), None) if value is None else value
-        if any(number != value for number in numbers):
-            self.model.notes.append(note.format(", ".join(f"{number:.6g}{unit} of {label}" for number, label in stated), value))
-        return value
-
-    def check_centre_distance(self, pair, values, gear_1, gear_2):
-        """Rejects a centre distance that does not fit the teeth and shifts of two gears, with the one that does. Notes
-        a small backlash."""
-        distance, module, number = values["centre_distance_mm"], values["module_mm"], gear_1.teeth + gear_2.side * gear_2.teeth
-        if None in (distance, module, gear_1.shift, gear_2.shift) or not (module > 0.0 and gear_1.teeth and gear_2.teeth and number):
-            return
-        helix = math.radians(values["helix_deg"] or 0.0)
-        normal = 20.0 if values["pressure_angle_deg"] is None else values["pressure_angle_deg"]
-        angle = math.atan(math.tan(math.radians(normal)) / math.cos(helix))
-        shift = (gear_1.shift + gear_2.shift) * math.cos(helix)
-        working = angle if shift == 0.0 else inverse_involute(math.tan(angle) - angle + 2.0 * math.tan(angle) * shift / number)
-        fits = 0.5 * abs(number) * module / math.cos(helix) * math.cos(angle) / math.cos(working)
-        # Backlash in modules: larger distances open external meshes and close internal ones. Shifts are rounded to two
-        # decimals; no allowance of tooth thickness is 0.1.
-        gap = gear_2.side * (distance - fits) * 2.0 * math.tan(angle) / module
-        if 0.01 < gap <= 0.1:
-            self.model.notes.append(f"{gear_1.component.label} and {gear_2.component.label} have a backlash of about "
-                                    f"{gap * module:.3g} mm at {distance:.6g} mm")
-        elif not -0.01 <= gap <= 0.1:
-            self.model.reject(pair, DISTANCES[0], f"is {distance:.6g} mm, but {gear_1.teeth} and {gear_2.teeth} teeth with "
-                              f"shifts of {gear_1.shift:g} and {gear_2.shift:g} fit at {fits:.6g} mm", "correct the distance, the "
-                              "teeth or the shifts (a positive shift makes teeth thicker, also those of a ring: ISO 21771)")
-
-    def check_tip(self, gear):
-        """Rejects a tip circle inside the root circle, such as a placeholder. The option --addendum replaces tip circles."""
-        if gear.tip is not None and "addendum" in self.options:
-            self.model.notes.append(f"an option replaces the tip diameter of {gear.component.label}, {gear.tip:g} mm")
-            gear.tip = None
-        if gear.tip is None or not gear.teeth:
-            return
-        helix, shift = math.radians(gear.values["helix_deg"] or 0.0), gear.side * (2.0 * (gear.shift or 0.0) - 2.5)
-        root = (gear.values["module_mm"] or 0.0) * (gear.teeth / math.cos(helix) + shift)
-        if gear.side * (gear.tip - root) <= 0.0:
-            self.model.reject(gear.component, "tip_diameter", f"{gear.tip:g} mm lies {'in' if gear.side == 1 else 'out'}side the "
-                              f"root circle, {root:.6g} mm", "remove it from the model, and the rule is used, or give --addendum")
-
-    def bearings(self, shafts, member=""):
-        """Radial stiffness of all bearings between these shafts and other parts. None without bearings, or if any of
-        them is rigid or has none; a note on the member names these."""
-        total, unusable = 0.0, []
-        for bearing, *parts in self.model.parts("side", "assembly", "inner_part", "outer_part"):
-            if bearing and "bearing" in bearing.type and set(shafts) & set(parts):
-                bearing.considered = True
-                stiffness = self.model.number(bearing, "radial_stiffness")
-                if stiffness is not None and 0.0 < stiffness < 1e13:
-                    total += stiffness
-                else:
-                    unusable.append(bearing.label + ("" if stiffness is None else f" ({stiffness:g} N/m)"))
-        if unusable and member:
-            self.model.notes.append(f"bearings of the {member} that are rigid or state no radial stiffness, replaced by the "
-                                    "rule: " + ", ".join(unusable))
-        return None if unusable else total or None
-
-    def planets(self):
-        """Number of planets: given as an option, stated or modelled. Rejects a turning ring. Notes planets that are not
-        spaced equally."""
-        model, stage, ring = self.model, self.stage, self.model.shaft_of(self.stage.second)
-        turning = [f"its {shaft.label} turns at {speed:.6g} rpm" for shaft in ring if (speed := model.number(shaft, "rotational_speed"))]
-        turning += [f"{held.label} stands still instead (rotational_speed 0)" for _ in ring
-                    for held in stage.carriers(model) + model.shaft_of(stage.first)
-                    if model.number(held, "rotational_speed") == 0.0 and model.flag(held, "defines_speed")]
-        if turning:
-            model.problem(stage.component.label, f"the ring is not the fixed member: {turning[0]}",
-                          "new writes studies with a fixed ring; edit operation.fixed in one")
-        modelled, given = len(stage.planets), self.options.get("planets")
-        stated = model.number(stage.component, "number_of_planets")
-        if stated is not None and modelled > 1 and stated != modelled:
-            model.reject(stage.component, "number_of_planets", f"is {stated}, but the model has {modelled} planet gears",
-                         "correct one of them")
-        if modelled == 1 and stated is None and given is None:
-            model.lacking.append("number of planets (3; the model has one planet gear)")
-        here = stated if stated is not None else 3 if modelled == 1 else modelled
-        if given not in (None, here) and modelled > 1:
-            model.notes.append(f"an option replaces the model's number of planets, {here}")
-        angles = [model.number(pair, "rotating_angle_around_neg_u_axis") for pair in stage.first_pairs]
-        angles = sorted(angle % 360.0 for angle in angles if angle is not None)
-        if any(abs(angle - angles[0] - 360.0 * i / len(angles)) > 0.5 for i, angle in enumerate(angles)):
-            listed = ", ".join(f"{angle - angles[0]:.4g}" for angle in angles)
-            model.notes.append(f"planets at {listed} deg; the study spaces them equally or as nearly as the teeth allow "
-                               "(gearbox.planet_positions_deg)")
-        return here if given is None else given
-
-
-def datasheet(model, options):
-    """Reply with the datasheet of the chosen stage. Raises Unusable if the model has problems."""
-    model.apply_load_case(options.get("load_case", ""))
+def reply_to(model):
+    """Datasheet of the chosen stage, with notes and names for messages. Raises Unusable if the model has problems."""
+    model.apply_load_case(model.options.get("load_case", ""))
     stages = stages_of(model)
-    stage = chosen_stage(model, stages, options.get("stage", ""))
-    values, members = Datasheet(model, stage, options).read(Load(model, stages, stage))
+    stage = chosen_stage(model, stages)
+    values, members = stage.datasheet(Load(model, stages, stage))
     if model.problems:
         raise Unusable
     lacking = ", ".join([*model.lacking, "gear bodies, masses and inertias", "damping", "sensor and noise"])
     rest = [f"ot in the model, by rule or chosen: {lacking}"] + [f"ot taken from the model: {line}" for line in model.unused()]
-    head = f"Stage {stage.description()} of {options['name']} (REXS {model.version})."
-    names = {f"gearbox.{key}": f"{stage.component.label}: {attribute}" for key, attribute in STAGE_NAMES.items()} | \
+    head = f"Stage {stage.description()} of {model.options['name']} (REXS {model.version})."
+    names = {f"gearbox.{key}": f"{stage.component.label}: {attribute}" for key, (attribute, _) in OF_STAGE.items()} | \
         {f"gearbox.{member}.{key}": f"{gear.component.label}: {attribute}" for member, gear in members.items()
-         for key, attribute in GEAR_NAMES.items()} | {"operation.pinion_speed_rpm": "--speed"}
+         for key, attribute in OF_GEAR.items()} | {"operation.pinion_speed_rpm": "--speed"}
     return {"kind": stage.kind, "names": names, "values": {name: value for name, value in values.items() if value is not None},
             "notes": [head] + model.notes + ["N" + line for line in rest],
             "notices": model.notices + [(0, "", line, "") for line in model.notes + ["n" + line for line in rest]]}
@@ -730,7 +709,8 @@ def main():
     model, reply = Model(), {}
     try:
         model.read(sys.argv[1])
-        reply = datasheet(model, json.load(sys.stdin))
+        model.options = json.load(sys.stdin)
+        reply = reply_to(model)
         json.dumps(reply, allow_nan=False)
     except Unusable as last:
         if last.args:
