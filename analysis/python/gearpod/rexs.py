@@ -56,10 +56,10 @@ OF_STAGE = {"normal_module_mm": ("normal_module", ""), "module_mm": ("normal_mod
             "poisson_ratio": ("poisson_ratio", "Poisson's ratio")}
 OF_GEAR = {"teeth": "number_of_teeth", "shift": SHIFTS[0], "tip_mm": "tip_diameter"}
 
-# Attributes that place a component in space, describe it to a user or choose among loads. Notes do not name them.
+# Attributes that place a component in space or describe it to a user.
 IGNORED = {"support_vector", "u_axis_vector", "v_axis_vector", "w_axis_vector", "reference_component_for_position",
            "u_coordinate_on_shaft", "u_coordinate_on_shaft_inner_side", "u_coordinate_on_shaft_outer_side", "display_color",
-           "rotating_angle_around_neg_u_axis", "name", "is_driving_gear", "defines_torque", "transmits_torque"}
+           "rotating_angle_around_neg_u_axis", "name"}
 
 
 class Unusable(Exception):
@@ -375,6 +375,8 @@ class Stage:
         gear_data = [data for pair in pairs for data in model.related("stage_gear_data", "stage", pair, "stage_gear_data")]
         for part in [self.component] + pairs + gear_data:
             part.considered = True
+        for data in gear_data:
+            data.find("is_driving_gear")
         stated = {name: [(gear.values[name], gear.component) for gear in gears if gear.values[name] is not None]
                   for name in gears[0].values}
         values = {name: model.same(stated[name], OF_STAGE[name][0], "that of {} is {:.9g}; meshing gears have the same")
@@ -585,8 +587,9 @@ class Load:
                 speeds[part] = speed
             elif part.type == "external_load":
                 part.considered = True
-                if torque := model.number(part, "torque_around_u_axis"):
-                    torques += [(not model.flag(part, "defines_torque"), shaft, part, torque) for shaft in model.shaft_of(part)]
+                defines, _ = model.flag(part, "defines_torque"), model.flag(part, "transmits_torque")
+                torque = model.number(part, "torque_around_u_axis")
+                torques += [(not defines, shaft, part, torque) for shaft in model.shaft_of(part) if torque]
         if torques:
             self.follow_torque(speeds, sorted(torques, key=lambda torque: torque[0]), ends)
         for driver in ends[self.second_drives][:1]:
