@@ -10,6 +10,7 @@ messages, and problems. Only lxml is needed.
 
 import collections
 import io
+import itertools
 import json
 import math
 import os
@@ -22,7 +23,7 @@ LARGEST_FILE, MOST_TAGS, DEEPEST_NESTING = 64 << 20, 2_000_000, 16  # a matrix h
 MOST_MEMORY, MOST_SECONDS = 4 << 30, 15
 MOST_PROBLEMS, MOST_STAGES, MOST_PAIRS = 1000, 200, 200
 NEWEST_VERSION = 6  # of 1.x
-LAST_LINE = 65535  # libxml2 counts no further
+LAST_LINE = 65535  # libxml2 counts no further; a remainder of 0 is no line
 BLANKS = " \t\r\n"
 NUMBER = re.compile(r"[+-]?([0-9]+\.?[0-9]*|\.[0-9]+)([eE][+-]?[0-9]+)?")
 
@@ -31,6 +32,7 @@ SHIFTS = ("addendum_modification_coefficient", "profile_shift_coefficient")
 SHIFTS_MM = ("addendum_modification", "profile_shift")
 HELICES = ("helix_angle_reference_diameter", "helix_angle")
 DISTANCES = ("center_distance", "centre_distance")
+COUNTS = ("number_of_teeth", "number_of_planets")  # whole numbers
 
 # Factors that convert the attributes to the first unit. Blanks in units do not matter. "mum" is REXS's micrometre.
 UNITS = {name: units for names, units in (
@@ -46,95 +48,83 @@ UNITS = {name: units for names, units in (
                              "rad/s": 30.0 / math.pi}),
     (("torque_around_u_axis",), {"Nm": 1.0, "kNm": 1e3, "Nmm": 1e-3, "MNm": 1e6})) for name in names}
 
+# By the study's keys: attributes that messages name, and texts of notes on values that a model lacks.
+OF_STAGE = {"normal_module_mm": ("normal_module", ""), "module_mm": ("normal_module", ""),
+            "pressure_angle_deg": ("normal_pressure_angle", "normal pressure angle (20 deg)"),
+            "helix_angle_deg": (HELICES[0], "helix angle (0 deg)"), "face_width_mm": ("face_width", "face width"),
+            "centre_distance_mm": (DISTANCES[0], "centre distance"), "young_modulus_Pa": ("elastic_modulus", "Young's modulus"),
+            "poisson_ratio": ("poisson_ratio", "Poisson's ratio")}
+OF_GEAR = {"teeth": "number_of_teeth", "shift": SHIFTS[0], "tip_mm": "tip_diameter"}
+
 # Attributes that place a component in space or describe it to a user.
-POSITIONS = {"support_vector", "u_axis_vector", "v_axis_vector", "w_axis_vector", "reference_component_for_position",
-             "u_coordinate_on_shaft", "u_coordinate_on_shaft_inner_side", "u_coordinate_on_shaft_outer_side",
-             "rotating_angle_around_neg_u_axis", "name", "display_color"}
+IGNORED = {"support_vector", "u_axis_vector", "v_axis_vector", "w_axis_vector", "reference_component_for_position",
+           "u_coordinate_on_shaft", "u_coordinate_on_shaft_inner_side", "u_coordinate_on_shaft_outer_side", "display_color",
+           "rotating_angle_around_neg_u_axis", "name"}
 
 
 class Unusable(Exception):
-    """Ends the reading of a model after its last problem."""
+    """Ends the reading of a model. The arguments state a last problem: what is wrong, the remedy and the line."""
 
 
 class Attribute:
     def __init__(self, node):
-        self.id, self.unit, self.line, self.used = node.get("id", ""), node.get("unit", "").strip(BLANKS), line_of(node), False
-        arrays, matrices = children(node, "array"), children(node, "matrix")  # the first value of an array counts
-        self.scalar = not arrays and not matrices
-        self.text = (next((c.text for c in children(arrays[0], "c")), "") if arrays else "matrix" if matrices else node.text) or ""
-        self.text = self.text.strip(BLANKS)
-
-    def ignored(self):
-        """True if a study has to take nothing from it: used, a position, zero, false or empty."""
-        return self.used or self.id in POSITIONS or self.text in ("", "false") or parsed(self.text) == 0.0
+        self.id, self.unit, self.used = node.get("id", ""), node.get("unit", "").strip(BLANKS), False
+        self.line = node.sourceline % LAST_LINE
+        array, matrix = (node.find(kind) is not None for kind in ("array", "matrix")) if len(node) else (False, False)
+        self.scalar = not array and not matrix
+        text = node.findtext("array[1]/c") if array else "matrix" if matrix else node.text  # the first value of an array counts
+        self.text = (text or "").strip(BLANKS)
+        value = float(self.text) if NUMBER.fullmatch(self.text) else math.inf
+        self.value = value if math.isfinite(value) else None
 
 
 class Component:
     def __init__(self, node, model):
         self.id, self.type, self.name = (node.get(key, "") for key in ("id", "type", "name"))
-        self.label, self.line, self.considered, self.attributes = f"{self.type} {self.id}", line_of(node), False, {}
-        for new in map(Attribute, children(node, "attribute")):
+        self.label, self.line, self.considered, self.attributes = f"{self.type} {self.id}", node.sourceline % LAST_LINE, False, {}
+        for new in map(Attribute, node.iterfind("attribute")):
             old = self.attributes.setdefault(new.id, new)
             if (old.text, old.unit) != (new.text, new.unit):
                 model.problem(f"{self.label}: {new.id}", f"occurs twice, as {old.text} {old.unit} and as {new.text} {new.unit}",
                               "keep one of them", new.line)
 
     def find(self, *names):
-        """Attribute with the first of these names that it has, or None. Empty attributes count as missing."""
-        return next((self.attributes[name] for name in names if name in self.attributes and self.attributes[name].text), None)
+        """Attribute with the first of these names that it has, used from now on; or None. Empty ones count as missing."""
+        found = next((self.attributes[name] for name in names if name in self.attributes and self.attributes[name].text), None)
+        if found:
+            found.used = True
+        return found
 
 
-def children(node, name):
-    return [child for child in node if child.tag.rpartition("}")[2] == name]
-
-
-def line_of(node):
-    return node.sourceline if (node.sourceline or LAST_LINE) < LAST_LINE else 0
-
-
-def parsed(text):
-    """Finite number that takes the whole text, or None."""
-    value = float(text) if NUMBER.fullmatch(text) else math.inf
-    return value if math.isfinite(value) else None
-
-
-def magnitude(value):
-    return None if value is None else abs(value)
-
-
-def agree(a, b):
-    return abs(a - b) <= 1e-6 * max(1.0, abs(b))
-
-
-def content(path, refuse):
-    """Bytes of a file. Opening a pipe without O_NONBLOCK would wait for a writer."""
+def content(path):
+    """Bytes of a REXS file. Refuses other formats and files that are too large."""
+    data, whole, smaller = b"", "name a REXS file (*.rexs)", "export the model without meshes and results"
     try:
-        with open(os.open(path, os.O_RDONLY | os.O_CLOEXEC | os.O_NONBLOCK), "rb", closefd=True) as opened:
-            found = os.fstat(opened.fileno())
-            if not stat.S_ISREG(found.st_mode):
-                refuse("is a device, a pipe or a socket", "name a REXS file (*.rexs)")
-            if found.st_size > LARGEST_FILE:
-                refuse(f"has {found.st_size >> 20} MB; models of gear units with up to {LARGEST_FILE >> 20} MB are read",
-                       "export the model without meshes and results")
-            return opened.read(LARGEST_FILE)
-    except IsADirectoryError:
-        return refuse("is a folder", "name a REXS file (*.rexs)")
+        found = os.stat(path)
+        if stat.S_ISREG(found.st_mode) and found.st_size <= LARGEST_FILE:
+            with open(path, "rb") as opened:
+                data = opened.read(LARGEST_FILE)
     except OSError as error:
-        return refuse(f"cannot be read ({error.strerror})", "name an existing REXS file (*.rexs)")
-
-
-def root_of(data, refuse):
-    """Root element of a REXS file. Refuses other formats, document type declarations (they define entities), and
-    texts that are too deep or too long."""
-    from lxml import etree
+        raise Unusable(f"cannot be read ({error.strerror})", "name an existing REXS file (*.rexs)") from error
     start = data.lstrip(BLANKS.encode() + b"\xef\xbb\xbf")
-    for condition, what in ((data.startswith(b"PK\x03\x04"), "is a ZIP archive (.rexsz); unpack it and name the .rexs file in it"),
-                            (data.startswith(b"\x1f\x8b"), "is compressed by gzip; unpack it"), (not start, "is empty"),
-                            (start[:1] == b"{", "is JSON; export the model as XML (.rexs)")):
+    for condition, *problem in (
+            (stat.S_ISDIR(found.st_mode), "is a folder", whole),
+            (not stat.S_ISREG(found.st_mode), "is a device, a pipe or a socket", whole),
+            (found.st_size > LARGEST_FILE, f"has {found.st_size >> 20} MB; models of gear units with up to "
+             f"{LARGEST_FILE >> 20} MB are read", smaller),
+            (data.startswith(b"PK\x03\x04"), "is a ZIP archive (.rexsz); unpack it and name the .rexs file in it"),
+            (data.startswith(b"\x1f\x8b"), "is compressed by gzip; unpack it"), (not start, "is empty"),
+            (start[:1] == b"{", "is JSON; export the model as XML (.rexs)"),
+            (data.count(b"<") > MOST_TAGS, f"has more than {MOST_TAGS} XML tags, too many for a gear unit", smaller)):
         if condition:
-            refuse(what)
-    if data.count(b"<") > MOST_TAGS:
-        refuse(f"has more than {MOST_TAGS} XML tags, too many for a gear unit", "export the model without meshes and results")
+            raise Unusable(*problem)
+    return data
+
+
+def root_of(data):
+    """Root element of a model, all names without namespaces. Refuses document type declarations (they define entities)
+    and texts that are too deep."""
+    from lxml import etree
     depth, root = 0, None
     try:
         for event, node in etree.iterparse(io.BytesIO(data), ("start", "end"), no_network=True, load_dtd=False,
@@ -142,16 +132,19 @@ def root_of(data, refuse):
             root = node if root is None else root
             depth += 1 if event == "start" else -1
             if depth == 1 and root.getroottree().docinfo.internalDTD is not None:
-                refuse("has a document type declaration (DOCTYPE), which REXS does not have",
-                       "remove it; entities that it defines are not expanded")
+                raise Unusable("has a document type declaration (DOCTYPE), which REXS does not have",
+                               "remove it; entities that it defines are not expanded")
             if depth > DEEPEST_NESTING:
-                refuse(f"has elements nested more than {DEEPEST_NESTING} deep")
+                raise Unusable(f"has elements nested more than {DEEPEST_NESTING} deep")
+            if event == "end" and node.tag[0] == "{":
+                node.tag = node.tag.rpartition("}")[2]
     except etree.XMLSyntaxError as error:
         first = next(iter(error.error_log.filter_from_errors()), None)
-        refuse(f"is not well-formed XML ({first.message if first else error.msg})", line=first.line if first else 0)
-    name = root.tag.rpartition("}")[2]
-    if name != "model":
-        refuse(f"is XML, but not REXS: its root is <{name}>", "a REXS file has the root <model>", line_of(root))
+        what, line = (first.message, first.line) if first else (error.msg, 0)
+        raise Unusable(f"is not well-formed XML ({what})", "", line) from error
+    if root.tag != "model":
+        raise Unusable(f"is XML, but not REXS: its root is <{root.tag}>", "a REXS file has the root <model>",
+                       root.sourceline % LAST_LINE)
     return root
 
 
@@ -160,59 +153,52 @@ class Model:
 
     def __init__(self):
         self.problems, self.notices = [], []  # each as line, key, what is wrong, remedy
-        self.notes, self.lacking, self.components = [], [], {}
-        # Relations, each as component ids by role: all by type, and by type and id.
+        self.notes, self.lacking, self.components, self.options = [], [], {}, {}
+        # Relations, each as components by role: all by type, and by type, role and component.
         self.relations, self.index = collections.defaultdict(list), collections.defaultdict(list)
 
     def read(self, path):
-        root = root_of(content(path, self.refuse), self.refuse)
-        self.check_version(root.get("version", ""), line_of(root))
-        for new in (Component(node, self) for whole in children(root, "components")[:1] for node in children(whole, "component")):
-            if self.components.setdefault(new.id, new) is not new:
-                self.problem(new.label, "the id occurs twice", "give every component its own id", new.line)
-        for node in (node for whole in children(root, "relations")[:1] for node in children(whole, "relation")):
-            kind, relation = node.get("type", ""), {}
-            for role, name in ((ref.get("role", ""), ref.get("id", "")) for ref in children(node, "ref")):
-                relation.setdefault(role, name)
-                if name not in self.components:
-                    self.problem(f"relation {kind}", f"component {name} ({role}) does not exist", "", line_of(node))
-            self.relations[kind].append(relation)
-            for name in set(relation.values()):
-                self.index[kind, name].append(relation)
-        self.load_cases = [(node.get("id", ""), [Component(child, self) for child in children(node, "component")])
-                           for spectrum in children(root, "load_spectrum") for node in children(spectrum, "load_case")]
-        if self.problems:
-            raise Unusable
-
-    def check_version(self, version, line):
-        self.version, known = version, re.fullmatch(r"1\.([0-9]{1,9})", version)
+        root = root_of(content(path))
+        self.version, line = root.get("version", ""), root.sourceline % LAST_LINE
+        known = re.fullmatch(r"1\.([0-9]{1,9})", self.version)
         if not known:
-            self.problem("model", f"version {version} of REXS is not known" if version else "states no version",
+            self.problem("model", f"version {self.version} of REXS is not known" if self.version else "states no version",
                          "export the model in version 1.0 to 1.6", line)
         elif int(known[1]) > NEWEST_VERSION:
-            self.notices.append((line, "model", f"version {version} is newer than 1.{NEWEST_VERSION}, the newest that "
+            self.notices.append((line, "model", f"version {self.version} is newer than 1.{NEWEST_VERSION}, the newest that "
                                  "this program knows", "attributes that were renamed since count as missing"))
+        for new in (Component(node, self) for node in root.iterfind("components[1]/component")):
+            if self.components.setdefault(new.id, new) is not new:
+                self.problem(new.label, "the id occurs twice", "give every component its own id", new.line)
+        for node in root.iterfind("relations[1]/relation"):
+            kind, relation = node.get("type", ""), {}
+            for role, name in ((ref.get("role", ""), ref.get("id", "")) for ref in node.iterfind("ref")):
+                relation.setdefault(role, self.components.get(name))
+                if name not in self.components:
+                    self.problem(f"relation {kind}", f"component {name} ({role}) does not exist", "", node.sourceline % LAST_LINE)
+            self.relations[kind].append(relation)
+            for role, component in relation.items():
+                self.index[kind, role, component].append(relation)
+        self.load_cases = [(node.get("id", ""), [Component(child, self) for child in node.iterfind("component")])
+                           for node in root.iterfind("load_spectrum/load_case")]
+        if self.problems:
+            raise Unusable
 
     def problem(self, key, what, remedy="", line=0):
         if len(self.problems) < MOST_PROBLEMS and (line, key, what, remedy) not in self.problems:
             self.problems.append((line, key, what, remedy))
 
-    def refuse(self, what, remedy="", line=0):
-        self.problem("", what, remedy, line)
-        raise Unusable
-
     def reject(self, component, attribute, what, remedy=""):
         self.problem(f"{component.label}: {attribute}", what, remedy, (component.find(attribute) or component).line)
 
-    def parts(self, relation, *roles):
-        """Components with these roles in a relation; None for those that it lacks."""
-        return [self.components.get(relation.get(role)) for role in roles]
+    def parts(self, kind, *roles):
+        """Components with these roles in each relation of a type; None for those that it lacks."""
+        return [[relation.get(role) for role in roles] for relation in self.relations[kind]]
 
     def related(self, kind, role, component, to):
         """Components with the role `to` in relations in which a component has the role `role`."""
-        found = [self.components.get(relation.get(to)) for relation in self.index[kind, component.id]
-                 if relation.get(role) == component.id]
-        return [part for part in dict.fromkeys(found) if part]
+        found = dict.fromkeys(relation.get(to) for relation in self.index[kind, role, component])
+        return [part for part in found if part]
 
     def shaft_of(self, part):
         """Shaft that carries a gear, load or other part, in a list; [] if there is none."""
@@ -224,52 +210,51 @@ class Model:
         attribute, units = component.find(*names), UNITS[names[0]]
         if attribute is None:
             return None
-        attribute.used = True
-        value = parsed(attribute.text) if attribute.scalar else None
-        factor = units.get(re.sub("[ \t]", "", attribute.unit))
+        value, factor = attribute.value if attribute.scalar else None, units.get(re.sub("[ \t]", "", attribute.unit))
         if value is None:
             self.reject(component, attribute.id, f"must be a number, but is {attribute.text}" if attribute.scalar
                         else "must be one number, but is an array")
         if factor is None:
             self.reject(component, attribute.id, f"unit {attribute.unit} is not known" if attribute.unit
                         else "states no unit", "the units known here are " + ", ".join(filter(None, units)))
-        return None if value is None or factor is None else value * factor
-
-    def count(self, component, name):
-        value = self.number(component, name)
-        if value is not None and (value != round(value) or abs(value) > 1e6):
-            return self.reject(component, name, f"must be a whole number, but is {value:g}")
-        return None if value is None else int(value)
+        number = None if None in (value, factor) else value * factor
+        if number is None or names[0] not in COUNTS:
+            return number
+        if number != round(number) or abs(number) > 1e6:
+            return self.reject(component, names[0], f"must be a whole number, but is {number:g}")
+        return int(number)
 
     def flag(self, component, name):
         """True for "true"; None if the attribute is missing. Of an array, for its first value."""
         attribute = component.find(name)
-        if attribute is not None:
-            attribute.used = True
-        return None if attribute is None else attribute.text in ("true", "1")
+        return attribute and attribute.text in ("true", "1")
+
+    def same(self, stated, attribute, other, remedy=""):
+        """First of values, each with the component that states it; None without any. Values that differ are problems."""
+        for value, component in stated:
+            first, by = stated[0]
+            if abs(value - first) > 1e-6 * max(1.0, abs(first)):
+                self.reject(component, attribute, f"is {value:.9g}, but {other.format(by.label, first)}", remedy)
+        return stated[0][0] if stated else None
 
     def common(self, components, *names):
-        """Value that several components give, such as both flanks of a gear. Values that differ are a problem that names both."""
+        """Value that several components give, such as both flanks of a gear."""
         stated = [(new, component) for component in components if (new := self.number(component, *names)) is not None]
-        for new, component in stated:
-            value, first = stated[0]
-            if not agree(new, value):
-                self.reject(component, names[0], f"is {new:.9g}, but {first.label} has {value:.9g}", "a study has one value for both")
-        return stated[0][0] if stated else None
+        return self.same(stated, names[0], "{} has {:.9g}", "a study has one value for both")
 
     def apply_load_case(self, name):
         """Replaces attributes by those of the chosen load case, or of the only one."""
         ids = [case for case, _ in self.load_cases]
-        chosen = [case for case in self.load_cases if case[0] == name or not name and len(ids) == 1][-1:]
-        for case, components in chosen:
-            self.notes.append(f"load case {case}")
-            for loaded in components:
+        chosen = [components for case, components in self.load_cases if (case == name if name else len(ids) == 1)]
+        if chosen:
+            self.notes.append(f"load case {name or ids[0]}")
+            for loaded in chosen[-1]:
                 if loaded.id in self.components:
                     self.components[loaded.id].attributes |= loaded.attributes
-        if not chosen and (name or ids):
-            what, remedy = (f"has no load case {name}", "it has " + (", ".join(ids) or "none")) if name else \
-                (f"has {len(ids)} load cases", "choose one: " + ", ".join(ids))
-            self.problem("--load-case", "the model " + what, remedy)
+        elif name:
+            self.problem("--load-case", f"the model has no load case {name}", "it has " + (", ".join(ids) or "none"))
+        elif ids:
+            self.problem("--load-case", f"the model has {len(ids)} load cases", "choose one: " + ", ".join(ids))
 
     def unused(self):
         """Attributes of considered components that were not used, and components that were not considered, a line for each type."""
@@ -277,7 +262,7 @@ class Model:
         for component in self.components.values():
             types[component.type] += not component.considered
             for attribute in component.attributes.values() if component.considered else []:
-                if not attribute.ignored():
+                if not attribute.used and attribute.id not in IGNORED and attribute.text not in ("", "false") and attribute.value != 0.0:
                     unit = "" if attribute.unit == "none" else " " + attribute.unit
                     here = attribute.text + unit if attribute.scalar else "an array"
                     if attributes[component.type].setdefault(attribute.id, here) != here:
@@ -290,12 +275,53 @@ class Model:
 
 class Stage:
     """Gears that mesh. `first` and `second`: sun and ring of a planetary stage, gear_1 and gear_2 of a cylindrical
-    one. A planetary stage has its gear pairs by mesh; a cylindrical one is its own pair. `obstacle`: reason why no
-    study can be written."""
+    one. A planetary stage has its gear pairs by mesh; a cylindrical one is its own pair, each with both gears.
+    `obstacle`: reason why no study can be written."""
 
-    def __init__(self, component, kind="other", obstacle=""):
-        self.component, self.kind, self.obstacle, self.teeth, self.first, self.second = component, kind, obstacle, "", None, None
-        self.planets, self.first_pairs, self.second_pairs = [], [], []
+    def __init__(self, model, component, pairs):
+        self.model, self.component, self.kind = model, component, component.type.removesuffix("_stage")
+        self.first, self.second, self.planets, self.first_pairs, self.second_pairs, self.teeth = None, None, [], [], [], ""
+        nameless = [pair for pair, *gears in pairs if None in gears]
+        if self.kind not in ("planetary", "cylindrical"):
+            self.obstacle = "only planetary and cylindrical stages are simulated"
+        elif len(pairs) > MOST_PAIRS:
+            self.obstacle = f"it has {len(pairs)} gear pairs"
+        elif nameless:
+            self.obstacle = ("it" if nameless[0] is component else nameless[0].label) + " names no gear_1 or no gear_2"
+        else:
+            self.obstacle = self.sort(pairs)
+        if self.first:
+            teeth = [gear.find("number_of_teeth") and abs(model.number(gear, "number_of_teeth") or 0)
+                     for gear in (self.first, *self.planets[:1], self.second)]
+            self.teeth = "/".join("?" if number is None else str(number) for number in teeth) + " teeth"
+            self.teeth += f", {len(self.planets)} planet{'s' * (len(self.planets) > 1)}" if self.planets else ""
+
+    def sort(self, pairs):
+        """Finds the members and sorts the pairs by mesh. Returns the obstacle."""
+        if self.kind == "cylindrical":
+            (pair, self.first, self.second), = pairs
+            self.first_pairs = [pair]
+            return "internal gears on fixed shafts are not simulated" if "ring_gear" in (self.first.type, self.second.type) else ""
+        suns, planets, rings, inner = {}, {}, {}, []  # dicts keep the order
+        for pair, *gears in pairs:
+            if "ring_gear" in [gear.type for gear in gears]:
+                ring, planet = sorted(gears, key=lambda gear: gear.type != "ring_gear")
+                rings[ring] = planets[planet] = True
+                self.second_pairs.append(pair)
+            else:
+                inner.append((pair, *gears))
+        for pair, gear_1, gear_2 in reversed(inner):
+            if (gear_1 in planets) == (gear_2 in planets):
+                which = "both planets" if gear_1 in planets else "neither of them with a ring"
+                return (f"in {pair.label} {gear_1.label} and {gear_2.label} mesh, {which}, so that the planets are stepped "
+                        "or paired")
+            suns[gear_2 if gear_1 in planets else gear_1] = True
+        if (len(suns), len(rings)) != (1, 1):
+            return f"it has {len(suns)} suns and {len(rings)} rings, not one of each"
+        (self.first,), (self.second,), self.planets, self.first_pairs = suns, rings, list(planets), [pair for pair, *_ in inner]
+        if len(planets) == len(inner) == len(self.second_pairs):
+            return ""
+        return f"{len(planets)} planets have {len(inner)} meshes with the sun and {len(self.second_pairs)} with the ring"
 
     def description(self):
         """For example "9 (Planetenstufe [9], planetary, 17/22/61 teeth, 3 planets)"."""
@@ -303,95 +329,202 @@ class Stage:
         obstacle = f"; not possible: {self.obstacle}" if self.obstacle else ""
         return f"{self.component.id} ({', '.join(filter(None, [self.component.name, kind, self.teeth]))}{obstacle})"
 
-    def ends(self, model):
+    def carriers(self):
+        return self.model.related("planet_carrier_shaft", "planetary_stage", self.component, "shaft")
+
+    def ends(self):
         """Shafts of the first member, and of the second: the carrier of a planetary stage."""
-        return [model.shaft_of(self.first), carriers(model, self) if self.planets else model.shaft_of(self.second)]
+        return [self.model.shaft_of(self.first), self.carriers() if self.planets else self.model.shaft_of(self.second)]
 
-
-def carriers(model, stage):
-    return model.related("planet_carrier_shaft", "planetary_stage", stage.component, "shaft")
-
-
-def teeth_text(model, gears):
-    return "/".join("?" if gear.find("number_of_teeth") is None
-                    else str(abs(model.count(gear, "number_of_teeth") or 0)) for gear in gears) + " teeth"
-
-
-def planetary_stage(model, component, pairs):
-    """Sorts the gear pairs of a planetary stage by mesh and finds sun, planets and ring."""
-    stage, nameless = Stage(component, "planetary"), [pair for pair, *gears in pairs if None in gears]
-    if len(pairs) > MOST_PAIRS or nameless:
-        stage.obstacle = (f"it has {len(pairs)} gear pairs" if len(pairs) > MOST_PAIRS else
-                          nameless[0].label + " names no gear_1 or no gear_2")
-        return stage
-    suns, planets, rings, inner = {}, {}, {}, []  # dicts keep the order
-    for pair, *gears in pairs:
-        ring = next((gear for gear in gears if gear.type == "ring_gear"), None)
-        if ring:
-            rings[ring] = planets[gears[gears[0] is ring]] = True
-            stage.second_pairs.append(pair)
+    def datasheet(self, load):
+        """Values under the names of the program's structs, and the gears by the names that they have in a study."""
+        model = self.model
+        first, second = (self.second, self.first) if load.second_drives and not self.planets else (self.first, self.second)
+        gears = {"sun": [first], "planet": self.planets, "ring": [second]} if self.planets else {"pinion": [first], "gear": [second]}
+        members = {member: Gear(model, parts) for member, parts in gears.items()}
+        values = {member: gear.teeth for member, gear in members.items()} | self.shared_values(list(members.values()))
+        for gear in members.values():
+            self.check_tip(gear)
+        if self.planets:
+            values["planets"] = self.number_of_planets()
+        for name in () if self.planets else {"input", "planets"} & set(model.options):
+            model.problem(f"--{name}", "a gear pair has none", "leave it out for a cylindrical stage")
+        for planet in self.planets:
+            self.bearings(model.shaft_of(planet))  # all count as considered
+        shafts = {member: model.shaft_of(parts[0]) for member, parts in gears.items()}
+        shafts |= {"carrier": self.carriers()} if self.planets else {}
+        owners = {"planet": "planets'", "pinion": "driving gear's", "gear": "driven gear's"}
+        owners = {member: owners.get(member, f"{member}'s") for member in shafts}
+        stiffness = {member: self.bearings(held, re.sub("'s?$", "", owners[member])) for member, held in shafts.items()}
+        for key, title, numbers in (("shift", "shift", {member: gear.shift for member, gear in members.items()}),
+                                    ("tip_mm", "tip circle", {member: gear.tip for member, gear in members.items()}),
+                                    ("bearing_N_m", "bearing stiffness", stiffness)):
+            values |= {f"{member}_{key}": value for member, value in numbers.items()}
+            model.lacking += [f"{owners[member]} {title}" for member, value in numbers.items() if value is None]
+        if self.planets:
+            values["input"] = load.drive_other(model, members["sun"], members["ring"])
         else:
-            inner.append((pair, *gears))
-    stage.first_pairs = [pair for pair, _, _ in inner]
-    for pair, gear_1, gear_2 in inner:
-        if (gear_1 in planets) == (gear_2 in planets):
-            which = "both planets" if gear_1 in planets else "neither of them with a ring"
-            stage.obstacle = (f"in {pair.label} {gear_1.label} and {gear_2.label} mesh, {which}, so that the planets "
-                              "are stepped or paired")
-        else:
-            suns[gear_2 if gear_1 in planets else gear_1] = True
-    if not stage.obstacle and (len(suns), len(rings)) != (1, 1):
-        stage.obstacle = f"it has {len(suns)} suns and {len(rings)} rings, not one of each"
-    if stage.obstacle:
-        return stage
-    (stage.first,), (stage.second,), stage.planets, number = suns, rings, list(planets), len(planets)
-    stage.teeth = (teeth_text(model, [stage.first, stage.planets[0], stage.second]) +
-                   f", {number} planet{'' if number == 1 else 's'}")
-    if not number == len(stage.first_pairs) == len(stage.second_pairs):
-        stage.obstacle = (f"{number} planets have {len(stage.first_pairs)} meshes with the sun and "
-                          f"{len(stage.second_pairs)} with the ring")
-    return stage
+            model.lacking.append("shafts, motor and load")
+            model.notes.append(f"{first.label} drives (the study's pinion)")
+        model.notes += load.notes
+        return values | load.values(model), members
 
+    def shared_values(self, gears):
+        """Values that all gears of the stage share."""
+        model, pairs = self.model, self.first_pairs + self.second_pairs
+        gear_data = [data for pair in pairs for data in model.related("stage_gear_data", "stage", pair, "stage_gear_data")]
+        for part in [self.component] + pairs + gear_data:
+            part.considered = True
+        for data in gear_data:
+            data.find("is_driving_gear")
+        stated = {name: [(gear.values[name], gear.component) for gear in gears if gear.values[name] is not None]
+                  for name in gears[0].values}
+        values = {name: model.same(stated[name], OF_STAGE[name][0], "that of {} is {:.9g}; meshing gears have the same")
+                  for name in ("module_mm", "pressure_angle_deg", "helix_angle_deg")}
+        values["centre_distance_mm"] = (distance := model.common(pairs, *DISTANCES)) and abs(distance)
+        for pair, meshing in ((self.first_pairs[0], gears[:2]), *((pair, gears[1:]) for pair in self.second_pairs[:1])):
+            self.check_centre_distance(pair, values, *meshing)
+        width = values["face_width_mm"] = self.combined(stated["face_width_mm"], min, "face widths {}; a study has one, the common "
+                                                        "{:g} mm", " mm", model.common(pairs, "common_face_width"))
+        for name, title in (("young_modulus_Pa", "Young's modulus, Pa"), ("poisson_ratio", "Poisson's ratio")):
+            # The mean of stiffnesses in series.
+            values[name] = self.combined(stated[name], lambda numbers: len(numbers) / sum(1.0 / number for number in numbers),
+                                         title + ": {}; a study has one value, their harmonic mean {:.6g}")
+        if self.kind == "cylindrical":
+            first, second = (model.number(gear, *HELICES) or 0.0 for gear in (self.first, self.second))
+            if first * second > 0.0:
+                model.reject(self.second, HELICES[0], f"{second:g} and {first:g} deg of {self.first.label} have the same "
+                             "sign; external gears on parallel shafts have opposite hands")
+        values |= {name: model.options[name] for name in ("face_width_mm", "addendum", "quality") if name in model.options}
+        model.lacking += [text for name, (_, text) in OF_STAGE.items() if text and values[name] is None]
+        model.lacking += [] if "quality" in values else ["tooth quality"]
+        values["helix_deg"] = values.pop("helix_angle_deg")
+        if "face_width_mm" in model.options and width is not None:
+            model.notes.append(f"an option replaces the model's face width of {width:g} mm")
+        return values
 
-def cylindrical_stage(model, component, *gears):
-    stage = Stage(component, "cylindrical", "it names no gear_1 or no gear_2" if None in gears else "")
-    (stage.first, stage.second), stage.first_pairs = gears, [component]
-    if not stage.obstacle:
-        stage.teeth = teeth_text(model, gears)
-        stage.obstacle = "internal gears on fixed shafts are not simulated" if "ring_gear" in [g.type for g in gears] else ""
-    return stage
+    def combined(self, stated, combine, note, unit="", value=None):
+        """Combination of values, each with the component that states it, or a given value. Notes values that differ."""
+        numbers = [number for number, _ in stated]
+        if value is None and numbers:
+            value = combine(numbers) if len(set(numbers)) > 1 else numbers[0]
+        if any(number != value for number in numbers):
+            self.model.notes.append(note.format(", ".join(f"{number:.6g}{unit} of {by.label}" for number, by in stated), value))
+        return value
+
+    def check_centre_distance(self, pair, values, gear_1, gear_2):
+        """Rejects a centre distance that does not fit the teeth and shifts of two gears, with the one that does. Notes
+        a small backlash."""
+        distance, module, number = values["centre_distance_mm"], values["module_mm"], gear_1.teeth + gear_2.side * gear_2.teeth
+        if None in (distance, module, gear_1.shift, gear_2.shift) or not (module > 0.0 and gear_1.teeth and gear_2.teeth and number):
+            return
+        helix = math.radians(values["helix_angle_deg"] or 0.0)
+        normal = 20.0 if values["pressure_angle_deg"] is None else values["pressure_angle_deg"]
+        angle = math.atan(math.tan(math.radians(normal)) / math.cos(helix))
+        shift = (gear_1.shift + gear_2.shift) * math.cos(helix)
+        working = angle if shift == 0.0 else inverse_involute(math.tan(angle) - angle + 2.0 * math.tan(angle) * shift / number)
+        fits = 0.5 * abs(number) * module / math.cos(helix) * math.cos(angle) / math.cos(working)
+        # Backlash in modules: larger distances open external meshes and close internal ones. Shifts are rounded to two
+        # decimals; no allowance of tooth thickness is 0.1.
+        gap = gear_2.side * (distance - fits) * 2.0 * math.tan(angle) / module
+        if 0.01 < gap <= 0.1:
+            self.model.notes.append(f"{gear_1.component.label} and {gear_2.component.label} have a backlash of about "
+                                    f"{gap * module:.3g} mm at {distance:.6g} mm")
+        elif not -0.01 <= gap <= 0.1:
+            self.model.reject(pair, DISTANCES[0], f"is {distance:.6g} mm, but {gear_1.teeth} and {gear_2.teeth} teeth with "
+                              f"shifts of {gear_1.shift:g} and {gear_2.shift:g} fit at {fits:.6g} mm", "correct the distance, the "
+                              "teeth or the shifts (a positive shift makes teeth thicker, also those of a ring: ISO 21771)")
+
+    def check_tip(self, gear):
+        """Rejects a tip circle inside the root circle, such as a placeholder. The option --addendum replaces tip circles."""
+        if gear.tip is None or not gear.teeth:
+            return
+        if "addendum" in self.model.options:
+            self.model.notes.append(f"an option replaces the tip diameter of {gear.component.label}, {gear.tip:g} mm")
+            gear.tip = None
+            return
+        helix, shift = math.radians(gear.values["helix_angle_deg"] or 0.0), gear.side * (2.0 * (gear.shift or 0.0) - 2.5)
+        root = (gear.values["module_mm"] or 0.0) * (gear.teeth / math.cos(helix) + shift)
+        if gear.side * (gear.tip - root) <= 0.0:
+            self.model.reject(gear.component, "tip_diameter", f"{gear.tip:g} mm lies {'in' if gear.side == 1 else 'out'}side the "
+                              f"root circle, {root:.6g} mm", "remove it from the model, and the rule is used, or give --addendum")
+
+    def bearings(self, shafts, member=""):
+        """Radial stiffness of all bearings between these shafts and other parts. None without bearings, or if any of
+        them is rigid or has none; a note on the member names these."""
+        total, unusable = 0.0, []
+        for bearing, *parts in self.model.parts("side", "assembly", "inner_part", "outer_part"):
+            if bearing and "bearing" in bearing.type and set(shafts) & set(parts):
+                bearing.considered = True
+                stiffness = self.model.number(bearing, "radial_stiffness")
+                if stiffness is not None and 0.0 < stiffness < 1e13:
+                    total += stiffness
+                else:
+                    unusable.append(bearing.label + ("" if stiffness is None else f" ({stiffness:g} N/m)"))
+        if unusable and member:
+            self.model.notes.append(f"bearings of the {member} that are rigid or state no radial stiffness, replaced by the "
+                                    "rule: " + ", ".join(unusable))
+        return None if unusable else total or None
+
+    def number_of_planets(self):
+        """Number of planets: given as an option, stated or modelled. Rejects a turning ring. Notes planets that are not
+        spaced equally."""
+        model, ring = self.model, self.model.shaft_of(self.second)
+        turning = [f"its {shaft.label} turns at {speed:.6g} rpm" for shaft in ring if (speed := model.number(shaft, "rotational_speed"))]
+        turning += [f"{held.label} stands still instead (rotational_speed 0)" for _ in ring
+                    for held in self.carriers() + model.shaft_of(self.first)
+                    if model.number(held, "rotational_speed") == 0.0 and model.flag(held, "defines_speed")]
+        if turning:
+            model.problem(self.component.label, f"the ring is not the fixed member: {turning[0]}",
+                          "new writes studies with a fixed ring; edit operation.fixed in one")
+        modelled, stated = len(self.planets), model.number(self.component, "number_of_planets")
+        given, here = model.options.get("planets"), (3 if modelled == 1 else modelled) if stated is None else stated
+        if stated is not None and modelled > 1 and stated != modelled:
+            model.reject(self.component, "number_of_planets", f"is {stated}, but the model has {modelled} planet gears",
+                         "correct one of them")
+        if modelled == 1 and stated is None and given is None:
+            model.lacking.append("number of planets (3; the model has one planet gear)")
+        if given not in (None, here) and modelled > 1:
+            model.notes.append(f"an option replaces the model's number of planets, {here}")
+        angles = [model.number(pair, "rotating_angle_around_neg_u_axis") for pair in self.first_pairs]
+        angles = sorted(angle % 360.0 for angle in angles if angle is not None)
+        if any(abs(angle - angles[0] - 360.0 * i / len(angles)) > 0.5 for i, angle in enumerate(angles)):
+            listed = ", ".join(f"{angle - angles[0]:.4g}" for angle in angles)
+            model.notes.append(f"planets at {listed} deg; the study spaces them equally or as nearly as the teeth allow "
+                               "(gearbox.planet_positions_deg)")
+        return here if given is None else given
 
 
 def stages_of(model):
     """All stages, those within a planetary stage excepted."""
-    pairs = {pair[0]: pair for pair in (model.parts(relation, "stage", "gear_1", "gear_2") for relation in model.relations["stage"])}
+    pairs = {pair[0]: pair for pair in model.parts("stage", "stage", "gear_1", "gear_2")}
     planetary, within = collections.defaultdict(list), set()
-    for whole, part in (model.parts(relation, "assembly", "part") for relation in model.relations["assembly"]):
-        if whole and part and whole.type == "planetary_stage" and part in pairs and part not in within:
+    for whole, part in model.parts("assembly", "assembly", "part"):
+        if whole and whole.type == "planetary_stage" and part in pairs and part not in within:
             within.add(part)
             planetary[whole].append(pairs[part])
-    return [planetary_stage(model, component, planetary[component]) if component.type == "planetary_stage" else
-            cylindrical_stage(model, *pairs.get(component, (component, None, None)))
-            if component.type == "cylindrical_stage" else
-            Stage(component, obstacle="only planetary and cylindrical stages are simulated")
-            for component in model.components.values() if component.type.endswith("_stage")
-            and (component.type == "planetary_stage" or component not in within)]
+    return [Stage(model, part, planetary[part] if part.type == "planetary_stage" else [pairs.get(part, (part, None, None))])
+            for part in model.components.values()
+            if part.type.endswith("_stage") and (part.type == "planetary_stage" or part not in within)]
 
 
-def chosen_stage(model, stages, name):
-    """Stage with that id, or the only one that is possible. Refuses with a list of all."""
+def chosen_stage(model, stages):
+    """Stage that the option names, or the only one that is possible. Refuses with a list of all."""
     if not stages:
-        model.refuse("has no gear stages", "name a model with a planetary or cylindrical stage")
+        raise Unusable("has no gear stages", "name a model with a planetary or cylindrical stage")
     if len(stages) > MOST_STAGES:
-        model.refuse(f"has {len(stages)} gear stages", f"models of up to {MOST_STAGES} are read")
+        raise Unusable(f"has {len(stages)} gear stages", f"models of up to {MOST_STAGES} are read")
+    name, remedy = model.options.get("stage", ""), "the model has "
     found = [stage for stage in stages if (stage.component.id == name if name else not stage.obstacle)]
-    if len(found) == 1 and not found[0].obstacle:
+    if len(found) > 1:
+        what, remedy = f"the model has {len(stages)} stages", "choose one: "
+    elif not found:
+        what = f"there is no stage {name}" if name else "no stage of the model can be simulated"
+    elif found[0].obstacle:
+        what = f"stage {name} is not possible: {found[0].obstacle}"
+    else:
         return found[0]
-    several = len(found) > 1
-    what = (f"the model has {len(stages)} stages" if several else f"stage {name} is not possible: {found[0].obstacle}" if found
-            else f"there is no stage {name}" if name else "no stage of the model can be simulated")
-    model.problem("--stage", what, ("choose one: " if several else "the model has ") +
-                  "; ".join(stage.description() for stage in stages))
+    model.problem("--stage", what, remedy + "; ".join(stage.description() for stage in stages))
     raise Unusable
 
 
@@ -400,7 +533,7 @@ class Gear:
     numbers. Shifts follow ISO 21771."""
 
     def __init__(self, model, gears):
-        self.component = gears[0]
+        self.component, self.side = gears[0], -1 if gears[0].type == "ring_gear" else 1
         # Versions differ in whether gears or flanks state angles and shifts.
         parts = gears + [flank for gear in gears for side in ("left", "right")
                          for flank in model.related("flank", "gear", gear, side)]
@@ -408,60 +541,25 @@ class Gear:
                    if material.type == "material"]
         for part in parts + made_of:
             part.considered = True
-        teeth = model.common(gears, "number_of_teeth")
-        for gear in gears:
-            model.count(gear, "number_of_teeth")
-        self.teeth = int(min(abs(teeth or 0.0), 10001))
-        self.module = model.common(gears, "normal_module")
+        self.teeth = min(abs(model.common(gears, "number_of_teeth") or 0), 10001)
         for name in ("number_of_teeth", "normal_module"):
-            if self.component.find(name) is None and not any(gear.find(name) for gear in gears):
+            if not any(gear.find(name) for gear in gears):
                 model.reject(self.component, name, "is missing")
-        self.pressure_angle = model.common(parts, "normal_pressure_angle")
-        self.helix, self.shift = magnitude(model.common(gears, *HELICES)), self.profile_shift(model, parts)
-        self.face_width, self.tip = model.common(gears, "face_width"), magnitude(model.common(parts, "tip_diameter"))
-        self.young_modulus, self.poisson_ratio = model.common(made_of, "elastic_modulus"), model.common(made_of, "poisson_ratio")
-
-    def profile_shift(self, model, parts):
-        """Coefficient, from the coefficient or the shift in mm."""
-        coefficient, shift_mm = model.common(parts, *SHIFTS), model.common(parts, *SHIFTS_MM)
-        if shift_mm is None or not self.module:
-            return coefficient
-        from_mm = shift_mm / self.module
-        if coefficient is not None and abs(coefficient - from_mm) > 1e-3:
-            model.reject(parts[0], SHIFTS_MM[0], f"{shift_mm:.6g} mm are {from_mm:.6g} modules, but the coefficient is "
-                         f"{coefficient:.6g}", "correct one of them")
-        return from_mm if coefficient is None else coefficient
-
-
-def shared(model, gears, name, attribute):
-    """Value of a property that all gears of a stage should share. A gear that differs is a problem."""
-    stated = [(getattr(gear, name), gear.component) for gear in gears if getattr(gear, name) is not None]
-    for value, component in stated:
-        first, other = stated[0]
-        if not agree(first, value):
-            model.reject(component, attribute, f"is {value:.9g}, but that of {other.label} is {first:.9g}; meshing gears have the same")
-    return stated[0][0] if stated else None
-
-
-def harmonic_mean(model, gears, name, title):
-    """Mean of a property, as of stiffnesses in series. Notes values that differ."""
-    stated = [(getattr(gear, name), gear.component.label) for gear in gears if (getattr(gear, name) or 0.0) > 0.0]
-    if len({value for value, _ in stated}) < 2:
-        return stated[0][0] if stated else None
-    mean = len(stated) / sum(1.0 / value for value, _ in stated)
-    listed = ", ".join(f"{value:.6g} of {label}" for value, label in stated)
-    model.notes.append(f"{title}: {listed}; a study has one value, their harmonic mean {mean:.6g}")
-    return mean
-
-
-def common_width(model, pairs, gears):
-    stated = [gear for gear in gears if gear.face_width is not None]
-    different, width = {gear.face_width for gear in stated}, model.common(pairs, "common_face_width")
-    width = min(different, default=None) if width is None else width
-    if different - {width}:
-        listed = ", ".join(f"{gear.face_width:g} mm of {gear.component.label}" for gear in stated)
-        model.notes.append(f"face widths {listed}; a study has one, the common {width:g} mm")
-    return width
+        self.values = {
+            "module_mm": model.common(gears, "normal_module"), "helix_angle_deg": (helix := model.common(gears, *HELICES)) and abs(helix),
+            "pressure_angle_deg": model.common(parts, "normal_pressure_angle"),
+            "face_width_mm": model.common(gears, "face_width"),
+            "young_modulus_Pa": max(model.common(made_of, "elastic_modulus") or 0.0, 0.0) or None,
+            "poisson_ratio": max(model.common(made_of, "poisson_ratio") or 0.0, 0.0) or None}
+        tip, module = model.common(parts, "tip_diameter"), self.values["module_mm"]
+        self.tip = tip and abs(tip)
+        self.shift, shift_mm = model.common(parts, *SHIFTS), model.common(parts, *SHIFTS_MM)
+        if shift_mm is not None and module:
+            from_mm = shift_mm / module
+            if self.shift is not None and abs(self.shift - from_mm) > 1e-3:
+                model.reject(parts[0], SHIFTS_MM[0], f"{shift_mm:.6g} mm are {from_mm:.6g} modules, but the coefficient is "
+                             f"{self.shift:.6g}", "correct one of them")
+            self.shift = from_mm if self.shift is None else self.shift
 
 
 def inverse_involute(value):
@@ -472,134 +570,6 @@ def inverse_involute(value):
     return angle
 
 
-def check_centre_distance(model, pair, teeth, gear_1, gear_2):
-    """Rejects a centre distance that does not fit the teeth and shifts of two gears, with the one that does. Notes a
-    small backlash."""
-    distance, module = teeth["centre_distance_mm"], teeth["module_mm"]
-    sign = -1 if gear_2.component.type == "ring_gear" else 1
-    number = gear_1.teeth + sign * gear_2.teeth
-    if None in (distance, gear_1.shift, gear_2.shift) or not (module > 0.0 and gear_1.teeth and gear_2.teeth and number):
-        return
-    helix = math.radians(teeth["helix_deg"] or 0.0)
-    normal = 20.0 if teeth["pressure_angle_deg"] is None else teeth["pressure_angle_deg"]
-    angle = math.atan(math.tan(math.radians(normal)) / math.cos(helix))
-    shift = (gear_1.shift + gear_2.shift) * math.cos(helix)
-    working = angle if shift == 0.0 else inverse_involute(math.tan(angle) - angle + 2.0 * math.tan(angle) * shift / number)
-    fits = 0.5 * abs(number) * module / math.cos(helix) * math.cos(angle) / math.cos(working)
-    # Backlash in modules: larger distances open external meshes and close internal ones. Shifts are rounded to two
-    # decimals; no allowance of tooth thickness is 0.1.
-    gap = sign * (distance - fits) * 2.0 * math.tan(angle) / module
-    if 0.01 < gap <= 0.1:
-        model.notes.append(f"{gear_1.component.label} and {gear_2.component.label} have a backlash of about "
-                           f"{gap * module:.3g} mm at {distance:.6g} mm")
-    elif not -0.01 <= gap <= 0.1:
-        model.reject(pair, DISTANCES[0], f"is {distance:.6g} mm, but {gear_1.teeth} and {gear_2.teeth} teeth with "
-                     f"shifts of {gear_1.shift:g} and {gear_2.shift:g} fit at {fits:.6g} mm", "correct the distance, the teeth "
-                     "or the shifts (a positive shift makes teeth thicker, also those of a ring: ISO 21771)")
-
-
-def check_tips(model, gears, options):
-    """Rejects tip circles inside the root circle, such as placeholders. The option --addendum replaces tip circles."""
-    for gear in (gear for gear in gears if gear.tip is not None):
-        if "addendum" in options:
-            model.notes.append(f"an option replaces the tip diameter of {gear.component.label}, {gear.tip:g} mm")
-            gear.tip = None
-            continue
-        side = -1 if gear.component.type == "ring_gear" else 1
-        root = (gear.module or 0.0) * (gear.teeth / math.cos(math.radians(gear.helix or 0.0)) + side * (2.0 * (gear.shift or 0.0) - 2.5))
-        if side * (gear.tip - root) <= 0.0:
-            model.reject(gear.component, "tip_diameter", f"{gear.tip:g} mm lies {'in' if side == 1 else 'out'}side the root circle, "
-                         f"{root:.6g} mm", "remove it from the model, and the rule is used, or give --addendum")
-
-
-def teeth_of(model, stage, gears, options):
-    """Values that all gears of a stage share. Options replace the model's."""
-    pairs = stage.first_pairs + stage.second_pairs
-    gear_data = [data for pair in pairs for data in model.related("stage_gear_data", "stage", pair, "stage_gear_data")]
-    for part in [stage.component] + pairs + gear_data:
-        part.considered = True
-    for data in gear_data:
-        model.flag(data, "is_driving_gear")
-    teeth = {"module_mm": shared(model, gears, "module", "normal_module") or 0.0,
-             "pressure_angle_deg": shared(model, gears, "pressure_angle", "normal_pressure_angle"),
-             "helix_deg": shared(model, gears, "helix", HELICES[0]),
-             "centre_distance_mm": magnitude(model.common(pairs, *DISTANCES))}
-    for pair, meshing in ((stage.first_pairs[0], gears[:2]), *((pair, gears[1:]) for pair in stage.second_pairs[:1])):
-        check_centre_distance(model, pair, teeth, *meshing)
-    width = teeth["face_width_mm"] = common_width(model, pairs, gears)
-    teeth["young_modulus_Pa"] = harmonic_mean(model, gears, "young_modulus", "Young's modulus, Pa")
-    teeth["poisson_ratio"] = harmonic_mean(model, gears, "poisson_ratio", "Poisson's ratio")
-    if stage.kind == "cylindrical":
-        first, second = (model.number(gear, *HELICES) or 0.0 for gear in (stage.first, stage.second))
-        if first * second > 0.0:
-            model.reject(stage.second, HELICES[0], f"{second:g} and {first:g} deg of {stage.first.label} have the same "
-                         "sign; external gears on parallel shafts have opposite hands")
-    teeth |= {name: options[name] for name in ("face_width_mm", "addendum", "quality") if name in options}
-    model.lacking += [title for name, title in (
-        ("pressure_angle_deg", "normal pressure angle (20 deg)"), ("helix_deg", "helix angle (0 deg)"),
-        ("face_width_mm", "face width"), ("centre_distance_mm", "centre distance"), ("young_modulus_Pa", "Young's modulus"),
-        ("poisson_ratio", "Poisson's ratio"), ("quality", "tooth quality")) if teeth.get(name) is None]
-    if "face_width_mm" in options and width is not None:
-        model.notes.append(f"an option replaces the model's face width of {width:g} mm")
-    return teeth
-
-
-def bearings(model, shafts, member, notes):
-    """Radial stiffness of all bearings between these shafts and other parts. None without bearings, or if any of them
-    is rigid or has none; a note names these."""
-    total, unusable, ids = 0.0, [], {shaft.id for shaft in shafts}
-    for relation in model.relations["side"]:
-        bearing, = model.parts(relation, "assembly")
-        if bearing and "bearing" in bearing.type and ids & {relation.get("inner_part"), relation.get("outer_part")}:
-            bearing.considered = True
-            stiffness = model.number(bearing, "radial_stiffness")
-            if stiffness is not None and 0.0 < stiffness < 1e13:
-                total += stiffness
-            else:
-                unusable.append(bearing.label + ("" if stiffness is None else f" ({stiffness:g} N/m)"))
-    if unusable:
-        notes.append(f"bearings of the {member} that are rigid or state no radial stiffness, replaced by the rule: " +
-                     ", ".join(unusable))
-    return total if total > 0.0 and not unusable else None
-
-
-def shaft_links(model, stages):
-    """Connected shafts, each with its speed divided by that of the first."""
-    links = collections.defaultdict(list)
-
-    def connect(a, b, ratio):
-        if a is not b and ratio > 0.0:
-            links[a].append((b, ratio))
-            links[b].append((a, 1.0 / ratio))
-
-    for stage in stages:
-        if stage.first and stage.second:
-            first, second = (abs(model.count(gear, "number_of_teeth") or 0) for gear in (stage.first, stage.second))
-            whole = first + second if stage.planets else second
-            for a, b in ((a, b) for ends in [stage.ends(model)] for a in ends[0] for b in ends[1] if whole):
-                connect(a, b, first / whole)
-    for between, *shafts in (model.parts(relation, "assembly", "inner_part", "outer_part")
-                             for relation in model.relations["side"]):
-        if between and between.type.endswith("coupling") and model.flag(between, "is_engaged") is not False and \
-                all(shaft and shaft.type == "shaft" for shaft in shafts):
-            connect(*shafts, 1.0)
-    return links
-
-
-def reached_from(links, start):
-    """Ratio of the speed of each shaft that can be reached to that of `start`, and the number of links between them.
-    Ratios that no gear unit has end the search."""
-    reached, waiting = {start: (1.0, 0)}, collections.deque([start])
-    while waiting:
-        here = waiting.popleft()
-        ratio, number = reached[here]
-        for shaft, faster in links.get(here, []):
-            if shaft not in reached and 1e-30 < ratio * faster < 1e30:
-                reached[shaft] = ratio * faster, number + 1
-                waiting.append(shaft)
-    return reached
-
-
 class Load:
     """Speed and torque at the driving member of a stage, followed from the shafts that state them through gear pairs,
     planetary stages with a fixed ring, and couplings. Losses are neglected. Torque and speed of the same sense drive.
@@ -607,16 +577,14 @@ class Load:
     problems."""
 
     def __init__(self, model, stages, stage):
-        self.speed, self.torque, self.notes, self.links = None, None, [], shaft_links(model, stages)
-        self.second_drives = stage.kind == "cylindrical" and any([
-            model.flag(data, "is_driving_gear")
-            for data in model.related("stage_gear_data", "gear", stage.second, "stage_gear_data")])
-        speeds, torques, ends = {}, [], stage.ends(model)
+        self.speed, self.torque, self.notes, self.links = None, None, [], collections.defaultdict(list)
+        self.connect_shafts(model, stages)
+        gear_data = model.related("stage_gear_data", "gear", stage.second, "stage_gear_data")
+        self.second_drives = stage.kind == "cylindrical" and any(model.flag(data, "is_driving_gear") for data in gear_data)
+        speeds, torques, ends = {}, [], stage.ends()
         for part in model.components.values():
-            if part.type == "shaft":
-                model.flag(part, "defines_speed")
-                if speed := model.number(part, "rotational_speed"):
-                    speeds[part] = speed
+            if part.type == "shaft" and (speed := model.number(part, "rotational_speed")):
+                speeds[part] = speed
             elif part.type == "external_load":
                 part.considered = True
                 defines, _ = model.flag(part, "defines_torque"), model.flag(part, "transmits_torque")
@@ -627,10 +595,39 @@ class Load:
         for driver in ends[self.second_drives][:1]:
             self.follow_speed(model, speeds, driver)
 
+    def connect_shafts(self, model, stages):
+        """Lists the shafts that each shaft turns, with their speed divided by its own."""
+        connected = []
+        for stage in stages:
+            if stage.first and stage.second:
+                first, second = (abs(model.number(gear, "number_of_teeth") or 0) for gear in (stage.first, stage.second))
+                whole = first + second if stage.planets else second
+                connected += [(*shafts, first / whole) for shafts in itertools.product(*stage.ends()) if whole]
+        for between, *shafts in model.parts("side", "assembly", "inner_part", "outer_part"):
+            if between and between.type.endswith("coupling") and model.flag(between, "is_engaged") is not False:
+                connected += [(*shafts, 1.0)] if all(shaft and shaft.type == "shaft" for shaft in shafts) else []
+        for a, b, ratio in connected:
+            if a is not b and ratio > 0.0:
+                self.links[a].append((b, ratio))
+                self.links[b].append((a, 1.0 / ratio))
+
+    def reached_from(self, start):
+        """Ratio of the speed of each shaft that can be reached to that of `start`, and the number of links between
+        them. Ratios that no gear unit has end the search."""
+        reached, waiting = {start: (1.0, 0)}, collections.deque([start])
+        while waiting:
+            here = waiting.popleft()
+            ratio, number = reached[here]
+            for shaft, faster in self.links.get(here, []):
+                if shaft not in reached and 1e-30 < ratio * faster < 1e30:
+                    reached[shaft] = ratio * faster, number + 1
+                    waiting.append(shaft)
+        return reached
+
     def follow_torque(self, speeds, torques, ends):
         """Takes the first torque, preferably one that defines the load; notes others that differ."""
         (_, shaft, by, torque), *others = torques
-        reached = reached_from(self.links, shaft)
+        reached = self.reached_from(shaft)
         first, second = (min((reached[shaft] for shaft in side if shaft in reached), key=lambda at: at[1], default=None)
                          for side in ends)
         if first and second:
@@ -645,144 +642,65 @@ class Load:
                                   f"{expected:.6g} N m follow from {by.label}")
 
     def follow_speed(self, model, speeds, driver):
-        reached = reached_from(self.links, driver)
+        reached = self.reached_from(driver)
         followed = [(abs(speed) / reached[shaft][0], shaft, speed) for shaft, speed in speeds.items() if shaft in reached]
-        for here, shaft, speed in followed:
-            self.speed, source, first = followed[0]
-            if shaft is source:
-                self.notes.append(f"speed from {shaft.label} ({speed:.6g} rpm)")
-            elif abs(here - self.speed) > 0.01 * here:
+        for self.speed, source, first in followed[:1]:
+            self.notes.append(f"speed from {source.label} ({first:.6g} rpm)")
+        for here, shaft, speed in followed[1:]:
+            if abs(here - self.speed) > 0.01 * here:
                 model.reject(shaft, "rotational_speed", f"{speed:.6g} rpm contradict {first:.6g} rpm of {source.label}: the "
                              f"stage's driving shaft would turn at {here:.6g} and at {self.speed:.6g} rpm", "correct one of them")
 
-    def drive_other(self, model, sun, ring, options):
+    def drive_other(self, model, sun, ring):
         """Driving member of a planetary stage: the model's, or with the balancing load that of an option."""
         modelled = "carrier" if self.second_drives else "sun"
-        given = options.get("input", modelled)
+        given = model.options.get("input", modelled)
         if given == modelled or not sun.teeth:
             return modelled
         faster = 1.0 + ring.teeth / sun.teeth
         faster = 1.0 / faster if modelled == "sun" else faster
-        if self.speed is not None and self.torque is not None:
+        if None not in (self.speed, self.torque):
             model.notes.append(f"an option replaces the model's input, the {modelled}")
-        self.speed = None if self.speed is None else self.speed * faster
-        self.torque = None if self.torque is None else self.torque / faster
+        self.speed = self.speed and self.speed * faster
+        self.torque = self.torque and self.torque / faster
         return given
 
-    def values(self, model, options):
+    def values(self, model):
         """Torque, speed and power: given ones, completed by the model's."""
-        given = {name: options[name] for name in ("torque_N_m", "speed_rpm", "power_kW") if name in options}
-        stated = [("speed_rpm", self.speed, "speed", "rpm"), ("torque_N_m", self.torque, "torque", "N m")]
-        for name, value, _, _ in stated:
+        given = {name: model.options[name] for name in ("torque_N_m", "speed_rpm", "power_kW") if name in model.options}
+        stated = [("torque_N_m", self.torque, "torque", "N m"), ("speed_rpm", self.speed, "speed", "rpm")]
+        for name, value, _, _ in reversed(stated):
             if len(given) < 2 and value is not None:
                 given.setdefault(name, value)
-        if len(given) < 2:
-            has, lacks = ("torque", "speed") if self.torque is not None else ("speed", "torque")
-            none = self.torque is None and self.speed is None
-            model.problem("--torque, --speed, --power", "the model states neither torque nor speed of the stage"
-                          if none else f"the model states a {has}, but no {lacks} of the stage",
-                          "give two of the three, for the driving member" if none else f"give --{lacks} or --power")
-            return given
-        model.notes += [f"an option replaces the model's {title} of {value:.6g} {unit}"
-                        for name, value, title, unit in reversed(stated) if value not in (None, given.get(name))]
+        lacks = [title for _, value, title, _ in stated if value is None]
+        if len(given) > 1:
+            model.notes += [f"an option replaces the model's {title} of {value:.6g} {unit}"
+                            for name, value, title, unit in stated if value not in (None, given.get(name))]
+        elif len(lacks) == 2:
+            model.problem("--torque, --speed, --power", "the model states neither torque nor speed of the stage",
+                          "give two of the three, for the driving member")
+        else:
+            has = "speed" if lacks == ["torque"] else "torque"
+            model.problem("--torque, --speed, --power", f"the model states a {has}, but no {lacks[0]} of the stage",
+                          f"give --{lacks[0]} or --power")
         return given
 
 
-def check_ring(model, stage):
-    """Rejects a planetary stage whose ring turns."""
-    turning = [f"its {shaft.label} turns at {speed:.6g} rpm" for shaft in model.shaft_of(stage.second)
-               if (speed := model.number(shaft, "rotational_speed"))]
-    turning += [f"{held.label} stands still instead (rotational_speed 0)" for _ in model.shaft_of(stage.second)
-                for held in carriers(model, stage) + model.shaft_of(stage.first)
-                if model.number(held, "rotational_speed") == 0.0 and model.flag(held, "defines_speed")]
-    if turning:
-        model.problem(stage.component.label, f"the ring is not the fixed member: {turning[0]}",
-                      "new writes studies with a fixed ring; edit operation.fixed in one")
-
-
-def planets_of(model, stage, options):
-    """Number of planets: given as an option, stated or modelled. Notes planets that are not spaced equally."""
-    modelled, given = len(stage.planets), options.get("planets")
-    stated = model.count(stage.component, "number_of_planets")
-    if stated is not None and modelled > 1 and stated != modelled:
-        model.reject(stage.component, "number_of_planets", f"is {stated}, but the model has {modelled} planet gears",
-                     "correct one of them")
-    if modelled == 1 and stated is None and given is None:
-        model.lacking.append("number of planets (3; the model has one planet gear)")
-    here = stated if stated is not None else 3 if modelled == 1 else modelled
-    if given not in (None, here) and modelled > 1:
-        model.notes.append(f"an option replaces the model's number of planets, {here}")
-    angles = [model.number(pair, "rotating_angle_around_neg_u_axis") for pair in stage.first_pairs]
-    angles = sorted(angle % 360.0 for angle in angles if angle is not None)
-    if any(abs(angle - angles[0] - 360.0 * i / len(angles)) > 0.5 for i, angle in enumerate(angles)):
-        listed = ", ".join(f"{angle - angles[0]:.4g}" for angle in angles)
-        model.notes.append(f"planets at {listed} deg; the study spaces them equally or as nearly as the teeth allow "
-                           "(gearbox.planet_positions_deg)")
-    return here if given is None else given
-
-
-def names_of(stage, members):
-    """Names of values for messages, by study key: attributes of the model, else options."""
-    of_stage = {"normal_module_mm": "normal_module", "module_mm": "normal_module", "helix_angle_deg": HELICES[0],
-                "pressure_angle_deg": "normal_pressure_angle", "face_width_mm": "face_width", "young_modulus_Pa": "elastic_modulus",
-                "poisson_ratio": "poisson_ratio", "centre_distance_mm": DISTANCES[0]}
-    of_gear = {"teeth": "number_of_teeth", "shift": SHIFTS[0], "tip_mm": "tip_diameter"}
-    return {f"gearbox.{key}": f"{stage.component.label}: {attribute}" for key, attribute in of_stage.items()} | \
-        {f"gearbox.{member}.{key}": f"{gear.component.label}: {attribute}" for member, gear in members.items()
-         for key, attribute in of_gear.items()} | {"operation.pinion_speed_rpm": "--speed"}
-
-
-def stage_values(model, stages, stage, options):
-    """Values of the datasheet, and the gears by the names that they have in a study."""
-    load = Load(model, stages, stage)
-    first, second = (stage.second, stage.first) if load.second_drives and not stage.planets else (stage.first, stage.second)
-    gears = {"sun": [first], "planet": stage.planets, "ring": [second]} if stage.planets else {"pinion": [first], "gear": [second]}
-    owners = {"sun": "sun's", "planet": "planets'", "ring": "ring's", "carrier": "carrier's",
-              "pinion": "driving gear's", "gear": "driven gear's"}
-    members = {member: Gear(model, parts) for member, parts in gears.items()}
-    values = {member: gear.teeth for member, gear in members.items()}
-    values |= teeth_of(model, stage, list(members.values()), options)
-    check_tips(model, members.values(), options)
-    if stage.planets:
-        check_ring(model, stage)
-        values["planets"] = planets_of(model, stage, options)
-    for name in () if stage.planets else ("input", "planets"):
-        if name in options:
-            model.problem(f"--{name}", "a gear pair has none", "leave it out for a cylindrical stage")
-    for planet in stage.planets:
-        bearings(model, model.shaft_of(planet), "planets", [])  # all count as considered
-    shafts = {member: model.shaft_of(parts[0]) for member, parts in gears.items()}
-    shafts |= {"carrier": carriers(model, stage)} if stage.planets else {}
-    for key, title, numbers in (
-            ("shift", "shift", {member: gear.shift for member, gear in members.items()}),
-            ("tip_mm", "tip circle", {member: gear.tip for member, gear in members.items()}),
-            ("bearing_N_m", "bearing stiffness", {member: bearings(model, held, re.sub("'s?$", "", owners[member]), model.notes)
-                                                  for member, held in shafts.items()})):
-        values |= {f"{member}_{key}": value for member, value in numbers.items()}
-        model.lacking += [f"{owners[member]} {title}" for member, value in numbers.items() if value is None]
-    if stage.planets:
-        values["input"] = load.drive_other(model, members["sun"], members["ring"], options)
-    else:
-        model.lacking.append("shafts, motor and load")
-        model.notes.append(f"{first.label} drives (the study's pinion)")
-    model.notes += load.notes
-    return values | load.values(model, options), members
-
-
-def datasheet(model, options):
-    """Datasheet of the chosen stage. Raises Unusable if the model has problems."""
-    model.apply_load_case(options.get("load_case", ""))
+def reply_to(model):
+    """Datasheet of the chosen stage, with notes and names for messages. Raises Unusable if the model has problems."""
+    model.apply_load_case(model.options.get("load_case", ""))
     stages = stages_of(model)
-    stage = chosen_stage(model, stages, options.get("stage", ""))
-    values, members = stage_values(model, stages, stage, options)
+    stage = chosen_stage(model, stages)
+    values, members = stage.datasheet(Load(model, stages, stage))
     if model.problems:
         raise Unusable
-    lacking = model.lacking + ["gear bodies, masses and inertias", "damping", "sensor and noise"]
-    rest = ["ot in the model, by rule or chosen: " + ", ".join(lacking)] + \
-        ["ot taken from the model: " + line for line in model.unused()]
-    head = f"Stage {stage.description()} of {options['name']} (REXS {model.version})."
-    return {"kind": stage.kind, "names": names_of(stage, members),
-            "values": {name: value for name, value in values.items() if value is not None},
+    lacking = ", ".join([*model.lacking, "gear bodies, masses and inertias", "damping", "sensor and noise"])
+    rest = [f"ot in the model, by rule or chosen: {lacking}"] + [f"ot taken from the model: {line}" for line in model.unused()]
+    head = f"Stage {stage.description()} of {model.options['name']} (REXS {model.version})."
+    names = {f"gearbox.{key}": f"{stage.component.label}: {attribute}" for key, (attribute, _) in OF_STAGE.items()} | \
+        {f"gearbox.{member}.{key}": f"{gear.component.label}: {attribute}" for member, gear in members.items()
+         for key, attribute in OF_GEAR.items()} | {"operation.pinion_speed_rpm": "--speed"}
+    return {"kind": stage.kind, "names": names, "values": {name: value for name, value in values.items() if value is not None},
             "notes": [head] + model.notes + ["N" + line for line in rest],
             "notices": model.notices + [(0, "", line, "") for line in model.notes + ["n" + line for line in rest]]}
 
@@ -794,10 +712,12 @@ def main():
     model, reply = Model(), {}
     try:
         model.read(sys.argv[1])
-        reply = datasheet(model, json.load(sys.stdin))
+        model.options = json.load(sys.stdin)
+        reply = reply_to(model)
         json.dumps(reply, allow_nan=False)
-    except Unusable:
-        pass
+    except Unusable as last:
+        if last.args:
+            model.problem("", *last.args)
     except ImportError as error:
         model.problem("", f"cannot be read: {sys.executable}: {error}",
                       "install python3-lxml, or name a Python 3 with lxml in GEARPOD_PYTHON")
