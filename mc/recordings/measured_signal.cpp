@@ -312,7 +312,14 @@ class SignalReader : SignalsReader {
         }
         double per_mesh = 0.0;
         const std::vector<double> samples = evenly_tracked(per_mesh);
-        const auto found = signals::mesh_speed(samples, per_mesh, record_.path_meshes());
+        auto found = signals::mesh_speed(samples, per_mesh, record_.path_meshes());
+        if (found && !found->fits() && !found->contradicts()) {
+            // A phase of pulses that are too coarse for their shaft smears the lines.
+            const double mean =
+                static_cast<double>(phase_.size() - 1) / (phase_.back() - phase_.front());
+            const auto untracked = signals::mesh_speed(sensor_, mean, record_.path_meshes());
+            found = untracked && untracked->contradicts() ? untracked : found;
+        }
         if (!found || found->fits()) {
             return 1.0;
         }
