@@ -167,7 +167,8 @@ TEST_CASE("Lives have the same bits for any lanes") {
 
 TEST_CASE("Lives integrate the span once, whether [sensor] or [life] gives the length of records") {
     for (const char* length : {"sensor.record_s=10", "life.record_s=10"}) {
-        const mc::Scene scene(life_study({length, "numerics.horizon=\"full\""}));
+        const mc::Scene scene(
+            life_study({length, "numerics.horizon=\"full\"", "features.use=[\"sensor_rms\"]"}));
         const mc::LifeTiles tiles(scene.tile(), scene.life());
         CHECK(tiles.tile().record.signal_meshes == 31 * 81);
         CHECK(tiles.tile().solve->perturbation_only);
