@@ -45,6 +45,14 @@ def note(text):
     return f'<p class="note">{escape(text)}</p>'
 
 
+def answer(text):
+    return f'<p class="answer">{escape(text)}</p>'
+
+
+def small(text):
+    return f'<p class="small">{escape(text)}</p>'
+
+
 def paragraph(text):
     return f"<p>{escape(text)}</p>"
 

@@ -30,15 +30,10 @@ def missing_packages(needed):
     packages = []
     for module, package in needed:
         try:
-            __import__(module)
+            importlib.import_module(module)
         except ImportError:
             packages.append(package)
     return packages
-
-
-def state_banner(report):
-    texts = [report.text("part"), report.text("incomplete")]
-    return "".join(f'<p class="banner" role="note">{escape(text)}</p>' for text in texts if text)
 
 
 def study_parts(data, page):
@@ -48,26 +43,26 @@ def study_parts(data, page):
     from report import Report
 
     report = Report(data)
-    summary = state_banner(report) + headline.html_of(report, page)
-    return report.title(), report.text("headline"), summary, sections.all_of(report, page)
+    banner = "".join(f'<p class="banner" role="note">{escape(text)}</p>'
+                     for key in ("part", "incomplete") if (text := report.text(key)))
+    return (report.title(), report.text("headline"), banner + headline.html_of(report, page),
+            sections.all_of(report, page))
+
+
+# Command and module of the page of each kind of JSON.
+PAGES = {"accuracy": ("accuracy", "pages.accuracy_page"), "inspection": ("pod", "pages.inspection_page"),
+         "comparison": ("compare", "pages.comparison_page"), "modes": ("modes", "pages.modes_page"),
+         "sweep": ("sweep", "pages.sweep_page"), "lives-sweep": ("sweep", "pages.lives_sweep_page"),
+         "lives": ("lives", "lives.lives_page")}
 
 
 def page_html(data, figures=None):
     import charts
     from blocks import Page
-    from lives import lives_page
-    from pages import (accuracy_page, comparison_page, inspection_page, lives_sweep_page,
-                       modes_page, sweep_page)
 
     page = Page(figures)
-    command, make = {"accuracy": ("accuracy", accuracy_page.parts),
-                     "inspection": ("pod", inspection_page.parts),
-                     "comparison": ("compare", comparison_page.parts),
-                     "modes": ("modes", modes_page.parts),
-                     "sweep": ("sweep", sweep_page.parts),
-                     "lives-sweep": ("sweep", lives_sweep_page.parts),
-                     "lives": ("lives", lives_page.parts)}.get(
-                         data.get("kind"), ("report", study_parts))
+    command, module = PAGES.get(data.get("kind"), ("report", None))
+    make = importlib.import_module(module).parts if module else study_parts
     title, sentence, summary, body = make(data, page)
     contents = "".join(f'<li><a href="#{name}">{escape(title_)}</a></li>'
                        for name, title_ in page.sections)
@@ -102,10 +97,8 @@ def page_html(data, figures=None):
 
 def framed(files):
     """Files, texts or bytes by their names, as one text: names and sizes in the first line."""
-    contents = {name: text if isinstance(text, bytes) else text.encode()
-                for name, text in files.items()}
-    sizes = [[name, len(content)] for name, content in contents.items()]
-    return json.dumps(sizes).encode() + b"\n" + b"".join(contents.values())
+    contents = [text if isinstance(text, bytes) else text.encode() for text in files.values()]
+    return json.dumps(list(zip(files, map(len, contents)))).encode() + b"\n" + b"".join(contents)
 
 
 # Modules that make documents, and the packages that they need.

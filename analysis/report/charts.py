@@ -4,6 +4,7 @@ dark scheme, and each chart has a name and a description for screen readers."""
 import html
 import io
 import re
+import warnings
 
 import matplotlib
 
@@ -26,6 +27,9 @@ INK, MUTED, RULE, PAPER, NOISY = "#1b1f23", "#59616a", "#c9ced4", "#ffffff", "#8
 _SCHEME = {INK: "--ink", MUTED: "--muted", RULE: "--rule", PAPER: "--paper", NOISY: "--noisy"}
 _SCHEME.update({light: f"--series-{i}" for i, (light, _) in enumerate(SERIES)})
 
+# Glyphs missing in the font are drawn as boxes.
+warnings.filterwarnings("ignore", message="Glyph")
+
 LABELS = 30  # points from an axis to the text below its tick labels and axis label
 GAP = "#d3d8dd"  # colour of a map square that has no number
 
@@ -38,8 +42,9 @@ matplotlib.rcParams.update({
     "svg.fonttype": "none", "svg.hashsalt": "gearpod", "font.size": 10, "font.family": "DejaVu Sans",
     "axes.edgecolor": MUTED, "axes.labelcolor": INK, "text.color": INK, "xtick.color": MUTED,
     "ytick.color": MUTED, "xtick.labelcolor": INK, "ytick.labelcolor": INK, "axes.linewidth": 0.8,
-    "axes.spines.top": False, "axes.spines.right": False, "grid.color": RULE,
-    "grid.linewidth": 0.6, "axes.grid": True, "axes.axisbelow": True, "legend.frameon": False,
+    "axes.titlesize": 10, "axes.titlelocation": "left", "axes.spines.top": False,
+    "axes.spines.right": False, "grid.color": RULE, "grid.linewidth": 0.6, "axes.grid": True,
+    "axes.axisbelow": True, "legend.frameon": False,
     "legend.fontsize": 9, "figure.facecolor": "none", "axes.facecolor": "none",
     "savefig.facecolor": "none", "lines.linewidth": 1.7, "path.simplify": True,
     "path.simplify_threshold": 0.3, "axes.unicode_minus": True})
@@ -68,6 +73,34 @@ def panel(height=3.2):
     return plt.subplots(figsize=(4.4, height), layout="constrained")
 
 
+# Line at a value that the numbers of a chart are compared with.
+DASHED = {"color": MUTED, "linewidth": 0.9, "linestyle": (0, (4, 3))}
+DOTTED = {"color": MUTED, "linewidth": 1.0, "linestyle": (0, (1, 2))}
+
+
+def plot(axes, points, **options):
+    """Draws points (x, y) with a line."""
+    axes.plot([x for x, _ in points], [y for _, y in points], **options)
+
+
+def marks(axes, points, kind, **options):
+    """Draws points (x, y) as marks without a line."""
+    plot(axes, points, linestyle="none", marker=kind, **options)
+
+
+def names_of_rows(axes, names, **options):
+    """Rows with names instead of numbers, the first one at the top."""
+    axes.set_yticks(range(len(names)), names, **options)
+    axes.set_ylim(len(names) - 0.5, -0.5)
+
+
+def mark_size(axes, x, text, y):
+    """Draws a vertical line from below to a probability of 0.9, and its size in words at the height y."""
+    axes.plot([x, x], [-0.02, 0.9], color=INK, linewidth=1)
+    axes.annotate(text, (x, y), xytext=(4, 0), textcoords="offset points", fontsize=9, color=INK,
+                  bbox={"facecolor": PAPER, "edgecolor": "none", "pad": 1.2, "alpha": 0.85})
+
+
 def open_end(axes, at, direction, paint):
     """Draws an arrow from a mark in the direction (right, up) in which its interval is open."""
     axes.annotate("", xy=at, xytext=(34 * direction[0], 34 * direction[1]),
@@ -86,21 +119,9 @@ def legend_below(axes, columns, **options):
 
 def legend_above(axes, title, pad=16):
     """Legend above the axes, and the title above it."""
-    if title:
-        axes.set_title(title, fontsize=10, loc="left", pad=pad)
+    axes.set_title(title, pad=pad)
     axes.legend(loc="lower right", bbox_to_anchor=(1.02, 0.98), ncol=2, borderpad=0,
                 columnspacing=1, handlelength=1.6)
-
-
-def _scheme_colours(text):
-    for hexadecimal, name in _SCHEME.items():
-        text = text.replace(f": {hexadecimal}", f": var({name}, {hexadecimal})")
-    return text
-
-
-def _short_numbers(match):
-    return re.sub(r"-?\d+\.\d+", lambda number: f"{float(number.group()):.1f}".replace(".0", ""),
-                  match.group())
 
 
 def between(low, high, share):
@@ -128,12 +149,11 @@ def cell(axes, column, row, fill, text):
 def map_axes(axes, title, columns, rows, axis, rotation=0):
     """Axes of a map of squares over noise, with the names of its columns and rows."""
     axes.set(xlim=(0, max(1, len(columns))), ylim=(0, max(1, len(rows))), xlabel=axis,
-             ylabel="noise")
+             ylabel="noise", title=title)
     axes.set_xticks([i + 0.5 for i in range(len(columns))], columns, rotation=rotation)
     axes.set_yticks([i + 0.5 for i in range(len(rows))], rows)
     axes.tick_params(length=0)
     axes.grid(False)
-    axes.set_title(title, fontsize=10, loc="left")
 
 
 class SvgNames:
@@ -143,10 +163,6 @@ class SvgNames:
     def __init__(self, folder=None):
         self.count = 0
         self.folder = folder
-
-    def next(self):
-        self.count += 1
-        return f"chart{self.count}"
 
     def keep(self, figure, title):
         """Writes the chart on a white background to files such as 03-area-under-the-roc.svg and
@@ -168,28 +184,30 @@ class SvgNames:
 
 def to_svg(figure, title, description, names):
     """Inline SVG of a matplotlib figure. Closes the figure."""
-    name = names.next()
+    names.count += 1
+    name = f"chart{names.count}"
     names.keep(figure, title)
     buffer = io.StringIO()
     figure.savefig(buffer, format="svg", metadata={"Date": None, "Creator": None})
     plt.close(figure)
-    text = buffer.getvalue()
-    text = text[text.index("<svg"):]
-    svg_view = re.search(r'viewBox="([^"]+)"', text).group(1)
-    body = text[text.index(">") + 1:text.rindex("</svg>")]
-    body = re.sub(r"<metadata>.*?</metadata>", "", body, flags=re.S)
-    body = re.sub(r"<!--.*?-->", "", body, flags=re.S)
-    body = re.sub(r'<style type="text/css">.*?</style>', "", body, flags=re.S)
+    head, body = re.search("<svg(.*?)>(.*)</svg>", buffer.getvalue(), re.S).groups()
+    body = re.sub(r'<metadata>.*?</metadata>|<!--.*?-->|<style type="text/css">.*?</style>', "", body,
+                  flags=re.S)
     body = re.sub(r' id="(?:figure|axes|patch|text|line2d|matplotlib|xtick|ytick|legend|Quad|Path|Poly'
                   r'|Line|Fill)[^"]*"', "", body)
     body = re.sub(r' id="([^"]+)"', rf' id="{name}-\1"', body)
     body = re.sub(r'xlink:href="#([^"]+)"', rf'href="#{name}-\1"', body)
     body = re.sub(r"url\(#([^)]+)\)", rf"url(#{name}-\1)", body)
-    body = re.sub(r' d="[^"]*"', _short_numbers, body)
+    # Coordinates of paths with one decimal.
+    body = re.sub(r' d="[^"]*"', lambda path: re.sub(
+        r"-?\d+\.\d+", lambda n: f"{float(n[0]):.1f}".replace(".0", ""), path[0]), body)
     body = re.sub(r"font: ([\d.]+)px [^;\"]*", r"font-size: \1px", body)
     body = re.sub(r"font: (\w+) ([\d.]+)px [^;\"]*", r"font-weight: \1; font-size: \2px", body)
-    body = re.sub(r"\s*\n\s*", "\n", _scheme_colours(body))
-    return (f'<svg viewBox="{svg_view}" role="img" aria-labelledby="{name}-title {name}-about">'
+    for hexadecimal, variable in _SCHEME.items():
+        body = body.replace(f": {hexadecimal}", f": var({variable}, {hexadecimal})")
+    body = re.sub(r"\s*\n\s*", "\n", body)
+    view = re.search(r'viewBox="([^"]+)"', head)[1]
+    return (f'<svg viewBox="{view}" role="img" aria-labelledby="{name}-title {name}-about">'
             f'<title id="{name}-title">{html.escape(title)}</title>'
             f'<desc id="{name}-about">{html.escape(description)}</desc>{body}</svg>')
 

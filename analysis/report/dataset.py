@@ -1,6 +1,7 @@
 """Dataset of results for machine learning: features with labels, severity and identity of the gearbox,
 split by gearbox (CSV), stored signals (CSV) and a data card (Markdown)."""
 
+import collections
 import math
 
 import h5py
@@ -31,9 +32,8 @@ class Dataset:
         self.variants = list(file.get("variants", ()))
         self.columns = self._columns()
         self.lines = {split: [] for split in SPLITS}
-        self.gearboxes = {split: set() for split in SPLITS}
-        self.faulty = {split: set() for split in SPLITS}
-        self.records = dict.fromkeys(SPLITS, 0)
+        self.gearboxes = {split: {} for split in SPLITS}  # of each, whether a record has the fault
+        self.records = collections.Counter()
         self.failed = 0
         self._read()
 
@@ -71,11 +71,10 @@ class Dataset:
         instances = self.file["instances"]
         status, group = self.file["status"][()], instances["group"][()]
         inputs = [instances[name][()] for name in self.inputs]
-        sensors = [("first", False, self.file["features"])] + [
-            ("first" if name == "other_fault" else name.removeprefix("sensor_"),
-             name == "other_fault", self.file["variants"][name]) for name in self.variants]
-        sensors = [(sensor, bearing, [features[name][()] for name in self.features])
-                   for sensor, bearing, features in sensors]
+        groups = [("first", self.file["features"])] + [(name, self.file["variants"][name])
+                                                      for name in self.variants]
+        sensors = [("first" if name == "other_fault" else name.removeprefix("sensor_"), name == "other_fault",
+                    [features[feature][()] for feature in self.features]) for name, features in groups]
         sizes = instances[self.size][()] if self.size in self.inputs else [0.0] * len(status)
         for place, (row, gearbox, record, split) in enumerate(self.source["rows"]):
             if status[place] != 0:
@@ -83,8 +82,7 @@ class Dataset:
                 continue
             kind = GROUPS[group[place]]
             faulty = kind == "graded" and (self.recorded or sizes[place] > 0)
-            self.gearboxes[split].add(gearbox)
-            self.faulty[split] |= {gearbox} if faulty else set()
+            self.gearboxes[split][gearbox] = faulty or self.gearboxes[split].get(gearbox, False)
             self.records[split] += 1
             values = [number(column[place]) for column in inputs]
             for sensor, bearing, features in sensors:
@@ -99,13 +97,11 @@ class Dataset:
 
     def signals(self):
         """Name and text of the stored signals of each row."""
-        stored = self.file.get("signals", {})
-        for place, group in stored.items():
-            row = self.source["rows"][int(place)][0]
-            columns = [column[()] for column in group.values()]
-            head = [[f"{name} [{column.attrs['unit']}]" for name, column in group.items()]]
-            text = csv_text(head + [["%.17g" % value for value in line] for line in zip(*columns)])
-            yield f"signals_{row}.csv", text
+        for place, group in self.file.get("signals", {}).items():
+            head = [f"{name} [{column.attrs['unit']}]" for name, column in group.items()]
+            lines = zip(*(column[()] for column in group.values()))
+            yield (f"signals_{self.source['rows'][int(place)][0]}.csv",
+                   csv_text([head, *([f"{value:.17g}" for value in line] for line in lines)]))
 
     def card(self, signals):
         provenance = self.report["provenance"]
@@ -115,7 +111,7 @@ class Dataset:
                   "dataset written by": self.source["written_by"],
                   "seed": provenance.get("seed"), "part of the study": provenance.get("part"),
                   "state of the run": provenance.get("state")}
-        splits = [(f"{split}.csv", len(self.gearboxes[split]), len(self.faulty[split]),
+        splits = [(f"{split}.csv", len(self.gearboxes[split]), sum(self.gearboxes[split].values()),
                    self.records[split]) for split in SPLITS]
         recorded = self.recorded
         limits = [

@@ -3,19 +3,16 @@
 from blocks import note
 from charts import GAP, MUTED, between, cell, colour, map_axes, panel, to_svg
 from detection_figures import best
-from words import input_name, noise, number, percent, quantity, rate_with_bounds
+from words import input_name, noise, number, percent, quantity, rate_with_bounds, with_unit
 
 MOST_CHARTS = 6
 SMALL, LARGE = (0.93, 0.95, 0.98), (0.45, 0.13, 0.20)  # colours of small and large a90
 
 
 def _effects(report, f, n):
-    """Inputs of a feature at a noise level, the most significant first."""
-    robustness = report.reliability.get("robustness") or {}
-    effects = []
-    for name, entry in robustness.items():
-        if name != "noise_level":
-            effects.append((name, entry["unit"], entry["features"][f]["levels"][n]))
+    """Inputs of a feature at a noise level with unit and effect, the most significant first."""
+    effects = [(name, entry["unit"], entry["features"][f]["levels"][n])
+               for name, entry in (report.reliability.get("robustness") or {}).items() if name != "noise_level"]
     return sorted(effects, key=lambda e: (e[2]["p_value"] is None, e[2]["p_value"] or 0.0,
                                           -(e[2]["statistic"] or 0.0)))
 
@@ -48,15 +45,17 @@ def _bin_chart(report, page, f, effect):
     figure, axes = panel(2.6)
     bins = [b for b in level["bins"] if b["pd"] is not None]
     x = [b["middle"] * factor for b in bins]
-    axes.errorbar(x, [b["pd"] for b in bins],
-                  yerr=[[max(0.0, b["pd"] - b["lower"]) for b in bins],
-                        [max(0.0, b["upper"] - b["pd"]) for b in bins]],
-                  xerr=[[max(0.0, b["middle"] - b["low"]) * factor for b in bins],
-                        [max(0.0, b["high"] - b["middle"]) * factor for b in bins]],
+    y = [b["pd"] for b in bins]
+
+    def lengths(low, middle, high, factor):
+        return [[max(0.0, b[end] - b[start]) * factor for b in bins]
+                for start, end in ((low, middle), (middle, high))]
+
+    axes.errorbar(x, y, yerr=lengths("lower", "pd", "upper", 1), xerr=lengths("low", "middle", "high", factor),
                   fmt="none", ecolor=MUTED, elinewidth=1)
-    axes.plot(x, [b["pd"] for b in bins], color=colour(0), marker="o", markersize=4.5, linewidth=1)
+    axes.plot(x, y, color=colour(0), marker="o", markersize=4.5, linewidth=1)
     axes.set(ylim=(-0.03, 1.03), ylabel="Detection rate",
-             xlabel=input_name(name, unit).capitalize() + (f", {shown}" if shown else ""))
+             xlabel=with_unit(input_name(name, unit).capitalize(), shown, ", "))
     axes.locator_params(axis="x", nbins=6)
     about = "; ".join(f"{quantity(b['middle'], unit)}: "
                       f"{rate_with_bounds(b['pd'], b['lower'], b['upper'])}" for b in bins)
@@ -68,11 +67,10 @@ def _axis_scale(bins, unit):
     """Factor that keeps the numbers of the axis short, and the unit with its prefix."""
     largest = max((abs(b["high"]) for b in bins), default=0.0)
     shown = quantity(1, unit).removeprefix("1").strip()
-    for factor, prefix in ((1e-9, "G"), (1e-6, "M"), (1e-3, "k")):
-        if shown and largest * factor >= 1 and largest >= 1e4:
-            return factor, prefix + shown
-    for factor, prefix in ((1e3, "m"), (1e6, "µ")):
-        if shown and 0 < largest < 1e-2 and largest * factor >= 0.1:
+    if not shown or not (0 < largest < 1e-2 or largest >= 1e4):
+        return 1.0, shown
+    for factor, prefix in ((1e-9, "G"), (1e-6, "M"), (1e-3, "k"), (1e3, "m"), (1e6, "µ")):
+        if largest * factor >= (1 if factor < 1 else 0.1):
             return factor, prefix + shown
     return 1.0, shown
 
@@ -114,21 +112,19 @@ def _map_chart(report, page, f, name, entry):
     figure, axes = panel(0.95 + 0.36 * len(levels))
     texts = []
     for n, level in enumerate(levels):
-        row = []
-        for i in range(len(values)):
-            known = i < len(level["a90"])
-            estimate = level["a90"][i]["estimate"] if known else None
-            share = 0.0
-            if known:
-                share = {"below_tested": 0.0, "not_reached": 1.0}.get(
-                    estimate["where"], (estimate["size"] or 0.0) / largest)
-            text = _estimate(report, estimate, f, n) if known else "–"
-            cell(axes, i, n, between(SMALL, LARGE, share) if known else GAP, text)
-            row.append(text)
+        row = ["–"] * len(values)
+        fills = [GAP] * len(values)
+        for i, found in enumerate(level["a90"]):
+            estimate = found["estimate"]
+            row[i] = _estimate(report, estimate, f, n)
+            fills[i] = between(SMALL, LARGE, {"below_tested": 0.0, "not_reached": 1.0}.get(
+                estimate["where"], (estimate["size"] or 0.0) / largest))
+        for i, (fill, text) in enumerate(zip(fills, row)):
+            cell(axes, i, n, fill, text)
         texts.append(f"{noise(report.levels[n])}: {', '.join(row)}")
     factor, shown = _axis_scale([{"high": v} for v in values], entry["unit"])
     map_axes(axes, f"a90, {report.sizes.unit or report.sizes.name}",
              [number(v * factor) for v in values], [f"× {number(v)}" for v in report.levels],
-             input_name(name, entry["unit"]).capitalize() + (f", {shown}" if shown else ""))
+             with_unit(input_name(name, entry["unit"]).capitalize(), shown, ", "))
     return to_svg(figure, f"a90 of {report.names[f]} over noise and "
                   f"{input_name(name, entry['unit'])}", "; ".join(texts), page.names)

@@ -3,16 +3,11 @@
 import math
 from functools import partial
 
+import numpy
 from charts import INK, MUTED, PAPER, colour, dash, legend_below, panel, to_svg
 from words import number
 
 MOST = 4  # features in a chart
-
-
-def _first_faulty(series):
-    """Number of recordings before the first one that is not known as healthy."""
-    return next((i for i, healthy in enumerate(series["healthy"]) if not healthy),
-                len(series["healthy"]))
 
 
 def _single(watched, name):
@@ -22,9 +17,10 @@ def _single(watched, name):
 
 
 def _boundary(axes, series, paint):
-    at = _first_faulty(series)
-    if at < len(series["healthy"]):
-        axes.axvline(at + 0.5, color=paint, linewidth=0.9, linestyle=(0, (2, 2)))
+    """Draws a line before the first recording that is not known as healthy."""
+    if not all(series["healthy"]):
+        axes.axvline([*map(bool, series["healthy"])].index(False) + 0.5, color=paint, linewidth=0.9,
+                     linestyle=(0, (2, 2)))
 
 
 def _title(text, series):
@@ -34,7 +30,6 @@ def _title(text, series):
 def _draw_indicators(axes, monitoring, series, names):
     """Draws the indicators; returns the sustained alarms in words."""
     about = []
-    places = {row: i for i, row in enumerate(series["rows"])}
     for position, name in enumerate(names):
         values = [math.nan if value is None else value for value in series["deviations"][name]]
         axes.plot(range(1, len(values) + 1), values, color=colour(position),
@@ -44,7 +39,7 @@ def _draw_indicators(axes, monitoring, series, names):
             axes.axhline(one["threshold"], color=colour(position), linewidth=0.7)
         gearbox = next((its for its in one["gearboxes"] if its["name"] == series["name"]), None)
         if gearbox and gearbox["sustained"]:
-            at = places[gearbox["sustained"]["row"]]
+            at = series["rows"].index(gearbox["sustained"]["row"])
             axes.plot([at + 1], [values[at]], marker="v", markersize=8, color=colour(position),
                       markeredgecolor=INK, linestyle="none")
             about.append(f"{name}: sustained alarm at recording {at + 1}")
@@ -62,15 +57,11 @@ def _tooth_count(series):
 def _draw_teeth(axes, series):
     """Draws the image; returns the tooth that stands out at the end in words."""
     teeth = _tooth_count(series)
-    columns = []
-    for rms, first in zip(series["tooth_rms"], series["first_tooth"]):
-        column = [math.nan] * teeth
-        if len(rms) == teeth and None not in rms:
-            middle = sorted(rms)[teeth // 2]
-            for tooth, value in enumerate(rms):
-                column[(tooth + round(first)) % teeth] = value / middle if middle else math.nan
-        columns.append(column)
-    image = axes.imshow(list(zip(*columns)), origin="lower", aspect="auto", cmap="viridis",
+    columns = numpy.full((len(series["tooth_rms"]), teeth), math.nan)
+    for column, rms, first in zip(columns, series["tooth_rms"], series["first_tooth"]):
+        if len(rms) == teeth and None not in rms and (middle := sorted(rms)[teeth // 2]):
+            column[:] = numpy.roll(numpy.divide(rms, middle), round(first))
+    image = axes.imshow(columns.T, origin="lower", aspect="auto", cmap="viridis",
                         interpolation="nearest", vmin=1,
                         extent=(0.5, len(columns) + 0.5, 0.5, teeth + 0.5))
     axes.figure.colorbar(image, ax=axes, label="Tooth RMS over the median tooth's")
@@ -78,9 +69,9 @@ def _draw_teeth(axes, series):
     axes.grid(False)
     axes.set(xlabel="Recording, in time order", ylabel="Tooth, from the baseline's start")
     last = columns[-1]
-    known = [value for value in last if not math.isnan(value)]
-    return (f"in the last recording tooth {last.index(max(known)) + 1} stands out, "
-            f"{number(max(known))} times the median") if known else "no value at the end"
+    return ("no value at the end" if numpy.isnan(last).all() else
+            f"in the last recording tooth {numpy.nanargmax(last) + 1} stands out, "
+            f"{number(numpy.nanmax(last))} times the median")
 
 
 def _monitored(report):
@@ -92,23 +83,23 @@ def _monitored(report):
     for series in monitoring["recordings"]:
         names = [name for name in series["deviations"] if name != "fused"][:MOST]
         if names:
-            yield series, [("Indicators over the recordings", partial(
-                _draw_indicators, monitoring=monitoring, series=series, names=names))] + [
-                    ("Teeth over the recordings", partial(_draw_teeth, series=series))
-                    ] * (_tooth_count(series) > 0)
+            drawn = [("Indicators over the recordings", partial(
+                _draw_indicators, monitoring=monitoring, series=series, names=names))]
+            if _tooth_count(series) > 0:
+                drawn.append(("Teeth over the recordings", partial(_draw_teeth, series=series)))
+            yield series, drawn
 
 
 def drawings(report):
     """Functions that draw the figures, each on axes."""
     def titled(axes, title, draw):
         draw(axes)
-        axes.set_title(title, fontsize=10, loc="left")
+        axes.set_title(title)
         if axes.get_legend_handles_labels()[0]:
             axes.legend(loc="upper left")
 
-    for series, drawn in _monitored(report):
-        for title, draw in drawn:
-            yield partial(titled, title=_title(title, series), draw=draw)
+    return [partial(titled, title=_title(title, series), draw=draw)
+            for series, drawn in _monitored(report) for title, draw in drawn]
 
 
 def figures(report, page):

@@ -1,38 +1,70 @@
 """Summary of a report on one A4 sheet as PDF: the answer, its dependence on noise, and what limits
 it."""
 
+import functools
 import io
-import warnings
 
-import charts  # noqa: F401  (its colours and styles)
 import detection_figures
 import headline
 from charts import INK, MUTED, PAPER, RULE, SERIES
 from matplotlib import rc_context
 from matplotlib.backends.backend_agg import FigureCanvasAgg
+from matplotlib.backends.backend_pdf import PdfPages
 from matplotlib.figure import Figure
+from matplotlib.font_manager import FontProperties
 from matplotlib.lines import Line2D
 from matplotlib.patches import Rectangle
 
 WIDTH, HEIGHT, MARGIN = 8.27, 11.69, 0.7  # inches
+ROOM = WIDTH - 2 * MARGIN
 LEAST_FIGURE, MOST_FIGURE = 1.9, 3.8
 MOST_LEVELS = 8
 SCALES = (1.0, 0.94, 0.88, 0.82, 0.76, 0.7, 0.64, 0.58, 0.52)
+
+
+_MEASURED = Figure()
+_RENDERER = FigureCanvasAgg(_MEASURED).get_renderer()
+
+
+@functools.cache
+def _word_width(word, size, weight):
+    font = FontProperties(size=size, weight=weight)
+    return _RENDERER.get_text_width_height_descent(word, font, False)[0] / _MEASURED.dpi
+
+
+def pdf_of(figures, title, subject=None):
+    """Bytes of a PDF. Fonts are embedded, so that text stays text."""
+    buffer = io.BytesIO()
+    given = {"Title": title, "Subject": subject, "Creator": "gearpod", "CreationDate": None}
+    with rc_context({"pdf.fonttype": 42}), PdfPages(buffer, metadata=given) as file:
+        for figure in figures:
+            file.savefig(figure, facecolor=PAPER)
+    return buffer.getvalue()
 
 
 class Sheet:
     """Places texts from the top down, wrapped by their measured width. `y` is the top of the next
     line, in inches from the top of the sheet."""
 
-    def __init__(self, scale):
+    space_after = 0.25  # of a paragraph, in lines
+
+    def __init__(self, scale=1.0):
+        self.scale = scale
+        self.begin_page()
+
+    def begin_page(self):
         self.figure = Figure(figsize=(WIDTH, HEIGHT), facecolor=PAPER)
-        self.renderer = FigureCanvasAgg(self.figure).get_renderer()
-        self.scale, self.y = scale, MARGIN
+        FigureCanvasAgg(self.figure)
+        self.y = MARGIN
+
+    def require(self, height):
+        """Called before something of this height (inches) is placed."""
 
     def width(self, text, size, weight):
-        from matplotlib.font_manager import FontProperties
-        font = FontProperties(size=size, weight=weight)
-        return self.renderer.get_text_width_height_descent(text, font, False)[0] / self.figure.dpi
+        """Width in inches, from words that are measured once each: a document has many."""
+        words = text.split(" ")
+        space = _word_width("n n", size, weight) - 2 * _word_width("n", size, weight)
+        return sum(_word_width(word, size, weight) for word in words if word) + space * (len(words) - 1)
 
     def lines(self, text, size, weight, room):
         """Breaks a text into lines. A word wider than the room is split."""
@@ -51,24 +83,32 @@ class Sheet:
             line = longer
         return out + [line]
 
-    def place(self, text, x, y, size, weight="normal", colour=INK):
+    def place(self, text, x, y, size, weight="normal", colour=INK, **options):
         self.figure.text(x / WIDTH, 1 - y / HEIGHT, text, fontsize=size, fontweight=weight,
-                         color=colour, va="top", ha="left", parse_math=False)
+                         color=colour, va="top", ha="left", parse_math=False, **options)
 
-    def text(self, text, size, weight="normal", colour=INK, indent=0.0, mark="", bar=None):
+    def rule(self, y, width):
+        """Draws a horizontal line between the margins."""
+        self.figure.add_artist(Line2D([MARGIN / WIDTH, 1 - MARGIN / WIDTH], [1 - y / HEIGHT] * 2,
+                                      color=RULE, linewidth=width))
+
+    def text(self, text, size, weight="normal", colour=INK, indent=0.0, mark="", bar=None, keep=0.0):
         """Adds a paragraph. `mark` is a bullet to its left; `bar` is the colour of a vertical line
-        to its left."""
+        to its left; `keep` is the height below it that stays on the same page."""
         size *= self.scale
         step, top = 1.32 * size / 72, self.y
+        lines = self.lines(text, size, weight, ROOM - indent)
+        self.require(min(3, len(lines)) * step + keep)
         if mark:
             self.place(mark, MARGIN, self.y, size, weight, colour)
-        for line in self.lines(text, size, weight, WIDTH - 2 * MARGIN - indent):
+        for line in lines:
+            self.require(step)
             self.place(line, MARGIN + indent, self.y, size, weight, colour)
             self.y += step
         if bar:
             self.figure.add_artist(Rectangle((MARGIN / WIDTH, 1 - self.y / HEIGHT), 0.045 / WIDTH,
                                              (self.y - top) / HEIGHT, facecolor=bar, linewidth=0))
-        self.y += 0.25 * step
+        self.y += self.space_after * step
 
     def gap(self, inches):
         self.y += inches * self.scale
@@ -82,10 +122,9 @@ class Sheet:
             return [max(self.width(row[c], size, "bold") for row in [head, *rows]) + 0.16
                     for c in range(len(head))]
 
-        room = WIDTH - 2 * MARGIN
-        while sum(widths()) > room and size > 4:
+        while sum(widths()) > ROOM and size > 4:
             size *= 0.95
-        extra = min(0.25, (room - sum(widths())) / len(head))
+        extra = min(0.25, (ROOM - sum(widths())) / len(head))
         for number_, row in enumerate([head, *rows]):
             x = MARGIN
             for cell, width in zip(row, widths()):
@@ -93,16 +132,13 @@ class Sheet:
                            MUTED if number_ == 0 else INK)
                 x += width + max(0.0, extra)
             self.y += 1.5 * size / 72
-            self.figure.add_artist(Line2D(
-                [MARGIN / WIDTH, 1 - MARGIN / WIDTH], [1 - (self.y - 0.02) / HEIGHT] * 2,
-                color=RULE, linewidth=0.6))
+            self.rule(self.y - 0.02, 0.6)
             self.y += 0.02
 
     def axes(self, left, right, height):
         """Adds axes; `left` and `right` are shares of the width between the margins."""
-        room = WIDTH - 2 * MARGIN
-        return self.figure.add_axes(((MARGIN + left * room) / WIDTH, 1 - (self.y + height) / HEIGHT,
-                                     (right - left) * room / WIDTH, height / HEIGHT))
+        return self.figure.add_axes(((MARGIN + left * ROOM) / WIDTH, 1 - (self.y + height) / HEIGHT,
+                                     (right - left) * ROOM / WIDTH, height / HEIGHT))
 
 
 def _chosen(report):
@@ -133,18 +169,15 @@ def _figure(sheet, report, height):
 
 def _provenance(report):
     given = report.data["provenance"]
-    named = [(name.replace("_", " "), given[name]) for name in
-             ("code_version", "git_hash", "seed", "date", "host") if given.get(name)]
-    texts = [f"{name} {value}" for name, value in named]
-    if "results" in report.data:
-        texts.insert(0, report.data["results"])
+    texts = [report.data["results"]] if "results" in report.data else []
+    texts += [f"{name.replace('_', ' ')} {given[name]}" for name in
+              ("code_version", "git_hash", "seed", "date", "host") if given.get(name)]
     return "gearpod: " + "; ".join(texts) + ". All numbers: gearpod report --html or --json."
 
 
 def _filled(report, scale):
     """The sheet, and the distance of its last line from the lower margin (inches); negative if it
     does not fit."""
-    assessable = "smallest_fault" in report.findings
     sheet = Sheet(scale)
     sheet.text(report.title(), 10, colour=MUTED)
     sheet.gap(0.06)
@@ -154,25 +187,20 @@ def _filled(report, scale):
         if text:
             sheet.text(text, 9.5, indent=0.17)
     sheet.gap(0.08)
-    if assessable:
+    if "smallest_fault" in report.findings:
         _table(sheet, report)
-    above, sheet.y = sheet.y, 0.0
-    # The text below the figures is placed from their lower edge.
-    rest = Sheet(scale)
-    _below(rest, report, assessable)
-    below = rest.y - MARGIN
-    free = HEIGHT - MARGIN - above - below
-    sheet.y = above
-    if assessable:
-        height = min(MOST_FIGURE, free)
+        # The text below the figures is placed from their lower edge.
+        rest = Sheet(scale)
+        _below(rest, report)
+        height = min(MOST_FIGURE, HEIGHT - sheet.y - rest.y)
         if height < LEAST_FIGURE:
             return sheet, height - LEAST_FIGURE
         _figure(sheet, report, height)
-    _below(sheet, report, assessable)
+    _below(sheet, report)
     return sheet, HEIGHT - MARGIN - sheet.y
 
 
-def _below(sheet, report, assessable):
+def _below(sheet, report):
     sheet.gap(0.1)
     texts = headline.limits(report)
     if texts:
@@ -186,22 +214,12 @@ def _below(sheet, report, assessable):
 
 def sheet_of(report):
     """The sheet with the largest font scale at which everything fits."""
-    with warnings.catch_warnings():
-        # Glyphs missing in the font are drawn as boxes.
-        warnings.filterwarnings("ignore", message="Glyph")
-        for scale in SCALES:
-            sheet, left = _filled(report, scale)
-            if left >= -1e-6:
-                break
+    for scale in SCALES:
+        sheet, left = _filled(report, scale)
+        if left >= -1e-6:
+            break
     return sheet
 
 
 def pdf(report):
-    buffer = io.BytesIO()
-    # Embed fonts, so that text stays text.
-    with rc_context({"pdf.fonttype": 42, "svg.fonttype": "path"}), warnings.catch_warnings():
-        warnings.filterwarnings("ignore", message="Glyph")
-        sheet_of(report).figure.savefig(buffer, format="pdf", facecolor=PAPER, metadata={
-            "Title": report.title(), "Subject": report.text("headline"), "Creator": "gearpod",
-            "CreationDate": None})
-    return buffer.getvalue()
+    return pdf_of([sheet_of(report).figure], report.title(), report.text("headline"))

@@ -39,12 +39,13 @@ def lines(report, *lists):
     return walk(report, lists, [])
 
 
-def take(value, names):
-    return {name: at(value, name) for name in names.split()}
+def take(value, names, prefix=""):
+    """Values of an object by name, in columns whose names begin with the prefix."""
+    return {prefix + name: at(value, name) for name in names.split()}
 
 
-def size_text(estimate, name, unit):
-    return {name + unit: at(estimate, "size"), name + "_where": at(estimate, "where")}
+def bounds(value, key, name):
+    return {name + "_lower": at(value, key, 0), name + "_upper": at(value, key, 1)}
 
 
 RATES = "tested detected failed pd lower upper"
@@ -66,8 +67,14 @@ def detection(report, unit):
     for feature, level, cell in lines(report, "detection features", "levels", "sizes"):
         yield {"feature": feature["name"], "alarm": feature["alarm"],
                **take(level, "noise_level threshold threshold_sample threshold_alarms healthy_rate"),
-               **groups(cell, unit), "exact_lower": at(cell, "exact", 0),
-               "exact_upper": at(cell, "exact", 1)}
+               **groups(cell, unit), **bounds(cell, "exact", "exact")}
+
+
+def by_level(report, *lists):
+    """Feature and noise level as columns, the level, and further elements, of every feature and
+    level of the reliability."""
+    for feature, level, *rest in lines(report, "reliability features", "levels", *lists):
+        yield {"feature": feature["name"], "noise_level": level["noise_level"]}, level, *rest
 
 
 def smallest_fault(report, unit):
@@ -79,33 +86,31 @@ def smallest_fault(report, unit):
 
 
 def pod(report, unit):
-    for feature, level in lines(report, "reliability features", "levels"):
+    for names, level in by_level(report):
         fit = level["hit_miss"]
-        yield {"feature": feature["name"], "noise_level": level["noise_level"],
-               **take(fit, "tests hits"), **size_text(at(fit, "a50", "estimate"), "a50", unit),
-               **size_text(at(fit, "a90", "estimate"), "a90", unit),
-               **size_text(at(fit, "a90", "upper"), "a90_upper", unit),
-               **take(fit, "model intercept slope floor ceiling"),
-               "fit_p_value": at(fit, "fit", "p_value"), "doubtful": at(fit, "doubtful"),
-               "auc": at(level, "auc", "auc"), "auc_lower": at(level, "auc", "lower"),
-               "auc_upper": at(level, "auc", "upper"), "no_curve": at(fit, "refusal")}
+        found = {**names, **take(fit, "tests hits")}
+        for column, *path in (("a50", "a50", "estimate"), ("a90", "a90", "estimate"),
+                              ("a90_upper", "a90", "upper")):
+            found[column + unit], found[column + "_where"] = (at(fit, *path, end)
+                                                              for end in ("size", "where"))
+        yield {**found, **take(fit, "model intercept slope floor ceiling"),
+               **take(at(fit, "fit"), "p_value", "fit_"), **take(fit, "doubtful"),
+               **take(level["auc"], "auc"), **take(level["auc"], "lower upper", "auc_"),
+               "no_curve": at(fit, "refusal")}
 
 
 def pod_band(report, unit):
-    for feature, level in lines(report, "reliability features", "levels"):
-        band = at(level, "hit_miss", "band")
-        for place, size in enumerate(at(band, "size") or []):
-            yield {"feature": feature["name"], "noise_level": level["noise_level"],
-                   "size" + unit: size, **{name: at(band, name, place)
-                                           for name in ("pod", "lower", "upper")}}
+    for names, level in by_level(report):
+        band = at(level, "hit_miss", "band") or {"size": []}
+        for size, *values in zip(*(band[name] for name in ("size", "pod", "lower", "upper"))):
+            yield {**names, "size" + unit: size, **dict(zip(("pod", "lower", "upper"), values))}
 
 
 def roc(report, _unit):
-    for feature, level in lines(report, "reliability features", "levels"):
-        for place, rate in enumerate(at(level, "roc", "detection_rate") or []):
-            yield {"feature": feature["name"], "noise_level": level["noise_level"],
-                   "false_alarm_rate": at(level, "roc", "false_alarm_rate", place),
-                   "detection_rate": rate}
+    for names, level in by_level(report):
+        curve = level["roc"]
+        for alarms, found in zip(curve["false_alarm_rate"], curve["detection_rate"]):
+            yield {**names, "false_alarm_rate": alarms, "detection_rate": found}
 
 
 def ranking(report, _unit):
@@ -116,9 +121,8 @@ def ranking(report, _unit):
 
 
 def misses(report, _unit):
-    for feature, level, entry in lines(report, "reliability features", "levels", "misses inputs"):
-        yield {"feature": feature["name"], "noise_level": level["noise_level"],
-               **take(level["misses"], "misses hits"), "input": entry["name"],
+    for names, level, entry in by_level(report, "misses inputs"):
+        yield {**names, **take(level["misses"], "misses hits"), "input": entry["name"],
                **take(entry, "unit larger_in_misses lower upper p_value")}
 
 
@@ -133,15 +137,13 @@ def inputs(report, _unit):
 
 def a90_by_input(report, unit):
     for name, entry in (at(report, "reliability", "a90_maps") or {}).items():
-        for feature, in lines(entry, "features"):
-            for n, level in enumerate(feature["levels"]):
-                for place, found in enumerate(level["a90"]):
+        for feature in entry["features"]:
+            for noise, level in zip(entry["noise_levels"], feature["levels"]):
+                for value, found in zip(level["values"], level["a90"]):
                     yield {"input": name, "unit": entry["unit"], "feature": feature["name"],
-                           "noise_level": at(entry, "noise_levels", n),
-                           "value": at(level, "values", place),
-                           "a90" + unit: at(found, "estimate", "size"),
-                           "a90_lower" + unit: at(found, "lower", "size"),
-                           "a90_upper" + unit: at(found, "upper", "size")}
+                           "noise_level": noise, "value": value,
+                           **{column + unit: at(found, end, "size") for column, end in (
+                               ("a90", "estimate"), ("a90_lower", "lower"), ("a90_upper", "upper"))}}
 
 
 def conditions(report, unit):
@@ -166,32 +168,26 @@ def over_time(report, _unit):
 
 def monitoring(report, _unit):
     for entry, machine in lines(report, "monitoring watched", "gearboxes"):
-        healthy, held_out = entry["healthy"], at(entry, "held_out")
+        healthy, sustained = entry["healthy"], at(machine, "sustained")
         yield {**take(entry, "feature detector threshold"),
-               **{"healthy_" + name: at(healthy, name)
-                  for name in ("recordings", "alarms", "sustained")},
-               "rate": at(healthy, "rate"), "rate_lower": at(healthy, "lower"),
-               "rate_upper": at(healthy, "upper"),
-               **{"held_out_" + name: at(held_out, name)
-                  for name in ("recordings", "alarms", "lower", "upper")},
+               **take(healthy, "recordings alarms sustained", "healthy_"), **take(healthy, "rate"),
+               **take(healthy, "lower upper", "rate_"),
+               **take(at(entry, "held_out"), "recordings alarms lower upper", "held_out_"),
                "gearbox": machine["name"], **take(machine, "recordings alarms"),
-               "first_time": at(machine, "first", "time"),
-               "first_recording": at(machine, "first", "recording"),
-               "sustained_time": at(machine, "sustained", "time"),
-               "sustained_recording": at(machine, "sustained", "recording"),
-               **take(at(machine, "sustained"), "confirmed_by recordings_left time_left"),
-               "tooth": at(machine, "tooth", "number"), "tooth_same": at(machine, "tooth", "same"),
-               "tooth_recordings": at(machine, "tooth", "recordings")}
+               **take(at(machine, "first"), "time recording", "first_"),
+               **take(sustained, "time recording", "sustained_"),
+               **take(sustained, "confirmed_by recordings_left time_left"),
+               "tooth": at(machine, "tooth", "number"),
+               **take(at(machine, "tooth"), "same recordings", "tooth_")}
 
 
 def lives(report, _unit):
     for entry, in lines(report, "monitored"):
-        alarms, share = entry["false_alarms"], entry["share_bounds"]
+        alarms = entry["false_alarms"]
         yield {**take(entry, "feature detector threshold threshold_hours"),
                "false_alarms": alarms["count"], "healthy_hours": alarms["hours"],
-               "per_1000_h": alarms["per_1000_h"], "per_1000_h_lower": at(alarms, "bounds", 0),
-               "per_1000_h_upper": at(alarms, "bounds", 1), **take(entry, "ended found share"),
-               "share_lower": at(share, 0), "share_upper": at(share, 1),
+               "per_1000_h": alarms["per_1000_h"], **bounds(alarms, "bounds", "per_1000_h"),
+               **take(entry, "ended found share"), **bounds(entry, "share_bounds", "share"),
                **take(entry, "share_by_chance net_share depth_50_m depth_50_bound_m depth_90_m "
                              "depth_90_bound_m warning_50_h warning_90_h unranked")}
 

@@ -14,6 +14,11 @@ def printable(text):
     return "".join(c if c.isprintable() else " " if c in "\n\t\r" else "?" for c in text)
 
 
+def _trimmed(text):
+    """Text of a number without zeros at its end, with a minus sign."""
+    return re.sub(r"\.?0+$", "", text).replace("-", "−") if "." in text else text.replace("-", "−")
+
+
 def number(value, digits=3):
     """Number with significant digits and a complete integer part; with an exponent only where that
     is shorter."""
@@ -24,14 +29,9 @@ def number(value, digits=3):
     size = math.floor(math.log10(abs(value)))
     if -4 <= size < 6:
         decimals = max(0, digits - 1 - size)
-        text = f"{round(value, decimals):.{decimals}f}"
-        if "." in text:
-            text = text.rstrip("0").rstrip(".")
-        return text.replace("-", "−")
+        return _trimmed(f"{value:.{decimals}f}")
     mantissa, exponent = f"{value:.{digits - 1}e}".split("e")
-    if "." in mantissa:
-        mantissa = mantissa.rstrip("0").rstrip(".")
-    return f"{mantissa} × 10{superscript(int(exponent))}".replace("-", "−")
+    return f"{_trimmed(mantissa)} × 10{superscript(int(exponent))}"
 
 
 def typeset(text):
@@ -100,22 +100,20 @@ def input_name(name, unit):
     stiffness."""
     if name == "noise_m_s2":
         return "sensor noise"
-    suffix = _suffix(unit)
-    if unit not in ("", "1") and name.endswith(suffix):
-        name = name[:-len(suffix)]
-    return name.replace("_", " ")
-
-
-_SHOWN = {"order": "", "m/s^2": "m/s²", "kg m^2": "kg m²", "1": "", "N/m": "N/m"}
+    suffix = re.sub("[/ ]", "_", unit).replace("^", "")
+    return (name if unit in ("", "1") else name.removesuffix("_" + suffix)).replace("_", " ")
 
 
 def unit_text(unit):
-    return _SHOWN.get(unit, unit)
+    return {"order": "", "m/s^2": "m/s²", "kg m^2": "kg m²", "1": ""}.get(unit, unit)
+
+
+def with_unit(text, unit, mark="\u00a0"):
+    return f"{text}{mark}{unit}" if unit else text
 
 
 def quantity(value, unit, digits=3):
-    shown = unit_text(unit)
-    return number(value, digits) + (f"\u00a0{shown}" if shown else "")
+    return with_unit(number(value, digits), unit_text(unit))
 
 
 class Sizes:
@@ -129,8 +127,13 @@ class Sizes:
     def shown(self, value):
         return value * self.factor
 
+    def reached(self, points, end):
+        """a90 of points, or a bound of it, as shown; NaN where it is outside the tested sizes."""
+        return [self.shown(p["a90"][end]["size"]) if p["a90"][end]["where"] == "reached" else math.nan
+                for p in points]
+
     def text(self, value, digits=3):
-        return number(self.shown(value), digits) + (f"\u00a0{self.unit}" if self.unit else "")
+        return with_unit(number(self.shown(value), digits), self.unit)
 
     def group(self, low, high):
         if low == high:
@@ -138,4 +141,4 @@ class Sizes:
         return f"{number(self.shown(low))} to {self.text(high)}"
 
     def axis(self):
-        return self.name[0].upper() + self.name[1:] + (f", {self.unit}" if self.unit else "")
+        return with_unit(self.name[0].upper() + self.name[1:], self.unit, ", ")

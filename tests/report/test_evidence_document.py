@@ -15,6 +15,7 @@ CASES, PROGRAM, SOURCES = (pathlib.Path(argument) for argument in sys.argv[1:4])
 sys.path.insert(0, str(SOURCES / "analysis" / "report"))
 
 try:
+    import summary_sheet
     from evidence import evidence, evidence_document
     from words import typeset
 except ImportError as error:
@@ -32,12 +33,12 @@ def case(name):
 
 def areas_of(page):
     """Texts and charts of a page with their areas in points."""
-    page.figure.set_dpi(DPI)
-    page.figure.canvas.draw()
-    renderer = page.figure.canvas.get_renderer()
-    return ([(text.get_text(), text.get_window_extent(renderer)) for text in page.figure.texts
+    page.set_dpi(DPI)
+    page.canvas.draw()
+    renderer = page.canvas.get_renderer()
+    return ([(text.get_text(), text.get_window_extent(renderer)) for text in page.texts
              if text.get_text().strip()]
-            + [("chart", axes.get_tightbbox(renderer)) for axes in page.figure.axes])
+            + [("chart", axes.get_tightbbox(renderer)) for axes in page.axes])
 
 
 def gearpod(*arguments):
@@ -61,9 +62,8 @@ class Document(unittest.TestCase):
                     placed = areas_of(page)
                     words += " " + " ".join(text for text, _ in placed)
                     for text, area in placed:
-                        self.assertTrue(area.x0 > 20 and area.x1 < DPI * evidence_document.WIDTH - 20
-                                        and area.y0 > 20
-                                        and area.y1 < DPI * evidence_document.HEIGHT - 20,
+                        self.assertTrue(area.x0 > 20 and area.x1 < DPI * summary_sheet.WIDTH - 20
+                                        and area.y0 > 20 and area.y1 < DPI * summary_sheet.HEIGHT - 20,
                                         (text, area))
                     for k, (text, area) in enumerate(placed):
                         for other, second in placed[k + 1:]:

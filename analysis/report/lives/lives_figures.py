@@ -1,7 +1,7 @@
 """Figures of the page of gearpod lives: crack growth, warning times, false alarms against depth."""
 
 import blocks
-from charts import INK, MUTED, NOISY, colour, dash, legend_below, marker, panel, to_svg
+from charts import DASHED, INK, NOISY, colour, dash, legend_below, marker, panel, plot, to_svg
 from lives.campaign_data import millimetres
 from words import number
 
@@ -41,6 +41,10 @@ def _depth_at(life, hours):
     return 1e3 * life["depth_m"][life["hours"].index(hours)]
 
 
+def _alarm(axes, hours, value):
+    axes.plot([hours], [value], marker="o", color=colour(1), markersize=4.5, markeredgewidth=0, zorder=4)
+
+
 def _depths(campaign, best, page):
     figure, axes = panel()
     found = 0
@@ -49,13 +53,11 @@ def _depths(campaign, best, page):
         if life["end_h"] is not None:
             grown.append((life["end_h"], campaign.depth_at_end(life)))
             axes.plot(*grown[-1], marker="x", color=INK, markersize=4, zorder=3)
-        axes.plot([h for h, _ in grown], [d for _, d in grown], color=colour(0), linewidth=0.8,
-                  alpha=0.55)
+        plot(axes, grown, color=colour(0), linewidth=0.8, alpha=0.55)
         alarm = campaign.alarm_h(best, k)
         if alarm is not None:
             found += 1
-            axes.plot([alarm], [_depth_at(life, alarm)], marker="o", color=colour(1),
-                      markersize=4.5, markeredgewidth=0, zorder=4)
+            _alarm(axes, alarm, _depth_at(life, alarm))
     axes.set(xlabel="Machine hours", ylabel="Depth of the crack, mm", ylim=(0, None))
     return to_svg(figure, "Depth of the crack over machine hours",
                   f"{min(DRAWN, len(campaign.worked))} lives, {found} of them found", page.names)
@@ -68,27 +70,22 @@ def _deviations(campaign, best, page):
     step = campaign.data["interval_h"]
     band = [(k * step, low, high) for k, (low, high) in
             enumerate(zip(one["healthy_05"], one["healthy_95"])) if low is not None]
-    axes.fill_between([b[0] for b in band], [b[1] for b in band], [b[2] for b in band],
-                      color=NOISY, alpha=0.45, linewidth=0)
+    axes.fill_between(*(list(zip(*band)) or [[]] * 3), color=NOISY, alpha=0.45, linewidth=0)
     largest = 1.0
     for k, values in enumerate(one["lives"]):
         line = [(i * step, v) for i, v in enumerate(values) if v is not None]
-        largest = max(largest, *(abs(v) for _, v in line)) if line else largest
-        axes.plot([h for h, _ in line], [v for _, v in line], color=colour(0), linewidth=0.7,
-                  alpha=0.55)
+        largest = max([largest, *(abs(v) for _, v in line)])
+        plot(axes, line, color=colour(0), linewidth=0.7, alpha=0.55)
         alarm = campaign.alarm_h(best, k)
         if alarm is not None and values[round(alarm / step)] is not None:
-            axes.plot([alarm], [values[round(alarm / step)]], marker="o", color=colour(1),
-                      markersize=4.5, markeredgewidth=0, zorder=4)
+            _alarm(axes, alarm, values[round(alarm / step)])
     if largest > 50.0:
         _set_decades(axes)
-    axes.axvline(campaign.crack_h, color=MUTED, linewidth=0.9, linestyle=(0, (4, 3)))
-    axes.set(xlabel="Machine hours (dashed: crack initiation)",
+    axes.axvline(campaign.crack_h, **DASHED)
+    axes.set(xlabel="Machine hours (dashed: crack initiation)", title=name,
              ylabel="Deviation, standard deviations")
-    axes.set_title(name, fontsize=10, color=INK, loc="left")
     return to_svg(figure, f"{name}: deviation from the baseline over machine hours",
-                  f"{len(one['lives'])} lives with cracks, and the band of 90\u00a0% of the "
-                  "healthy lives",
+                  f"{len(one['lives'])} lives with cracks, and the band of 90\u00a0% of the healthy lives",
                   page.names)
 
 
@@ -113,12 +110,9 @@ def warning_times(campaign, page):
     for k, name in enumerate(campaign.names()):
         best = campaign.best_of(name)
         warned = sorted((w for w in campaign.warnings(best) if w is not None), reverse=True)
-        x, y = [longest], [0.0]
-        for i, warning in enumerate(warned):
-            x += [warning, warning]
-            y += [i / len(campaign.ended), (i + 1) / len(campaign.ended)]
-        axes.plot([*x, 0.0], [*y, y[-1]], color=colour(k), linestyle=dash(k),
-                  label=f"{name}, {best['detector']}")
+        shares = [i / len(campaign.ended) for i in range(len(warned) + 1)]
+        axes.step([longest, *warned, 0.0], [*shares, shares[-1]], where="post", color=colour(k),
+                  linestyle=dash(k), label=f"{name}, {best['detector']}")
         rows.append([name, best["detector"], f"{best['found']}/{best['ended']}",
                      _hours(best["warning_50_h"]), _hours(best["warning_90_h"])])
     axes.set(xlabel="Hours before the tooth breaks", ylabel="Share found by then",
@@ -137,26 +131,21 @@ def warning_times(campaign, page):
 
 def trade_off(campaign, page):
     figure, axes = _panel_of(len(campaign.data["trade_offs"]))
-    rows, drawn, missed = [], 0, False
+    rows = []
     for k, one in enumerate(campaign.data["trade_offs"]):
-        for point in one["points"]:
-            rows.append([one["feature"], one["detector"], number(point["stated_per_1000_h"]),
-                         _hours(point["per_1000_h"]),
-                         "–" if point["share"] is None else f"{point['share']:.2f}",
-                         campaign.depth_text(point["depth_50_m"]),
-                         campaign.depth_text(point["depth_90_m"])])
-        points = [(p["stated_per_1000_h"], millimetres(p["depth_90_m"])) for p in one["points"]]
-        shown = [(x, campaign.last_mm if y is None else y) for x, y in points]
-        missed = missed or any(y is None for _, y in points)
-        if shown:
-            drawn += 1
-            axes.plot([x for x, _ in shown], [y for _, y in shown], color=colour(k),
-                      linestyle=dash(k), marker=marker(k), markersize=4, markeredgewidth=0,
-                      label=f"{one['feature']}, {one['detector']}")
+        named = [one["feature"], one["detector"]]
+        rows += [[*named, number(point["stated_per_1000_h"]), _hours(point["per_1000_h"]),
+                  "–" if point["share"] is None else f"{point['share']:.2f}",
+                  campaign.depth_text(point["depth_50_m"]), campaign.depth_text(point["depth_90_m"])]
+                 for point in one["points"]]
+        if one["points"]:
+            plot(axes, [(p["stated_per_1000_h"], campaign.last_mm if p["depth_90_m"] is None else
+                         millimetres(p["depth_90_m"])) for p in one["points"]], color=colour(k),
+                 linestyle=dash(k), marker=marker(k), markersize=4, markeredgewidth=0, label=", ".join(named))
     data = blocks.table("False alarms and depth at detection",
                         ["feature", "detector", "set to, per 1000 h", "counted", "share found",
                          "50 % found by, mm", "90 % found by, mm"], rows)
-    if not drawn:
+    if not rows:
         return blocks.note("The healthy lives are too few for a threshold at any of these rates.") + data
     axes.set(xscale="log", ylim=(0, 1.05 * campaign.last_mm),
              xlabel="False alarms per 1000 hours", ylabel="90 % found by, mm")
@@ -169,5 +158,5 @@ def trade_off(campaign, page):
         "Depth by which 90\u00a0% of the cracks are found, for thresholds set to more or fewer "
         "false alarms, for each feature with the detector that is best at the study's rate."
         + (f" Points at {number(campaign.last_mm)} mm, where lives end: fewer are found."
-           if missed else ""), data)
-
+           if any(p["depth_90_m"] is None for one in campaign.data["trade_offs"] for p in one["points"])
+           else ""), data)

@@ -3,13 +3,11 @@
 import blocks
 from lives import lives_figures
 from lives.campaign_data import CampaignData
-from words import escape
 
 
 def parts(data, page):
     """Title, headline sentence, HTML of the answer, HTML of the sections."""
     campaign = CampaignData(data)
-    sentence = campaign.text("headline")
     body = ""
     if not data["withheld"]:
         body += page.section("fan", "Lives", lives_figures.fan(campaign, page))
@@ -20,7 +18,6 @@ def parts(data, page):
                              campaign.table("results") + blocks.bullets(
                                  campaign.texts("terms") + campaign.texts("unranked.")))
     body += page.section("about", "Basis of the results", blocks.bullets(campaign.texts("basis.")))
-    summary = "\n".join(f'<p class="answer">{escape(text)}</p>' for key in
-                        ("headline", "interpolation", "failed", "holds")
+    summary = "\n".join(blocks.answer(text) for key in ("headline", "interpolation", "failed", "holds")
                         if (text := campaign.text(key)))
-    return data["title"], sentence, summary, body
+    return data["title"], campaign.text("headline"), summary, body

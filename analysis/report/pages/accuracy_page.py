@@ -1,8 +1,10 @@
 """Page of gearpod accuracy: error against computing time of every solver setting."""
 
+import math
+
 import blocks
-from charts import INK, MUTED, colour, legend_below, marker, panel, plt, to_svg
-from words import count, escape, joined, number, percent, typeset
+from charts import DOTTED, INK, MUTED, colour, legend_below, marker, marks, names_of_rows, panel, plot, plt, to_svg
+from words import count, joined, number, percent, typeset
 
 TIME = "Integration, processor ms per gearbox"
 LEAST = 1e-9  # smaller errors are drawn at this value
@@ -13,12 +15,10 @@ STYLES = {"double": "-", "single": (0, (4, 2)), "graded": (0, (1, 1)),
 class Accuracy:
     def __init__(self, data):
         self.data = data
-        rows = data["settings"]
-        self.measured = [row for row in rows if "refused" not in row]
-        self.refused = [row for row in rows if "refused" in row]
+        self.measured = [row for row in data["settings"] if "refused" not in row]
+        self.by_time = sorted(self.measured, key=lambda row: row["gearbox_s"])
         # Curves: settings with the tightest convergence, by integrator, precision and grid.
-        self.curves = {}
-        self.others = []
+        self.curves, self.others = {}, []
         for row in self.measured:
             keys = {text.split("=")[0].removeprefix("numerics.") for text in row["overrides"]}
             if (row["integrator"] == "auto" or row["settle_tolerance"] > 1e-10
@@ -26,10 +26,8 @@ class Accuracy:
                 self.others.append(row)
             else:
                 kind = "graded" if "grid" in keys else row["precision"]
-                if "mass_scaling_Hz" in keys:
-                    kind += ", mass scaling"
+                kind += ", mass scaling" * ("mass_scaling_Hz" in keys)
                 self.curves.setdefault((row["integrator"], kind), []).append(row)
-        self.integrators = list(dict.fromkeys(name for name, _ in self.curves))
 
     def named(self, name):
         return next((row for row in self.measured if row["name"] == name), None)
@@ -49,46 +47,40 @@ class Accuracy:
         return [entry for entry in found if entry[0]]
 
 
+def _ms(row):
+    return 1e3 * row["gearbox_s"]
+
+
 def _diagram(report, axes, error_of):
     """Draws error against time. `error_of`: error of a setting, or None."""
 
-    def point(row):
-        return 1e3 * row["gearbox_s"], max(LEAST, error_of(row["error"]))
+    def points(rows):
+        return [(_ms(row), max(LEAST, error_of(row["error"]))) for row in rows
+                if error_of(row["error"]) is not None]
 
-    def known(rows):
-        return [row for row in rows if error_of(row["error"]) is not None]
-
-    others = [point(row) for row in known(report.others)]
-    axes.plot([x for x, _ in others], [y for _, y in others], linestyle="none", marker=".",
-              markersize=4, color=MUTED, label="looser convergence, fewer terms")
+    marks(axes, points(report.others), ".", markersize=4, color=MUTED,
+          label="looser convergence, fewer terms")
+    integrators = list(dict.fromkeys(name for name, _ in report.curves))
     for (name, kind), rows in report.curves.items():
-        rows = sorted(known(rows), key=lambda row: row["steps"])
-        k = report.integrators.index(name)
+        k = integrators.index(name)
         plain = kind == "double"
-        axes.plot([point(row)[0] for row in rows], [point(row)[1] for row in rows],
-                  color=colour(k), marker=marker(k), markersize=4, linewidth=1.1,
-                  linestyle=STYLES[kind],
-                  markerfacecolor=colour(k) if plain else "none",
-                  label=name + ("" if plain else f", {kind}"))
+        plot(axes, points(sorted(rows, key=lambda row: row["steps"])), color=colour(k), marker=marker(k),
+             markersize=4, linewidth=1.1, linestyle=STYLES[kind],
+             markerfacecolor=colour(k) if plain else "none", label=name + ("" if plain else f", {kind}"))
     for at, (row, meaning, mark) in enumerate(report.marked()):
         if error_of(row["error"]) is not None:
-            axes.plot(*point(row), linestyle="none", marker=mark, markersize=9 + 2.5 * at,
-                      markerfacecolor="none", markeredgecolor=INK, markeredgewidth=1.4,
-                      label=meaning)
+            marks(axes, points([row]), mark, markersize=9 + 2.5 * at, markerfacecolor="none",
+                  markeredgecolor=INK, markeredgewidth=1.4, label=meaning)
     for peer in report.data.get("peers", []):
         if error_of(peer) is not None:
-            axes.plot(*point({**peer, "error": peer}), linestyle="none", marker="*", markersize=9,
-                      color=INK, label=peer["name"])
-
-
-def _frontier(report, axes, error_of):
-    """Settings than which none is both faster and more accurate."""
-    best, steps = float("inf"), []
-    for row in sorted(report.measured, key=lambda row: row["gearbox_s"]):
+            marks(axes, points([{**peer, "error": peer}]), "*", markersize=9, color=INK, label=peer["name"])
+    # Frontier: settings than which none is both faster and more accurate.
+    best, steps = math.inf, []
+    for row in report.by_time:
         error = error_of(row["error"])
         if error is not None and error < best:
             best = error
-            steps.append((1e3 * row["gearbox_s"], max(LEAST, error)))
+            steps += points([row])
     axes.step(*zip(*steps), where="post", color=INK, linewidth=2.4, alpha=0.35, label="frontier")
 
 
@@ -98,32 +90,34 @@ def _drawn(report, page, title, error_of, label, lines=(), main=False):
         return blocks.note(f"{title}: no setting has an error above zero.")
     figure, axes = plt.subplots(figsize=(5.8, 5.0), layout="constrained") if main else panel(3.4)
     _diagram(report, axes, error_of)
-    _frontier(report, axes, error_of)
     axes.set(xscale="log", yscale="log", xlabel=TIME, ylabel=label)
     for value, meaning in lines:
-        axes.axhline(value, color=MUTED, linewidth=1.0, linestyle=(0, (1, 2)))
+        axes.axhline(value, **DOTTED)
         axes.annotate(meaning, (0.01, value), xycoords=("axes fraction", "data"), ha="left",
                       va="bottom", fontsize=8, color=MUTED)
     if main:
         limit = report.data["explicit_limit"]
-        axes.axvline(1e3 * limit["gearbox_s"], color=MUTED, linewidth=1.0, linestyle=(0, (6, 3)),
+        axes.axvline(_ms(limit), color=MUTED, linewidth=1.0, linestyle=(0, (6, 3)),
                      label="rk4 at its stability limit" + (", refused" * limit["refused"]))
         legend_below(axes, 2)
     else:
-        axes.set_title(title.split(":")[0], fontsize=10, color=INK, loc="left")
-    about = "; ".join(f"{meaning}: {row['name']}, {number(1e3 * row['gearbox_s'])} ms, error "
+        axes.set_title(title.split(":")[0])
+    about = "; ".join(f"{meaning}: {row['name']}, {number(_ms(row))} ms, error "
                       f"{number(error_of(row['error']))}" for row, meaning, _ in report.marked())
     return to_svg(figure, title, about, page.names)
 
 
+def _numbers(values, names):
+    return [number(values[name], 2) for name in names]
+
+
 def _settings_table(report):
-    head = ["Setting", "Steps per mesh", "Time, ms", "Worst feature", "Sensor", "TE",
-            "Share of scatter"]
-    rows = [[row["name"], count(row["steps"]), number(1e3 * row["gearbox_s"]),
-             *(number(row["error"][key], 2)
-               for key in ("worst_feature", "sensor", "te", "worst_of_scatter"))]
-            for row in sorted(report.measured, key=lambda row: row["gearbox_s"])]
-    return blocks.table("Measured solver settings, the fastest first", head, rows)
+    return blocks.table(
+        "Measured solver settings, the fastest first",
+        ["Setting", "Steps per mesh", "Time, ms", "Worst feature", "Sensor", "TE", "Share of scatter"],
+        [[row["name"], count(row["steps"]), number(_ms(row)),
+          *_numbers(row["error"], ("worst_feature", "sensor", "te", "worst_of_scatter"))]
+         for row in report.by_time])
 
 
 def _signals(report, page):
@@ -167,7 +161,7 @@ def _detection(report, page):
     if not rows:
         return blocks.note("Detection rates were not compared: "
                            "the time was used up, or --gearboxes 0 was given.")
-    gearboxes = rows[0]["detection"]["gearboxes"]
+    gearboxes = count(rows[0]["detection"]["gearboxes"])
     charts = []
     for change, spread, label in (("pd_change", "pd_half_width", "detection rate"),
                                   ("a90_change", "a90_interval", "a90, relative")):
@@ -175,28 +169,21 @@ def _detection(report, page):
         if not drawn:
             continue
         figure, axes = panel(3.6)
-        times = [1e3 * row["gearbox_s"] for row in drawn]
         for key, k, meaning in ((change, 1, "change by the setting"),
                                 (spread, 0, "half width of its interval")):
-            points = [(x, max(1e-5, row["detection"][key])) for x, row in zip(times, drawn)
-                      if row["detection"][key] is not None]
-            axes.plot([x for x, _ in points], [y for _, y in points], linestyle="none",
-                      marker=marker(k), color=colour(k), label=meaning)
+            marks(axes, [(_ms(row), max(1e-5, row["detection"][key])) for row in drawn
+                         if row["detection"][key] is not None], marker(k), color=colour(k), label=meaning)
         axes.set(xscale="log", yscale="log", xlabel=TIME, ylabel=f"Change of the {label}")
         legend_below(axes, 2)
         charts.append(to_svg(figure, f"Change of the {label} against time",
                              f"{len(drawn)} settings", page.names))
-    head = ["Setting", "Time, ms", "Alarms changed", "Pd changed", "Half width", "a90 changed",
-            "a90 interval"]
     table = blocks.table(
-        f"The same {count(gearboxes)} test gearboxes with these settings and with the most "
-        "accurate one", head,
-        [[row["name"], number(1e3 * row["gearbox_s"]),
-          percent(row["detection"]["alarms_changed"]),
-          *(number(row["detection"][key], 2) for key in ("pd_change", "pd_half_width",
-                                                         "a90_change", "a90_interval"))]
+        f"The same {gearboxes} test gearboxes with these settings and with the most accurate one",
+        ["Setting", "Time, ms", "Alarms changed", "Pd changed", "Half width", "a90 changed", "a90 interval"],
+        [[row["name"], number(_ms(row)), percent(row["detection"]["alarms_changed"]),
+          *_numbers(row["detection"], ("pd_change", "pd_half_width", "a90_change", "a90_interval"))]
          for row in rows])
-    return page.figure(f"Change of the answer, {count(gearboxes)} test gearboxes", charts,
+    return page.figure(f"Change of the answer, {gearboxes} test gearboxes", charts,
                        "Largest change over features, sizes and noise levels against the most "
                        "accurate setting, and the statistical uncertainty of the same quantity. "
                        "Changes below 0.00001 are drawn there.", table)
@@ -209,36 +196,31 @@ def _effects(report, page):
         return blocks.note("The cost of effects was not measured: the time was used up.")
     measured = [row for row in rows if "refused" not in row]
     known = any(row["change"]["worst_of_scatter"] is not None for row in measured)
-    key = "worst_of_scatter" if known else "worst_feature"
+    key, over = ("worst_of_scatter", "scatter") if known else ("worst_feature", "value")
     drawn = [row for row in measured if row["change"][key]]
     charts = []
     if drawn:
         figure, axes = panel(1.4 + 0.3 * len(drawn))
         for y, row in enumerate(drawn):
             k = 0 if row["in_study"] else 1
-            axes.plot(max(LEAST, row["change"][key]), y, linestyle="none", marker=marker(k),
-                      color=colour(k))
+            marks(axes, [(max(LEAST, row["change"][key]), y)], marker(k), color=colour(k))
         if known:
-            axes.axvline(report.data["share_of_scatter"], color=MUTED, linewidth=1.0,
-                         linestyle=(0, (1, 2)), label="widens the scatter by 2 %")
+            axes.axvline(report.data["share_of_scatter"], label="widens the scatter by 2 %", **DOTTED)
         for k, text in ((0, "left out of the study"), (1, "added to it")):
-            axes.plot([], [], linestyle="none", marker=marker(k), color=colour(k), label=text)
-        axes.set_yticks(range(len(drawn)), [row["effect"] for row in drawn])
-        axes.set_ylim(len(drawn) - 0.5, -0.5)
-        axes.set(xscale="log", xlabel="Largest change of a feature over its "
-                                      + ("scatter" if known else "value"))
+            marks(axes, [], marker(k), color=colour(k), label=text)
+        names_of_rows(axes, [row["effect"] for row in drawn])
+        axes.set(xscale="log", xlabel=f"Largest change of a feature over its {over}")
         legend_below(axes, 1)
         charts.append(to_svg(figure, "Change of the features by each effect", "; ".join(
             f"{row['effect']}: {number(row['change'][key])}" for row in drawn), page.names))
-    head = ["Effect", "In the study", "Time with / without", "Sensor changes", "Features change",
-            "Over scatter", "Needed"]
     table = blocks.table(
-        "The pilot without an effect of the study, or with one that it leaves out", head,
+        "The pilot without an effect of the study, or with one that it leaves out",
+        ["Effect", "In the study", "Time with / without", "Sensor changes", "Features change",
+         "Over scatter", "Needed"],
         [[row["effect"], "yes" if row["in_study"] else "no",
           *(("not possible: " + row["refused"], "–", "–", "–", "–") if "refused" in row else
             (number(row["time_ratio"]),
-             *(number(row["change"][name], 2) for name in ("sensor", "worst_feature",
-                                                           "worst_of_scatter")),
+             *_numbers(row["change"], ("sensor", "worst_feature", "worst_of_scatter")),
              "yes" if row["needed"] else "no"))] for row in rows])
     return page.figure("Change of the features by each effect", charts,
                        "An effect is needed if it changes a feature by more than "
@@ -259,9 +241,8 @@ def _stability(report, page):
         axes.plot(factors, curve["steps"], color=colour(k), marker=marker(k), markersize=4,
                   linewidth=1.1, label=curve["integrator"])
     axes.axhspan(limit, 10 * limit, color=MUTED, alpha=0.15, label="explicit methods refused")
-    axes.plot(1.0, given["own_steps"], linestyle="none", marker="s", markersize=9,
-              markerfacecolor="none", markeredgecolor=INK, markeredgewidth=1.4,
-              label=f"the study: {given['own']}")
+    marks(axes, [(1.0, given["own_steps"])], "s", markersize=9, markerfacecolor="none",
+          markeredgecolor=INK, markeredgewidth=1.4, label=f"the study: {given['own']}")
     axes.set(xscale="log", yscale="log", ylim=(None, 10 * limit),
              xlabel="Stiffness of the meshes over that of the study",
              ylabel="Steps per mesh period")
@@ -275,38 +256,34 @@ def _stability(report, page):
     legend_below(axes, 1 if hard else 2)
     about = "; ".join(f"{curve['integrator']}: {number(curve['steps'][len(factors) // 2])} steps"
                       for curve in given["curves"])
-    table = blocks.table("Fewest stable steps per mesh period by the factor on the stiffness",
-                         ["Integrator", *(f"x {number(factor)}" for factor in factors[::3])],
-                         [[curve["integrator"], *(count(round(steps)) for steps in curve["steps"][::3])]
-                          for curve in given["curves"]])
+    def table(caption, head, rows):
+        return blocks.table("Fewest stable steps per mesh period " + caption, head,
+                            [[name, *(count(round(steps)) for steps in given_)] for name, given_ in rows])
+
+    data = table("by the factor on the stiffness",
+                 ["Integrator", *(f"x {number(factor)}" for factor in factors[::3])],
+                 [(curve["integrator"], curve["steps"][::3]) for curve in given["curves"]])
     if hard:
-        table += blocks.table("Fewest stable steps per mesh period in hard cases",
-                              ["Case", *names],
-                              [[case["name"], *(count(round(steps)) for steps in case["steps"])]
-                               for case in hard])
+        data += table("in hard cases", ["Case", *names], [(case["name"], case["steps"]) for case in hard])
     return page.figure("Stability of explicit methods",
                        [to_svg(figure, "Stability of explicit methods", about, page.names)],
                        "An explicit method is stable above its curve. Implicit methods ("
                        + joined(given["implicit"]) + ") are stable everywhere. Mass scaling lowers "
-                       "the curve of central-difference to that of a softer gearbox.", table)
+                       "the curve of central-difference to that of a softer gearbox.", data)
 
 
 def _limits(report):
-    lines = [f"{row['name']}: {row['refused']}" for row in report.refused]
-    texts = [typeset(text) for text in lines]
-    body = blocks.bullets(texts) if texts else "<p>All listed settings were measured.</p>"
-    if report.data["left_out"]:
-        body += blocks.note("Omitted because the time was used up: "
-                            + joined(report.data["left_out"]) + ".")
-    return body
+    texts = [typeset(f"{row['name']}: {row['refused']}") for row in report.data["settings"] if "refused" in row]
+    left = report.data["left_out"]
+    return ((blocks.bullets(texts) if texts else "<p>All listed settings were measured.</p>")
+            + (blocks.note(f"Omitted because the time was used up: {joined(left)}.") if left else ""))
 
 
 def parts(data, page):
     """Title, headline sentence, HTML of the answer, HTML of the sections."""
     report = Accuracy(data)
     headline = typeset(data["headline"])
-    summary = f'<p class="answer">{escape(headline)}</p>'
-    summary += blocks.paragraph(
+    summary = blocks.answer(headline) + blocks.paragraph(
         f"{data['gearboxes']} pilot gearboxes; signals over {data['signal_meshes']} mesh periods, "
         f"features over {count(data['span_meshes'])}. Errors are relative to a reference on which "
         "two independent methods agree to "

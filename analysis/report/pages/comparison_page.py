@@ -1,9 +1,9 @@
 """Page of gearpod compare: effect of a change on detection."""
 
 import blocks
-from charts import INK, MUTED, colour, marker, open_end, panel, to_svg
+from charts import DASHED, colour, marker, names_of_rows, open_end, panel, to_svg
 from report import Findings
-from words import Sizes, escape
+from words import Sizes, with_unit
 
 
 def letter(file):
@@ -22,18 +22,7 @@ class Compared(Findings):
                 if f["noise_level"] == self.data["noise_level"]]
 
     def title(self):
-        return "Comparison: " + " against ".join(letter(k) for k in
-                                                 range(len(self.files) - 1, -1, -1))
-
-
-def _interval(axes, y, at, ends, k):
-    """A mark with its interval; an arrow at an end that is open."""
-    low, high = (at if end is None else end for end in ends)
-    axes.plot([low, high], [y, y], color=colour(k), linewidth=1.6)
-    for end, direction in zip(ends, (-1, 1)):
-        if end is None:
-            open_end(axes, (at, y), (direction, 0), colour(k))
-    axes.plot([at], [y], marker=marker(k), color=colour(k), markersize=5.5, markeredgewidth=0)
+        return "Comparison: " + " against ".join(map(letter, reversed(range(len(self.files)))))
 
 
 def _forest(compared, page, key, axis, scale):
@@ -47,13 +36,17 @@ def _forest(compared, page, key, axis, scale):
     if not drawn:
         return data
     figure, axes = panel(1.0 + 0.3 * len(drawn))
-    axes.axvline(0.0, color=MUTED, linewidth=0.9, linestyle=(0, (4, 3)))
+    axes.axvline(0.0, **DASHED)
     for y, (k, _, entry, _) in enumerate(drawn):
-        ends = [scale * v if v is not None else None for v in (entry["lower"], entry["upper"])]
-        _interval(axes, y, scale * entry["difference"], ends, k)
-    axes.set_yticks(range(len(drawn)), [name if len(compared.files) == 2 else
-                                        f"{name}, {letter(k)}" for k, name, _, _ in drawn])
-    axes.set(ylim=(len(drawn) - 0.5, -0.5), xlabel=axis)
+        at, ends = scale * entry["difference"], (entry["lower"], entry["upper"])
+        axes.plot([at if end is None else scale * end for end in ends], [y, y], color=colour(k), linewidth=1.6)
+        for end, direction in zip(ends, (-1, 1)):
+            if end is None:
+                open_end(axes, (at, y), (direction, 0), colour(k))
+        axes.plot([at], [y], marker=marker(k), color=colour(k), markersize=5.5, markeredgewidth=0)
+    names_of_rows(axes, [name if len(compared.files) == 2 else f"{name}, {letter(k)}"
+                         for k, name, _, _ in drawn])
+    axes.set(xlabel=axis)
     axes.margins(x=0.15)
     axes.grid(axis="y", visible=False)
     svg = to_svg(figure, title, "; ".join(f"{name}, {letter(k)}: {text}"
@@ -70,16 +63,14 @@ def _rates(compared, page, k):
         if not sizes or feature["same"]:
             continue
         figure, axes = panel()
-        axes.axhline(0.0, color=MUTED, linewidth=0.9, linestyle=(0, (4, 3)))
+        axes.axhline(0.0, **DASHED)
         x = [compared.sizes.shown(0.5 * (s["size_low"] + s["size_high"])) for s in sizes]
-        axes.vlines(x, [s["lower"] for s in sizes], [s["upper"] for s in sizes], color=colour(k),
-                    linewidth=1.4)
-        axes.plot(x, [s["difference"] for s in sizes], linestyle="none", marker="o", markersize=4.5,
-                  markeredgewidth=0, color=colour(k))
-        reach = max(0.05, *(abs(v) for s in sizes for v in (s["lower"], s["upper"])))
-        axes.set(ylim=(-1.05 * reach, 1.05 * reach), xlabel=compared.sizes.axis(),
+        lower, middle, upper = ([s[end] for s in sizes] for end in ("lower", "difference", "upper"))
+        axes.vlines(x, lower, upper, color=colour(k), linewidth=1.4)
+        axes.plot(x, middle, linestyle="none", marker="o", markersize=4.5, markeredgewidth=0, color=colour(k))
+        reach = 1.05 * max(0.05, *map(abs, lower + upper))
+        axes.set(ylim=(-reach, reach), xlabel=compared.sizes.axis(), title=feature["name"],
                  ylabel=f"Detection rate, {letter(k)} minus A")
-        axes.set_title(feature["name"], fontsize=10, color=INK, loc="left")
         charts.append(to_svg(figure, f"{feature['name']}: detection rate, {letter(k)} minus A",
                              "; ".join(f"{compared.sizes.group(s['size_low'], s['size_high'])}: "
                                        f"{s['difference']:+.3f}" for s in sizes), page.names))
@@ -93,15 +84,12 @@ def _rates(compared, page, k):
 def parts(data, page):
     """Title, headline sentence, HTML of the answer, HTML of the sections."""
     compared = Compared(data)
-    verdict = (f'<p class="answer">{escape(compared.text("headline"))}</p>'
-               + compared.notes("shortage."))
-    verdict += compared.table("files")
-    verdict += "".join(f'<p class="small">{escape(text)}</p>'
-                       for text in compared.texts("first_records"))
-    unit = f", {compared.sizes.unit}" if compared.sizes.unit else ""
+    verdict = (blocks.answer(compared.text("headline")) + compared.notes("shortage.") + compared.table("files")
+               + "".join(map(blocks.small, compared.texts("first_records"))))
     body = page.section(
         "sizes", "Sizes and areas",
-        _forest(compared, page, "a90", f"Difference of a90{unit}", compared.sizes.factor)
+        _forest(compared, page, "a90", with_unit("Difference of a90", compared.sizes.unit, ", "),
+                compared.sizes.factor)
         + _forest(compared, page, "auc", "Difference of the area", 1.0))
     for k in range(1, len(compared.files)):
         body += page.section(f"file-{k}", f"{letter(k)} against A",

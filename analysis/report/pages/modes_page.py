@@ -1,16 +1,8 @@
 """Page of gearpod modes: natural frequencies and the Campbell diagram."""
 
 import blocks
-from charts import INK, colour, dash, legend_below, panel, to_svg
-from words import escape, number
-
-
-def _lines(speeds, highest):
-    """Natural frequencies over speed, those that lie in the diagram."""
-    for mode in range(len(speeds[0]["frequencies_Hz"])):
-        line = [at["frequencies_Hz"][mode] for at in speeds]
-        if 0 < min(line) <= highest:
-            yield line
+from charts import INK, colour, dash, legend_below, marks, panel, to_svg
+from words import number
 
 
 def _diagram(data, page):
@@ -20,7 +12,8 @@ def _diagram(data, page):
     lowest = min((at for at in data["frequencies_Hz"] if at > 0), default=1.0)
     highest = max(1.1 * campbell["harmonics"] * speeds[-1]["mesh_Hz"], 1.5 * lowest)
     figure, axes = panel(4.2)
-    for i, line in enumerate(_lines(speeds, highest)):
+    modes = zip(*(at["frequencies_Hz"] for at in speeds))
+    for i, line in enumerate(line for line in modes if 0 < min(line) <= highest):
         axes.plot(rpm, line, color=colour(0), linewidth=1,
                   label="natural frequency" if i == 0 else None)
     for harmonic in range(1, campbell["harmonics"] + 1):
@@ -30,8 +23,8 @@ def _diagram(data, page):
         axes.annotate(str(harmonic), (rpm[-1], harmonic * speeds[-1]["mesh_Hz"]), fontsize=8,
                       xytext=(2, 0), textcoords="offset points", va="center")
     critical = campbell["critical_speeds"]
-    axes.plot([abs(one["rpm"]) for one in critical], [one["frequency_Hz"] for one in critical],
-              linestyle="none", marker="o", markersize=4, color=INK, label="critical speed")
+    marks(axes, [(abs(one["rpm"]), one["frequency_Hz"]) for one in critical], "o", markersize=4, color=INK,
+          label="critical speed")
     axes.axvline(abs(campbell["nominal_rpm"]), color=INK, linestyle=":", linewidth=0.9,
                  label="nominal speed")
     axes.set(xlim=(0, rpm[-1]), ylim=(0, highest), xlabel=f"Speed of the {member}, rpm",
@@ -53,19 +46,17 @@ def _diagram(data, page):
 def parts(data, page):
     """Title, sentence, HTML of the answer, HTML of the sections."""
     frequencies = [at for at in data["frequencies_Hz"] if at > 0]
-    critical = data["campbell"]["critical_speeds"] if data["campbell"] else []
     sentence = (f"{len(frequencies)} natural frequencies from {number(min(frequencies), 4)} to "
                 f"{number(max(frequencies), 4)} Hz")
     if data["campbell"]:
         nominal = abs(data["campbell"]["nominal_rpm"])
-        nearest = min(critical, key=lambda one: abs(abs(one["rpm"]) - nominal), default=None)
+        nearest = min(data["campbell"]["critical_speeds"], key=lambda one: abs(abs(one["rpm"]) - nominal), default=None)
         sentence += (f"; the critical speed nearest to the nominal {number(nominal, 4)} rpm is "
                      f"{number(abs(nearest['rpm']), 4)} rpm (mesh harmonic {nearest['harmonic']})."
                      if nearest else "; no mesh harmonic meets one in the speed range.")
     else:
         sentence += ". Without tooth numbers there is no mesh frequency."
     body = _diagram(data, page) if data["campbell"] else ""
-    at_rest = blocks.paragraph("At rest: " + ", ".join(number(at, 5) for at in data["frequencies_Hz"])
-                               + " Hz.")
-    return (data["title"], sentence, f"<p>{escape(sentence)}</p>",
+    at_rest = blocks.paragraph(f"At rest: {', '.join(number(at, 5) for at in data['frequencies_Hz'])} Hz.")
+    return (data["title"], sentence, blocks.paragraph(sentence),
             page.section("modes", "Natural frequencies and speed", body + at_rest))

@@ -1,7 +1,6 @@
 """Points of a sweep in charts and tables: one key along the axis, one chart per combination of the
 others."""
 
-import collections
 import itertools
 import math
 import re
@@ -11,16 +10,12 @@ from matplotlib.ticker import MaxNLocator
 import blocks
 from charts import colour, dash, legend_above, marker, open_end, panel, to_svg
 from report import Findings
-from words import count, escape, number
+from words import count, number, percent
 
 MOST_LINES = 5  # in a chart
 MOST_CHARTS = 24  # in a figure
 MOST_ROWS = 2000  # in a table
 LONGEST = 28  # letters of a value below an axis
-
-
-def short(key):
-    return key.rpartition(".")[2]
 
 
 def clipped(text):
@@ -32,10 +27,9 @@ def clipped(text):
 
 def as_number(text):
     try:
-        value = float(text)
+        return float(text)
     except ValueError:
-        return None
-    return value if math.isfinite(value) else None
+        return math.nan
 
 
 class Key:
@@ -44,40 +38,36 @@ class Key:
 
     def __init__(self, entry):
         self.key, self.values = entry["key"], entry["values"]
-        self.name = short(self.key)
+        self.name = self.key.rpartition(".")[2]
         texts = [clipped(text) for text in self.values]
-        counts = collections.Counter(texts)
         # Clipped values, numbered where several are clipped to the same text.
-        self.labels = {}
-        for i, (value, text) in enumerate(zip(self.values, texts)):
-            self.labels.setdefault(value, f"{i + 1}: {text}" if counts[text] > 1 else text)
+        self.labels = {value: f"{i}: {text}" if texts.count(text) > 1 else text
+                       for i, value, text in zip(itertools.count(1), self.values, texts)}
         numbers = [as_number(text) for text in self.values]
-        self.scaled = all(v is not None for v in numbers) and len(set(numbers)) == len(numbers)
+        self.scaled = all(map(math.isfinite, numbers)) and len(set(numbers)) == len(numbers)
         self.places = numbers if self.scaled else list(range(len(self.values)))
-        self.log = (self.scaled and min(numbers) > 0 and max(numbers) >= 6 * min(numbers))
+        self.log = self.scaled and min(numbers) > 0 and max(numbers) >= 6 * min(numbers)
 
-    def place(self, text):
-        return self.places[self.values.index(text)]
+    def place(self, point):
+        return self.places[self.values.index(point["values"][self.key])]
 
     def set_axis(self, axes):
         axes.set_xlabel(self.name)
-        if self.log:
-            axes.set_xscale("log")
-        transform = math.log if self.log else float
-        at = sorted(transform(place) for place in self.places)
-        reach = (at[-1] - at[0]) or 1.0
-        if self.scaled and len(at) > 1:  # the same where a panel lacks points
-            back = math.exp if self.log else float
-            axes.set_xlim(back(at[0] - 0.07 * reach), back(at[-1] + 0.07 * reach))
         if not self.scaled:
             room = 26 // max(2, len(self.places))
             labels = [self.labels[text] for text in self.values]
-            if any(len(text) > room for text in labels):
-                axes.set_xticks(self.places, labels, rotation=30, ha="right", fontsize=9)
-            else:
-                axes.set_xticks(self.places, labels)
+            turned = {"rotation": 30, "ha": "right", "fontsize": 9}
+            axes.set_xticks(self.places, labels,
+                            **turned if any(len(text) > room for text in labels) else {})
             axes.set_xlim(-0.4, len(self.places) - 0.6)
             return
+        forth, back = (math.log, math.exp) if self.log else (float, float)
+        if self.log:
+            axes.set_xscale("log")
+        at = sorted(map(forth, self.places))
+        reach = (at[-1] - at[0]) or 1.0
+        if len(at) > 1:  # the same where a panel lacks points
+            axes.set_xlim(back(at[0] - 0.07 * reach), back(at[-1] + 0.07 * reach))
         if all(b - a > 0.16 * reach for a, b in zip(at, at[1:])):
             axes.set_xticks(sorted(self.places), [number(v, 4) for v in sorted(self.places)])
             axes.minorticks_off()
@@ -93,6 +83,7 @@ class Grid(Findings):
     def __init__(self, data):
         super().__init__(data)
         self.points = data["points"]
+        self.confidence = percent(self.points[0]["confidence"])
         self.keys = [Key(entry) for entry in data["varied"]]
         # Key along the axis: the numeric key with most values.
         self.along = max(self.keys, key=lambda k: (k.scaled, len(k.values)))
@@ -105,7 +96,7 @@ class Grid(Findings):
                 p["values"][key.key] == value for key, value in zip(self.others, values))]
             yield ", ".join(f"{key.name} = {key.labels[value]}"
                             for key, value in zip(self.others, values)), sorted(
-                                chosen, key=lambda p: self.along.place(p["values"][self.along.key]))
+                                chosen, key=self.along.place)
 
 
 def _series(swept, points, value):
@@ -114,8 +105,7 @@ def _series(swept, points, value):
     out = []
     for point in points:
         at, lower, upper = value(point) or (None, None, None)
-        out.append((swept.along.place(point["values"][swept.along.key]),
-                    math.nan if at is None else at,
+        out.append((swept.along.place(point), math.nan if at is None else at,
                     -math.inf if lower is None else lower, math.inf if upper is None else upper))
     return out
 
@@ -131,22 +121,23 @@ def _shifted(swept, x, line, lines):
     return x + share * (max(places) - min(places))
 
 
-def charts_of(swept, page, title, axis, lines, limits=None):
-    """One chart per combination of the other keys, all with the same axes. `lines`: name and
-    value(point), drawn where there is a value."""
+def figure(swept, page, title, axis, how, lines, data, nothing, limits=None):
+    """Figure with one chart per combination of the other keys, all with the same axes. `lines`: name
+    and value(point), drawn where there is a value; `data`: key of the table with the numbers;
+    `nothing`: text where there is no value at all."""
     panels = list(swept.panels())
     drawn = [(text, points, [_series(swept, points, value) for _, value in lines])
              for text, points in panels[:MOST_CHARTS]]
     ends = [end for *_, series in drawn for line in series for point in line
             if math.isfinite(point[1]) for end in point[1:] if math.isfinite(end)]
     if not ends:
-        return [], ""
+        return blocks.note(nothing)
     pad = 0.06 * ((max(ends) - min(ends)) or abs(max(ends)) or 1.0)
     low, high = limits or (min(ends) - pad, max(ends) + pad)
     low = max(low, 0.0) if min(ends) >= 0 else low
     charts = []
     for text, chosen, series in drawn:
-        figure, axes = panel(3.0 + 0.22 * ((len(lines) + 1) // 2))
+        chart, axes = panel(3.0 + 0.22 * ((len(lines) + 1) // 2))
         for i, ((name, _), line) in enumerate(zip(lines, series)):
             bounded = any(point[2] < point[3] for point in line if math.isfinite(point[1]))
             x = [_shifted(swept, point[0], i, len(lines) if bounded else 1) for point in line]
@@ -168,11 +159,10 @@ def charts_of(swept, page, title, axis, lines, limits=None):
             f"{number(at)} at {swept.along.labels[value['values'][swept.along.key]]}"
             for value, (_, at, _, _) in zip(chosen, line))
             for (name, _), line in zip(lines, series))
-        charts.append(to_svg(figure, f"{title}{', ' if text else ''}{text}", about, page.names))
-    left = len(panels) - len(drawn)
-    return charts, (f" The charts show the first {MOST_CHARTS} of {len(panels)} "
-                    "combinations." if left
-                    else "")
+        charts.append(to_svg(chart, f"{title}{', ' if text else ''}{text}", about, page.names))
+    if len(panels) > len(drawn):
+        how += f" The charts show the first {MOST_CHARTS} of {len(panels)} combinations."
+    return page.figure(title, charts, how, table_of(swept, data))
 
 
 def table_of(swept, key):
@@ -180,23 +170,19 @@ def table_of(swept, key):
     if key not in swept.findings:
         return ""
     head, rows = swept.rows(key)
-    html = blocks.table(swept.heading(key), head, rows[:MOST_ROWS])
-    if len(rows) > MOST_ROWS:
-        html += blocks.paragraph(f"The first {count(MOST_ROWS)} of {count(len(rows))} lines; all are "
-                                 "in the JSON.")
-    return html
+    return blocks.table(swept.heading(key), head, rows[:MOST_ROWS]) + blocks.paragraph(
+        f"The first {count(MOST_ROWS)} of {count(len(rows))} lines; all are in the JSON."
+        ) * (len(rows) > MOST_ROWS)
 
 
-def verdict(swept):
-    """HTML of the answer: its sentence, whether the points differ, and the table of all points."""
-    return (f'<p class="answer">{escape(swept.text("headline"))}</p>'
-            + "".join(blocks.paragraph(text) for key in ("differences", "withheld")
-                      for text in swept.texts(key))
-            + swept.notes("shortage.") + table_of(swept, "points")
-            + "".join(f'<p class="small">{escape(text)}</p>' for text in swept.texts("note.")))
-
-
-def files(swept, page):
-    """Section with the results files and the properties common to all points."""
-    return page.section("files", "The studies", blocks.bullets(
+def parts(swept, page, name, body):
+    """Title, headline sentence, HTML of the answer (its sentence, whether the points differ, and the
+    table of all points), HTML of the sections with the results files and the common properties."""
+    answer = (blocks.answer(swept.text("headline"))
+              + "".join(map(blocks.paragraph, swept.texts("differences") + swept.texts("withheld")))
+              + swept.notes("shortage.") + table_of(swept, "points")
+              + "".join(map(blocks.small, swept.texts("note."))))
+    body += page.section("files", "The studies", blocks.bullets(
         swept.texts("common") + swept.texts("varied")) + table_of(swept, "files"))
+    title = swept.data["title"]
+    return f"{name}: {title}" if title else name, swept.text("headline"), answer, body
