@@ -451,7 +451,7 @@ Report inspection_report(const InspectionRequest& request, const InspectionResul
                          const InspectionNames& names) {
     Section remarks{"remarks", "", {}};
     for (std::size_t i = 0; i < names.remarks.size(); ++i) {
-        remarks.state(fmt::format("remark.{}", i), names.remarks[i]);
+        remarks.state(fmt::format("remark.{}", i), names.remarks[i], Shown::screen);
     }
     Section method{"method", "", {}};
     method.state(

@@ -24,6 +24,7 @@
 #include "signals/rotation/shaft_motion.hpp"
 #include "signals/spectra/recording_checks.hpp"
 #include "signals/spectra/resampling.hpp"
+#include "signals/spectra/wide_speed.hpp"
 
 namespace gearpod::mc {
 
@@ -130,12 +131,7 @@ class SignalReader : SignalsReader {
         measured.sensor_rounding = rounding_rms(sensor);
         keep(sensor, phase.size());
         keep(te, phase.size());
-        const double ratio = speed_of_lines(measured);
-        stop_at_problems();
-        if (ratio != 1.0) {
-            phase = scaled(std::move(phase), ratio);
-            measured.tracking += fmt::format(", multiplied by {:.5f} to fit the mesh lines", ratio);
-        }
+        follow(far_speed(measured), measured);
         for (const std::string& problem :
              rate_problems(phase, plan_, {!sensor.empty(), !te.empty()})) {
             reject(problem);
@@ -146,6 +142,9 @@ class SignalReader : SignalsReader {
                                 columns_.samples_per_mesh * record_.span.planet_teeth);
         }
         resample(sensor, te, phase, measured);
+        if (follow(near_speed(measured), measured)) {
+            resample(sensor, te, phase, measured);
+        }
         check_losses(measured);
         stop_at_problems();
         return measured;
@@ -301,45 +300,90 @@ class SignalReader : SignalsReader {
         return tracking.resample(sensor_, grid, tracking.meshes(grid));
     }
 
-    // Ratio of the speed shown by the mesh lines to the stated speed; 1 if the lines do not
-    // contradict it. Adds a note if there are no lines that could.
-    double speed_of_lines(MeasuredSignal& measured) {
-        constexpr double kFewestTurns = 4.0;  // of an average, which may have no mesh lines
-        const bool average = columns_.samples_per_mesh > 0.0 &&
-                             phase_.back() - phase_.front() < kFewestTurns * record_.path_meshes();
-        if (columns_.speed == SpeedCheck::ignore || !measured.has_sensor || average) {
+    // Takes a speed that is `ratio` times the stated one. Returns true if it differs.
+    bool follow(double ratio, MeasuredSignal& measured) {
+        stop_at_problems();
+        if (ratio != 1.0) {
+            phase_ = scaled(std::move(phase_), ratio);
+            measured.tracking += fmt::format(", multiplied by {:.5f} to fit the mesh lines", ratio);
+        }
+        return ratio != 1.0;
+    }
+
+    // Ratio of the speed shown by the mesh lines to the stated speed, where they differ by more
+    // than mesh_speed() searches; otherwise 1. Adds a note if there are no lines, or if they are
+    // too weak to refuse the recording.
+    double far_speed(MeasuredSignal& measured) {
+        if (columns_.speed == SpeedCheck::ignore || !measured.has_sensor ||
+            columns_.samples_per_mesh > 0.0) {
             return 1.0;
         }
         double per_mesh = 0.0;
         const std::vector<double> samples = evenly_tracked(per_mesh);
-        auto found = signals::mesh_speed(samples, per_mesh, record_.path_meshes());
+        auto found = signals::wide_speed(samples, per_mesh, record_.path_meshes());
         if (found && !found->fits() && !found->contradicts()) {
             // A phase of pulses that are too coarse for their shaft smears the lines.
             const double mean =
                 static_cast<double>(phase_.size() - 1) / (phase_.back() - phase_.front());
-            const auto untracked = signals::mesh_speed(sensor_, mean, record_.path_meshes());
+            const auto untracked = signals::wide_speed(sensor_, mean, record_.path_meshes());
             found = untracked && untracked->contradicts() ? untracked : found;
         }
-        if (!found || found->fits()) {
+        constexpr double kNear = 0.06;
+        if (!found || found->fits() || std::abs(found->ratio - 1.0) <= kNear) {
             return 1.0;
         }
         if (!found->contradicts()) {
             measured.notes.push_back(no_lines_text(*found, samples, per_mesh, measured.tracking));
             return 1.0;
         }
-        // harmonics; with fewer, a ratio that is off by one tooth fits as well
-        constexpr int kEnough = 4;
+        constexpr int kEnough = 4;  // harmonics
+        constexpr double kClearFit = 0.5, kClearlyLess = 0.25;
         const bool clear = found->other == 0.0 && found->harmonics >= kEnough;
         const std::string lines =
-            fmt::format("the mesh lines fit {:.4f}{} times the stated speed ({}{})", found->ratio,
-                        found->other > 0.0 ? fmt::format(" or {:.4f}", found->other) : "",
-                        measured.tracking, measured_speed_text());
+            lines_text(found->ratio, found->other, measured) +
+            fmt::format(
+                ": they hold {:.0f} % of the lines at that speed, {:.0f} % at the stated "
+                "one; {}",
+                100.0 * found->fit, 100.0 * found->stated,
+                clear ? speed_remedy(found->ratio) : "correct the speed");
+        if (columns_.speed == SpeedCheck::refuse) {
+            if (found->fit < kClearFit || found->stated > kClearlyLess * found->fit) {
+                measured.notes.push_back(lines);
+                return 1.0;
+            }
+            reject(lines);
+        } else if (!clear) {
+            reject(lines);
+        }
+        return found->ratio;
+    }
+
+    std::string lines_text(double ratio, double other, const MeasuredSignal& measured) const {
+        return fmt::format("the mesh lines fit {:.4f}{} times the stated speed ({}{})", ratio,
+                           other > 0.0 ? fmt::format(" or {:.4f}", other) : "", measured.tracking,
+                           measured_speed_text());
+    }
+
+    // The same near the stated speed, of signals on the study's grid.
+    double near_speed(const MeasuredSignal& measured) {
+        if (columns_.speed == SpeedCheck::ignore || !measured.has_sensor) {
+            return 1.0;
+        }
+        const auto found =
+            signals::mesh_speed(measured.sensor, record_.samples, record_.path_meshes());
+        constexpr double kClearly = 0.5;  // relative to the best fit
+        // harmonics; with fewer, a ratio that is off by one tooth fits as well
+        constexpr int kEnough = 4;
+        if (!found || found->stated > kClearly * found->fit) {
+            return 1.0;
+        }
+        const std::string lines = lines_text(found->ratio, found->other, measured);
         if (columns_.speed == SpeedCheck::refuse) {
             reject(fmt::format(
-                "{}: they hold {:.0f} % of the lines at that speed, {:.0f} % at the stated one; {}",
-                lines, 100.0 * found->fit, 100.0 * found->stated,
-                clear ? speed_remedy(found->ratio) : "correct the speed"));
-        } else if (!clear) {
+                "{}: they hold {:.0f} % of the amplitudes at that speed, {:.0f} % at the stated "
+                "one; {}",
+                lines, 100.0 * found->fit, 100.0 * found->stated, speed_remedy(found->ratio)));
+        } else if (found->other > 0.0 || found->harmonics < kEnough) {
             reject(lines + ", but they are too few to determine the speed; correct it");
         }
         return found->ratio;
@@ -395,13 +439,13 @@ class SignalReader : SignalsReader {
     }
 
     // Reason why the mesh lines show no constant speed.
-    std::string no_lines_text(const signals::MeshSpeed& found, std::span<const double> samples,
+    std::string no_lines_text(const signals::WideSpeed& found, std::span<const double> samples,
                               double per_mesh, const std::string& tracking) const {
         constexpr std::size_t kParts = 8;
         const std::size_t length = samples.size() / kParts;
         std::vector<double> ratios;
         for (std::size_t part = 0; part < kParts; ++part) {
-            const auto in_part = signals::mesh_speed(samples.subspan(part * length, length),
+            const auto in_part = signals::wide_speed(samples.subspan(part * length, length),
                                                      per_mesh, record_.path_meshes());
             if (in_part && in_part->fit > 0.4 && in_part->harmonics >= 2) {
                 ratios.push_back(in_part->ratio);

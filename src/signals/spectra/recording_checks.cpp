@@ -1,10 +1,9 @@
 #include "signals/spectra/recording_checks.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <functional>
 #include <numbers>
+#include <set>
 #include <vector>
 
 #include "machine/upper_median.hpp"
@@ -13,19 +12,66 @@
 namespace gearpod::signals {
 namespace {
 
-constexpr double kLeastRatio = 0.19, kLargestRatio = 5.3;  // of the searched speeds
-constexpr int kMostHarmonics = 8;                          // of a mesh that are compared
-constexpr double kLineSpread = 4.0;      // of the lines around a harmonic, in turn frequencies
-constexpr double kLargestSpread = 0.05;  // the same, in mesh frequencies
+constexpr double kMaxRatioDeviation = 0.06;  // largest deviation of the ratio from 1
+constexpr int kMostHarmonics = 8;            // beyond, the search bands of neighbours overlap
+constexpr double kMinPeakToMedian = 5.0;     // amplitude over the median of its band
+constexpr double kLineSpread = 4.0;          // of the lines around a harmonic, in turn frequencies
+constexpr double kMinFit = 0.3;          // smallest accepted fraction of the amplitudes on the comb
 constexpr double kComparableFit = 0.85;  // fraction of the best fit
-constexpr std::size_t kMostLines = 80;   // strongest lines that are compared
 
 struct Line {
-    double order;   // per mesh
-    double weight;  // logarithm of its power over the noise
+    double order;  // per mesh
+    double amplitude;
+    int harmonic;
 };
 
-// Largest even length up to `most` with no prime factors other than 2, 3 and 5.
+std::vector<Line> strong_lines(const std::vector<double>& amplitude, double meshes) {
+    std::vector<Line> lines;
+    for (int k = 1; k <= kMostHarmonics; ++k) {
+        const auto first =
+            static_cast<std::size_t>(std::ceil(k * (1.0 - kMaxRatioDeviation) * meshes));
+        const auto last =
+            static_cast<std::size_t>(std::floor(k * (1.0 + kMaxRatioDeviation) * meshes));
+        if (last + 1 >= amplitude.size()) {
+            break;
+        }
+        std::vector<double> band(amplitude.begin() + static_cast<std::ptrdiff_t>(first),
+                                 amplitude.begin() + static_cast<std::ptrdiff_t>(last) + 1);
+        const auto middle = band.begin() + static_cast<std::ptrdiff_t>(band.size() / 2);
+        std::nth_element(band.begin(), middle, band.end());
+        double most = 0.0;
+        for (std::size_t bin = first; bin <= last; ++bin) {
+            most = std::max(most, amplitude[bin]);
+        }
+        // Threshold above the noise and above the skirts of stronger lines.
+        const double least = std::max(kMinPeakToMedian * *middle, 0.05 * most);
+        for (std::size_t bin = first; bin <= last; ++bin) {
+            if (amplitude[bin] > least && amplitude[bin] >= amplitude[bin - 1] &&
+                amplitude[bin] >= amplitude[bin + 1]) {
+                // Amplitudes are normalised so that every harmonic counts equally, whatever its
+                // strength.
+                lines.push_back({static_cast<double>(bin) / meshes, amplitude[bin] / most, k});
+            }
+        }
+    }
+    return lines;
+}
+
+// Fraction of the amplitudes that the comb stretched by `ratio` covers.
+double fit_of(const std::vector<Line>& lines, double ratio, int turn_meshes, double width) {
+    double on = 0.0, all = 0.0;
+    for (const Line& line : lines) {
+        const double offset = (line.order / ratio - line.harmonic) * turn_meshes;
+        const double from_tooth = std::abs(offset - std::round(offset)) / width;
+        const double near = std::exp(-0.5 * std::pow(offset / kLineSpread, 2));
+        on += line.amplitude * near * std::max(0.0, 1.0 - from_tooth);
+        all += line.amplitude;
+    }
+    return on / all;
+}
+
+}  // namespace
+
 int fast_length(int most) {
     for (int n = most; n > 1; --n) {
         int rest = n;
@@ -41,144 +87,44 @@ int fast_length(int most) {
     return 0;
 }
 
-// Lines above the noise, which is the median of the amplitudes around them. In Gaussian noise a
-// spectrum has a peak above this limit in one of twenty recordings.
-std::vector<Line> strong_lines(const std::vector<double>& amplitude, double meshes) {
-    constexpr std::size_t kBands = 8, kNarrowest = 40;
-    constexpr double kOfLargest = 0.02;  // smaller peaks may be skirts of stronger lines
-    constexpr double kLargestWeight = 8.0;
-    const double limit = std::log(static_cast<double>(amplitude.size())) + 3.0;
-    const std::size_t width = std::max(kNarrowest, amplitude.size() / kBands), hop = width / 4;
-    std::vector<Line> lines;
-    for (std::size_t begin = 2; begin + 1 < amplitude.size(); begin += hop) {
-        const std::size_t end = std::min(begin + hop, amplitude.size() - 1);
-        const std::size_t middle = begin + hop / 2;
-        const std::size_t from = std::min(middle > width / 2 ? middle - width / 2 : 0,
-                                          amplitude.size() > width ? amplitude.size() - width : 0);
-        const std::vector<double> band(amplitude.begin() + static_cast<std::ptrdiff_t>(from),
-                                       amplitude.begin() + static_cast<std::ptrdiff_t>(std::min(
-                                                               from + width, amplitude.size())));
-        const double least =
-            std::max(machine::upper_median(band) * std::sqrt(limit / std::numbers::ln2),
-                     kOfLargest * *std::ranges::max_element(band));
-        for (std::size_t bin = begin; bin < end; ++bin) {
-            const double here = amplitude[bin], below = amplitude[bin - 1],
-                         above = amplitude[bin + 1];
-            if (here > least && here >= below && here > above) {
-                const double bend = below - 2.0 * here + above;
-                const double part = bend < 0.0 ? 0.5 * (below - above) / bend : 0.0;
-                lines.push_back(
-                    {(static_cast<double>(bin) + part) / meshes,
-                     std::min(kLargestWeight, 2.0 * std::log(here / least) + std::log(limit))});
-            }
-        }
-    }
-    std::ranges::sort(lines, std::greater<>(), &Line::weight);
-    lines.resize(std::min(lines.size(), kMostLines));
-    return lines;
-}
-
-// Compares lines with the comb of a mesh.
-class Comb {
-  public:
-    Comb(const std::vector<Line>& lines, double largest_order, double meshes, int turn_meshes)
-        : lines_(lines), largest_order_(largest_order), meshes_(meshes), teeth_(turn_meshes) {
-        for (const Line& line : lines) {
-            all_ += line.weight;
-        }
-    }
-
-    // Fraction of the lines' weights that the comb stretched by `ratio` covers, times the fraction
-    // of the comb's harmonics that have lines. `harmonics`: their number.
-    double fit(double ratio, int* harmonics = nullptr) const {
-        constexpr double kFewestTurns = 3.0;  // that separate the teeth of the comb
-        const double turns = meshes_ * ratio / teeth_;
-        const bool teeth = teeth_ > 1 && turns >= kFewestTurns;
-        const double width = teeth ? std::min(0.33, 1.5 / turns) : 0.0;
-        const double spread = std::max(
-            teeth_ > 1 ? std::min(kLineSpread / teeth_, kLargestSpread) : 0.4 * kLargestSpread,
-            1.0 / (meshes_ * ratio));
-        std::array<double, kMostHarmonics + 1> of_harmonic{};
-        double on = 0.0;
-        for (const Line& line : lines_) {
-            const double order = line.order / ratio, harmonic = std::max(1.0, std::round(order));
-            const double offset = order - harmonic;
-            if (std::abs(offset) > 3.0 * spread) {
-                continue;
-            }
-            double covered = line.weight * std::exp(-0.5 * std::pow(offset / spread, 2));
-            if (teeth) {
-                const double in_teeth = offset * teeth_;
-                covered *= std::max(0.0, 1.0 - std::abs(in_teeth - std::round(in_teeth)) / width);
-            }
-            on += covered;
-            if (harmonic <= kMostHarmonics) {
-                double& most = of_harmonic[static_cast<std::size_t>(harmonic)];
-                most = std::max(most, covered);
-            }
-        }
-        const double least = 0.1 * *std::ranges::max_element(of_harmonic);
-        int present = 0, highest = 1;
-        for (int k = 1; k <= kMostHarmonics && k * ratio < largest_order_; ++k) {
-            if (of_harmonic[static_cast<std::size_t>(k)] > least) {
-                ++present;
-                highest = k;
-            }
-        }
-        if (harmonics != nullptr) {
-            *harmonics = present;
-        }
-        return all_ > 0.0 ? on / all_ * present / highest : 0.0;
-    }
-
-  private:
-    const std::vector<Line>& lines_;
-    double largest_order_, meshes_, all_ = 0.0;
-    int teeth_;
-};
-
-}  // namespace
-
-std::optional<MeshSpeed> mesh_speed(std::span<const double> samples, double per_mesh,
+std::optional<MeshSpeed> mesh_speed(std::span<const double> samples, int per_mesh,
                                     int turn_meshes) {
     constexpr int kMostSamples = 1 << 20;
-    constexpr double kFewestMeshes = 20.0;
+    constexpr int kFewestTurns = 4, kFewestHarmonics = 3;
     const int length = fast_length(static_cast<int>(
         std::min<std::size_t>(samples.size(), static_cast<std::size_t>(kMostSamples))));
     const double meshes = static_cast<double>(length) / per_mesh;
-    if (meshes < kFewestMeshes || per_mesh < 2.0) {
+    const double turns = meshes / turn_meshes;
+    if (turn_meshes < 2 || turns < kFewestTurns) {
         return std::nullopt;
     }
     std::vector<double> windowed(samples.begin(), samples.begin() + length);
-    double mean = 0.0;
-    for (const double value : windowed) {
-        mean += value / length;
-    }
     for (int i = 0; i < length; ++i) {
-        double& value = windowed[static_cast<std::size_t>(i)];
-        value = (value - mean) * (0.5 - 0.5 * std::cos(2.0 * std::numbers::pi * i / length));
+        windowed[static_cast<std::size_t>(i)] *=
+            0.5 - 0.5 * std::cos(2.0 * std::numbers::pi * i / length);
     }
     OrderSpectrum spectrum(length);
     spectrum.load(windowed);
     std::vector<double> amplitude(static_cast<std::size_t>(spectrum.orders()));
     spectrum.amplitudes(0.0, amplitude);
     const std::vector<Line> lines = strong_lines(amplitude, meshes);
-    const Comb comb(lines, 0.5 * per_mesh, meshes, turn_meshes);
-    MeshSpeed best;
-    for (const double part : {-0.25, 0.0, 0.25}) {
-        int harmonics = 0;
-        const double fit = comb.fit(1.0 + part / meshes, &harmonics);
-        if (fit > best.stated) {
-            best.stated = fit;
-            best.harmonics = harmonics;
-        }
+    std::set<int> harmonics;
+    for (const Line& line : lines) {
+        harmonics.insert(line.harmonic);
     }
+    if (harmonics.size() < kFewestHarmonics) {
+        return std::nullopt;
+    }
+    // Each comb tooth is 1.5 bins wide, at most a third of the distance to the next one.
+    const double width = std::min(0.33, 1.5 / turns);
+    const double step = 0.25 / (meshes * *harmonics.rbegin());
+    MeshSpeed best{1.0, 0.0, fit_of(lines, 1.0, turn_meshes, width)};
     best.fit = best.stated;
-    best.lines = static_cast<int>(lines.size());
-    const double step = 0.25 / (meshes * kMostHarmonics);
+    best.harmonics = static_cast<int>(harmonics.size());
     const auto scan_ratios = [&](const auto& use) {
-        for (double ratio = kLeastRatio; ratio <= kLargestRatio; ratio += step * ratio) {
-            use(ratio, comb.fit(ratio));
+        for (double ratio = 1.0 - kMaxRatioDeviation; ratio <= 1.0 + kMaxRatioDeviation;
+             ratio += step) {
+            use(ratio, fit_of(lines, ratio, turn_meshes, width));
         }
     };
     scan_ratios([&](double ratio, double fit) {
@@ -187,16 +133,14 @@ std::optional<MeshSpeed> mesh_speed(std::span<const double> samples, double per_
             best.fit = fit;
         }
     });
-    comb.fit(best.ratio, &best.harmonics);
     double best_other_fit = kComparableFit * best.fit;
     scan_ratios([&](double ratio, double fit) {
-        if (fit > best_other_fit &&
-            std::abs(ratio / best.ratio - 1.0) > 0.5 / std::max(turn_meshes, 10)) {
+        if (fit > best_other_fit && std::abs(ratio - best.ratio) * turn_meshes > 0.5) {
             best.other = ratio;
             best_other_fit = fit;
         }
     });
-    return best;
+    return best.fit > kMinFit ? std::optional(best) : std::nullopt;
 }
 
 namespace {

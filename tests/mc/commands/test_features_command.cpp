@@ -69,6 +69,7 @@ TEST_CASE("A simulated signal read from a file has the features of the simulatio
     variables.emplace_back("sampling_Hz", std::vector{rate});
     write_mat(folder.file("rate.mat"), variables, true);
     const std::string noisy = " --sensor sensor_noise_1 --noise-level 1";
+    std::map<std::string, double> first;
     for (const std::string& file :
          {folder.file("s.h5"), folder.file("phase.csv"), folder.file("time.csv"),
           folder.file("rate.mat"),
@@ -82,7 +83,11 @@ TEST_CASE("A simulated signal read from a file has the features of the simulatio
             // The exported transmission error is the noise-free one.
             const std::size_t level = feature.from_sensor ? 1 : 0;
             const double was = read_columns(folder.file("s.h5"), "features", {name})[0][level];
-            CHECK(std::abs(result["features"][name].get<double>() - was) <= 1e-9 * std::abs(was));
+            const double value = result["features"][name].get<double>();
+            const double same = first.try_emplace(name, value).first->second;
+            CHECK(std::abs(value - same) <= 1e-9 * std::abs(same));
+            // The mean of this simulated signal is 7e-4 of its rms. That of a recording is removed.
+            CHECK(std::abs(value - was) <= (level == 1 ? 2e-3 : 1e-9) * std::abs(was));
         }
     }
 }

@@ -52,7 +52,8 @@ TEST_CASE("A measured baseline gives the result of the simulated one, for any st
     CHECK(json["baseline"]["correlation"].get<double>() > 0.5);
     for (const char* name : {"window_ratio", "own_window_ratio", "own_sensor_rms"}) {
         INFO(name);
-        CHECK(json["features"][name].get<double>() == Approx(of_run(name)).epsilon(1e-6));
+        // The run keeps the mean of its signal; that of a recording is removed.
+        CHECK(json["features"][name].get<double>() == Approx(of_run(name)).epsilon(1e-4));
     }
     // The fault itself changes the best shift by some thousandths of a sample.
     CHECK(json["features"]["change_sensor_rms"].get<double>() ==
