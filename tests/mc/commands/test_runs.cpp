@@ -74,9 +74,9 @@ TEST_CASE("One to four ranks, one or two threads, one lane, four or eight: the s
     const std::string out = folder.file("r.h5");
     for (const int ranks : {1, 2, 3, 4}) {
         const std::string threads = " --set numerics.threads=" + std::to_string(1 + ranks % 2);
-        check_mentions(
-            require_success(shell(mpirun(ranks) + GEARPOD_PROGRAM + " " + run_of(out) + threads)),
-            {"(" + std::to_string(ranks) + (ranks == 1 ? " rank," : " ranks,")});
+        const Outcome run =
+            require_success(shell(mpirun(ranks) + GEARPOD_PROGRAM + " " + run_of(out) + threads));
+        CHECK(run.mentions(" in " + std::to_string(ranks) + " ranks") == (ranks > 1));
         CHECK(bits(out) == reference());
         fs::remove(out);
     }
