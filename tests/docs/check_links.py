@@ -39,6 +39,8 @@ def broken_sources(sources):
 def missing_tests(sources):
     """Tests that the table of promises names and the sources lack."""
     page = sources / "docs/developer/testing.md"
+    if not (sources / "tests").exists():  # installed
+        return
     for path, titles in re.findall(r"`([^`]+\.cpp)`((?:[:,] \"[^\"]+\")*)",
                                    page.read_text(encoding="utf-8").split("## Promises")[1]
                                    .split("## ")[0]):

@@ -100,7 +100,7 @@ TEST_CASE("Without any damping no gearbox converges, and none hangs or counts as
                     "numerics.max_meshes=50"}));
     INFO(outcome.output);
     CHECK(outcome.code == 3);
-    CHECK(outcome.mentions("16 of 16 failed"));
+    CHECK(outcome.mentions("16 of 16 gearboxes failed"));
     const mc::Results r = mc::read_results(folder.file("r.h5"));
     for (const auto& feature : r.features) {
         for (const double value : feature.values) {
@@ -152,7 +152,7 @@ TEST_CASE("A gearbox above a critical speed is reported as such") {
     const Outcome outcome = run_program(test::study("planet-crack-ideal.toml"), folder, overrides);
     INFO(outcome.output);
     CHECK(outcome.code == 3);
-    CHECK(outcome.mentions("16 of 16 failed"));
+    CHECK(outcome.mentions("16 of 16 gearboxes failed"));
     CHECK(outcome.mentions("16 of them: each is unstable: above a critical speed"));
     const Outcome one = program("simulate " + test::study("planet-crack-ideal.toml") +
                                 on_command_line(overrides) + " --instance 12");

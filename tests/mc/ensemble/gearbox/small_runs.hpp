@@ -94,6 +94,9 @@ inline void check_same_features(const mc::Results& a, const mc::Results& b) {
     }
 }
 
+// Relative change of features by the mean of a simulated signal, which `features` removes.
+inline constexpr double kMean = 5e-4;
+
 // Output of `features` for the exported samples of gearbox 25 of such a run, which has 455 mesh
 // periods.
 inline Outcome features_of_export(const Folder& folder, const std::string& sensor,

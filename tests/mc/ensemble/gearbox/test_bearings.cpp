@@ -83,7 +83,7 @@ TEST_CASE("A bearing in the background is added to the sensor's signal") {
     for (const char* name : {"sensor_rms", "window_ratio", "fm4", "kurtogram_peak"}) {
         INFO(name << "\n" << with.output << measured.output);
         CHECK(printed_value(with, name) != 0.0);
-        CHECK(printed_value(with, name) == Approx(printed_value(measured, name)).epsilon(1e-5));
+        CHECK(printed_value(with, name) == Approx(printed_value(measured, name)).epsilon(kMean));
     }
     simulate("quiet.csv", inner_ring("background") + "--set sensor.bearing_level=0");
     CHECK(bytes_of(folder.file("without.csv")) == bytes_of(folder.file("quiet.csv")));
