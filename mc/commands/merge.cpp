@@ -210,7 +210,7 @@ int merge_command(const MergeOptions& options) {
     const bool existed = Checkpoint::exists(temporary);
     std::unique_ptr<Checkpoint> checkpoint;
     try {
-        // What a killed merge or run of this study left has the same rows.
+        // The rows that a killed merge or run of this study left are the same.
         checkpoint = open_checkpoint(
             made.scene->ensemble(), made.scene->ensemble().shape, merge.whole(), options.out,
             {.resume = existed, .force = options.force, .quiet = options.quiet});

@@ -446,7 +446,6 @@ class SignalHdf5 : public NamedColumns {
                    : "";
     }
 
-    // Values of a signal, of a matrix column, or of a row.
     // Reason why the values of a dataset cannot be read: a filter that HDF5 lacks, or damage.
     std::string missing_filter(const Dataset& dataset) const {
         const Hdf5Handle opened = open_dataset(file_.get(), dataset.path);
@@ -470,6 +469,7 @@ class SignalHdf5 : public NamedColumns {
         return "cannot be read";
     }
 
+    // Values of a signal, of a matrix column, or of a row.
     std::vector<double> stored_values(const std::string& name) const {
         const MatrixColumn part = part_named(name);
         const Dataset& dataset = inspected(part.matrix);

@@ -350,7 +350,7 @@ std::string faults(const Findings& findings) {
     return findings.fault.starts_with("a ") ? findings.fault_name() + "s" : findings.fault_name();
 }
 
-// What the best feature finds where 90 % probability is not shown.
+// States the detection rate of the best feature where 90 % probability is not shown.
 std::string best_text(const Findings& findings, std::size_t f, std::size_t level) {
     const LevelDetection& detected = findings.detection[f].levels[level];
     const FoundSizes all = sizes_without_miss(detected);

@@ -7,6 +7,7 @@
 #include <cstdlib>
 #include <iterator>
 
+#include "analysis/detection/detection.hpp"
 #include "analysis/report/false_alarm_text.hpp"
 #include "mc/files/input/terminal_text.hpp"
 #include "mc/numerics/numerics_choice.hpp"
@@ -174,9 +175,9 @@ std::string varied_depth(double deepest_m) {
 }
 
 std::string output_sections() {
-    // As many as show 90 % at 95 % confidence at each of the depths, in whole batches.
+    // Enough gearboxes to show 90 % at 95 % confidence at each of the depths, in whole batches.
     constexpr long kDepths = 7, kBatch = 16;
-    const long needed = kDepths * analysis::tests_to_show(0.9, 0.95);
+    const long needed = kDepths * analysis::tests_to_show(analysis::kReliablePd, 0.95);
     return "\n[features]\n"
            "use = [\"te_kurtosis\", \"sensor_rms\", \"window_ratio\", \"window_z\", "
            "\"own_window_ratio\", \"change_window_ratio\"]\n"

@@ -72,42 +72,46 @@ double fit_of(const std::vector<Line>& lines, double ratio, int turn_meshes, dou
 
 }  // namespace
 
-int fast_length(int most) {
-    for (int n = most; n > 1; --n) {
-        int rest = n;
-        for (const int prime : {2, 3, 5}) {
+std::span<const double> fast_part(std::span<const double> samples) {
+    constexpr std::size_t kMostSamples = std::size_t{1} << 20;
+    for (std::size_t n = std::min(samples.size(), kMostSamples); n > 1; --n) {
+        std::size_t rest = n;
+        for (const std::size_t prime : {2U, 3U, 5U}) {
             while (rest % prime == 0) {
                 rest /= prime;
             }
         }
         if (rest == 1 && n % 2 == 0) {
-            return n;
+            return samples.first(n);
         }
     }
-    return 0;
+    return {};
 }
 
-std::optional<MeshSpeed> mesh_speed(std::span<const double> samples, int per_mesh,
-                                    int turn_meshes) {
-    constexpr int kMostSamples = 1 << 20;
-    constexpr int kFewestTurns = 4, kFewestHarmonics = 3;
-    const int length = fast_length(static_cast<int>(
-        std::min<std::size_t>(samples.size(), static_cast<std::size_t>(kMostSamples))));
-    const double meshes = static_cast<double>(length) / per_mesh;
-    const double turns = meshes / turn_meshes;
-    if (turn_meshes < 2 || turns < kFewestTurns) {
-        return std::nullopt;
-    }
-    std::vector<double> windowed(samples.begin(), samples.begin() + length);
+std::vector<double> hann_amplitudes(std::span<const double> samples, double mean) {
+    const auto length = static_cast<int>(samples.size());
+    std::vector<double> windowed;
     for (int i = 0; i < length; ++i) {
-        windowed[static_cast<std::size_t>(i)] *=
-            0.5 - 0.5 * std::cos(2.0 * std::numbers::pi * i / length);
+        windowed.push_back((samples[static_cast<std::size_t>(i)] - mean) *
+                           (0.5 - 0.5 * std::cos(2.0 * std::numbers::pi * i / length)));
     }
     OrderSpectrum spectrum(length);
     spectrum.load(windowed);
     std::vector<double> amplitude(static_cast<std::size_t>(spectrum.orders()));
     spectrum.amplitudes(0.0, amplitude);
-    const std::vector<Line> lines = strong_lines(amplitude, meshes);
+    return amplitude;
+}
+
+std::optional<MeshSpeed> mesh_speed(std::span<const double> samples, int per_mesh,
+                                    int turn_meshes) {
+    constexpr int kFewestTurns = 4, kFewestHarmonics = 3;
+    samples = fast_part(samples);
+    const double meshes = static_cast<double>(samples.size()) / per_mesh;
+    const double turns = meshes / turn_meshes;
+    if (turn_meshes < 2 || turns < kFewestTurns) {
+        return std::nullopt;
+    }
+    const std::vector<Line> lines = strong_lines(hann_amplitudes(samples, 0.0), meshes);
     std::set<int> harmonics;
     for (const Line& line : lines) {
         harmonics.insert(line.harmonic);

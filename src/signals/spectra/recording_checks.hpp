@@ -12,6 +12,7 @@
 
 #include <optional>
 #include <span>
+#include <vector>
 
 namespace gearpod::signals {
 
@@ -23,8 +24,12 @@ struct MeshSpeed {
     int harmonics = 0;    // number of mesh harmonics with lines
 };
 
-// Largest even length up to `most` with no prime factors other than 2, 3 and 5.
-int fast_length(int most);
+// The first samples, at most 2^20, of the largest even number with no prime factors other than 2, 3
+// and 5: the Fourier transform of so many is fast.
+std::span<const double> fast_part(std::span<const double> samples);
+
+// Amplitudes by order of samples less their `mean` in a Hann window; an even number of samples.
+std::vector<double> hann_amplitudes(std::span<const double> samples, double mean);
 
 // `samples` are evenly spaced in mesh phase, `per_mesh` per mesh period; `turn_meshes` is the
 // number of mesh periods of a turn. Searches ratios from 0.94 to 1.06. Empty if the data do not

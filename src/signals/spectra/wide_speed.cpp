@@ -5,10 +5,10 @@
 #include <cmath>
 #include <functional>
 #include <numbers>
+#include <utility>
 #include <vector>
 
 #include "machine/upper_median.hpp"
-#include "signals/spectra/order_spectrum.hpp"
 #include "signals/spectra/recording_checks.hpp"
 
 namespace gearpod::signals {
@@ -126,28 +126,18 @@ class Comb {
 
 std::optional<WideSpeed> wide_speed(std::span<const double> samples, double per_mesh,
                                     int turn_meshes) {
-    constexpr int kMostSamples = 1 << 20;
     constexpr double kFewestMeshes = 20.0;
-    const int length = fast_length(static_cast<int>(
-        std::min<std::size_t>(samples.size(), static_cast<std::size_t>(kMostSamples))));
-    const double meshes = static_cast<double>(length) / per_mesh;
+    samples = fast_part(samples);
+    const auto length = static_cast<double>(samples.size());
+    const double meshes = length / per_mesh;
     if (meshes < kFewestMeshes || per_mesh < 2.0) {
         return std::nullopt;
     }
-    std::vector<double> windowed(samples.begin(), samples.begin() + length);
     double mean = 0.0;
-    for (const double value : windowed) {
+    for (const double value : samples) {
         mean += value / length;
     }
-    for (int i = 0; i < length; ++i) {
-        double& value = windowed[static_cast<std::size_t>(i)];
-        value = (value - mean) * (0.5 - 0.5 * std::cos(2.0 * std::numbers::pi * i / length));
-    }
-    OrderSpectrum spectrum(length);
-    spectrum.load(windowed);
-    std::vector<double> amplitude(static_cast<std::size_t>(spectrum.orders()));
-    spectrum.amplitudes(0.0, amplitude);
-    const std::vector<WideLine> lines = strongest_lines(amplitude, meshes);
+    const std::vector<WideLine> lines = strongest_lines(hann_amplitudes(samples, mean), meshes);
     const Comb comb(lines, 0.5 * per_mesh, meshes, turn_meshes);
     WideSpeed best;
     for (const double part : {-0.25, 0.0, 0.25}) {
@@ -161,26 +151,25 @@ std::optional<WideSpeed> wide_speed(std::span<const double> samples, double per_
     best.fit = best.stated;
     best.lines = static_cast<int>(lines.size());
     const double step = 0.25 / (meshes * kMostWideHarmonics);
-    const auto scan_ratios = [&](const auto& use) {
-        for (double ratio = kLeastRatio; ratio <= kLargestRatio; ratio += step * ratio) {
-            use(ratio, comb.fit(ratio));
-        }
-    };
-    scan_ratios([&](double ratio, double fit) {
+    std::vector<std::pair<double, double>> fits;  // ratio and fit
+    for (double ratio = kLeastRatio; ratio <= kLargestRatio; ratio += step * ratio) {
+        fits.emplace_back(ratio, comb.fit(ratio));
+    }
+    for (const auto& [ratio, fit] : fits) {
         if (fit > best.fit) {
             best.ratio = ratio;
             best.fit = fit;
         }
-    });
+    }
     comb.fit(best.ratio, &best.harmonics);
     double best_other_fit = kComparableWideFit * best.fit;
-    scan_ratios([&](double ratio, double fit) {
+    for (const auto& [ratio, fit] : fits) {
         if (fit > best_other_fit &&
             std::abs(ratio / best.ratio - 1.0) > 0.5 / std::max(turn_meshes, 10)) {
             best.other = ratio;
             best_other_fit = fit;
         }
-    });
+    }
     return best;
 }
 

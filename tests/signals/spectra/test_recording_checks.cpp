@@ -68,7 +68,8 @@ TEST_CASE("Where three harmonics leave the mesh line ambiguous, both ratios are 
                       [](double ratio) { return std::abs(ratio - 1.02) < 2e-3; }));
 }
 
-TEST_CASE("Noise, a single tone and short records give no speed") {
+// Signals without mesh lines, of 400 mesh periods.
+std::pair<std::vector<double>, std::vector<double>> noise_and_tone() {
     std::mt19937 engine(7);
     std::normal_distribution<double> normal;
     std::vector<double> noise(static_cast<std::size_t>(400) * kPerMesh), tone = noise;
@@ -76,6 +77,11 @@ TEST_CASE("Noise, a single tone and short records give no speed") {
         noise[i] = normal(engine);
         tone[i] = std::sin(0.271 * static_cast<double>(i)) + 0.01 * noise[i];
     }
+    return {noise, tone};
+}
+
+TEST_CASE("Noise, a single tone and short records give no speed") {
+    const auto [noise, tone] = noise_and_tone();
     CHECK_FALSE(mesh_speed(noise, kPerMesh, 40));
     CHECK_FALSE(mesh_speed(tone, kPerMesh, 40));
     CHECK_FALSE(mesh_speed(gearbox(40, 3, 1.02, 0.1, 100, 1), kPerMesh, 40));
@@ -106,13 +112,7 @@ TEST_CASE(
 }
 
 TEST_CASE("Noise and a single tone fit no speed") {
-    std::mt19937 engine(7);
-    std::normal_distribution<double> normal;
-    std::vector<double> noise(static_cast<std::size_t>(400) * kPerMesh), tone = noise;
-    for (std::size_t i = 0; i < noise.size(); ++i) {
-        noise[i] = normal(engine);
-        tone[i] = std::sin(0.271 * static_cast<double>(i)) + 0.01 * noise[i];
-    }
+    const auto [noise, tone] = noise_and_tone();
     for (const auto& samples : {noise, tone}) {
         const auto found = wide_speed(samples, kPerMesh, 40);
         REQUIRE(found);
