@@ -389,17 +389,9 @@ constexpr double kFirstBytesOfValue = 40.0, kBytesOfValue = 22.0, kBytesBeyond =
 // value of its columns (result_rows.hpp), which grow by doubling.
 constexpr double kBytesOfRecord = 60.0, kBytesOfColumns = 16.0;
 
-// Noise levels in order of their distance from the middle one.
-std::vector<std::size_t> level_order(std::size_t levels) {
-    std::vector<std::size_t> order(levels);
-    std::iota(order.begin(), order.end(), std::size_t{0});
-    const auto middle = static_cast<double>(levels / 2);
-    std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
-        return std::abs(static_cast<double>(a) - middle) <
-               std::abs(static_cast<double>(b) - middle);
-    });
-    return order;
-}
+// Processor seconds for thresholds, rates, areas and POD: start, and each value. Measured with
+// 4,200 to 192,500 values, and with 40 million (docs/validation/performance.md).
+constexpr double kAnalysis_s = 0.3, kValue_s = 9e-6;
 
 // Number of gearboxes, on which areas and curves are based, independent of the number of records.
 std::size_t gearboxes_of(const BatchPlan& plan) {
@@ -410,54 +402,10 @@ std::size_t values_of(const RowShape& shape, const BatchPlan& plan) {
     return gearboxes_of(plan) * shape.features * shape.levels;
 }
 
-double seconds_of_analysis(Results results, int threads, bool assessed) {
-    const auto start = WallClock::now();
-    results.detection = detect_all(results);
-    if (assessed) {
-        reliability_of(results, ColumnRows(results), "", threads);
-    }
-    return seconds_since(start);
-}
-
 }  // namespace
 
-Results repeated_results(const EnsemblePlan& ensemble, const RunCost& calibration,
-                         const BatchPlan& plan, std::size_t rows,
-                         const std::vector<std::size_t>& levels) {
-    const RowShape& shape = ensemble.shape;
-    Results results = results_frame(ensemble);
-    results.request.threshold_records = 1;
-    results.noise_levels.clear();
-    for (const std::size_t level : levels) {
-        results.noise_levels.push_back(ensemble.request.noise_levels[level]);
-    }
-    results.request.noise_levels = results.noise_levels;
-    results.contact_loss.clear();  // not part of the analysis
-    results.variants.clear();
-
-    std::array<std::vector<std::size_t>, 2> computed;
-    for (std::size_t row = 0; row < calibration.gearboxes.size(); ++row) {
-        computed[index_of(calibration.gearboxes[row].group)].push_back(row);
-    }
-    for (std::size_t i = 0; i < rows; ++i) {
-        const bool test = i * gearboxes_of(plan) / rows >= plan.threshold_gearboxes();
-        const std::vector<std::size_t>& of_group = computed[test ? 1 : 0];
-        const std::vector<std::size_t>& found =
-            of_group.empty() ? computed[test ? 0 : 1] : of_group;
-        const std::size_t row = found[i % found.size()];
-        const double* const values = calibration.rows.values.data() + row * shape.values();
-        results.group.push_back(test ? 1 : 0);
-        results.status.push_back(calibration.rows.status[row]);
-        for (std::size_t p = 0; p < shape.parameters; ++p) {
-            results.parameters[p].values.push_back(values[p]);
-        }
-        for (std::size_t f = 0; f < shape.features; ++f) {
-            for (const std::size_t level : levels) {
-                results.features[f].values.push_back(values[shape.value_of(f, level)]);
-            }
-        }
-    }
-    return results;
+double analysis_s(const RowShape& shape, const BatchPlan& plan, int threads) {
+    return kAnalysis_s + kValue_s * static_cast<double>(values_of(shape, plan)) / threads;
 }
 
 double assessment_bytes(const RowShape& shape, const BatchPlan& plan) {
@@ -478,34 +426,6 @@ double assessment_bytes(const RowShape& shape, const BatchPlan& plan) {
     const double at_once = std::max(64e6 / 8.0, static_cast<double>(of_feature));
     return std::max(gearboxes,
                     kBytesOfColumns * at_once + kBytesOfRecord * static_cast<double>(plan.rows()));
-}
-
-AnalysisTrial measure_analysis(const EnsemblePlan& ensemble, const RunCost& calibration,
-                               const BatchPlan& plan, int threads, double budget_s) {
-    AnalysisTrial trial;
-    const std::size_t levels = ensemble.shape.levels;
-    const bool assessed = values_of(ensemble.shape, plan) <= kMostAssessedValues;
-    trial.bytes = assessment_bytes(ensemble.shape, plan);
-    if (calibration.gearboxes.empty()) {
-        return trial;
-    }
-    trial.rows = std::min(gearboxes_of(plan), kTrialRows);
-    const std::vector<std::size_t> order = level_order(levels);
-    const auto start = WallClock::now();
-    while (trial.levels < levels && (trial.levels == 0 || trial.trial_s < budget_s)) {
-        const auto first = order.begin() + static_cast<std::ptrdiff_t>(trial.levels);
-        const auto count =
-            std::min(levels - trial.levels, static_cast<std::size_t>(std::max(1, threads)));
-        std::vector<std::size_t> now(first, first + static_cast<std::ptrdiff_t>(count));
-        std::sort(now.begin(), now.end());
-        trial.total_s += seconds_of_analysis(
-            repeated_results(ensemble, calibration, plan, trial.rows, now), threads, assessed);
-        trial.levels += count;
-        trial.trial_s = seconds_since(start);
-    }
-    trial.total_s *= static_cast<double>(levels) / static_cast<double>(trial.levels) *
-                     static_cast<double>(gearboxes_of(plan)) / static_cast<double>(trial.rows);
-    return trial;
 }
 
 namespace {
@@ -625,15 +545,15 @@ double least_memory_bytes(double motion_bytes, const RowShape& shape, const Batc
     return std::max(static_cast<double>(teams) * motion_bytes, assessment_bytes(shape, plan));
 }
 
-RunForecast forecast_run(const RunCost& cost, const BatchPlan& plan, const AnalysisTrial& analysis,
+RunForecast forecast_run(const RunCost& cost, const RowShape& shape, const BatchPlan& plan,
                          double verification_s, double setup_s) {
     RunForecast forecast;
     forecast.setup_s = setup_s + cost.task_s + kFiles_s;
     forecast.gearboxes_s = gearboxes_s(cost, plan, cost.integrations);
     forecast.work = all_work(cost, plan);
-    forecast.detection_s = analysis.total_s + verification_s;
-    forecast.memory_bytes =
-        memory_bytes(cost.memory, cost.integrations, cost.motion_bytes, analysis.bytes);
+    forecast.detection_s = analysis_s(shape, plan, cost.threads) + verification_s;
+    forecast.memory_bytes = memory_bytes(cost.memory, cost.integrations, cost.motion_bytes,
+                                         assessment_bytes(shape, plan));
     return forecast;
 }
 

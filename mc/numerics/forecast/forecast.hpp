@@ -1,5 +1,5 @@
-// Estimates the time and memory of a run, and of the analysis of its results, from a few computed
-// gearboxes.
+// Estimates the time and memory of a run from a few computed gearboxes, and those of the analysis
+// of its results from the number of values.
 #pragma once
 
 #include <array>
@@ -78,27 +78,8 @@ inline constexpr double kLongestTile_s = 5.0;
 RunCost measure_run_cost(const TilePlan& whole, const EnsemblePlan& ensemble,
                          const BatchPlan& batches, int threads, double budget_s);
 
-struct AnalysisTrial {
-    double total_s = 0.0;    // for all gearboxes and noise levels
-    double bytes = 0.0;      // memory
-    double trial_s = 0.0;    // time of the trial itself
-    std::size_t rows = 0;    // gearboxes of the trial
-    std::size_t levels = 0;  // noise levels of the trial
-};
-
-// Results of `rows` gearboxes at the noise levels with indices `levels`: the computed gearboxes of
-// each group, repeated. Detection results are not filled in.
-Results repeated_results(const EnsemblePlan& ensemble, const RunCost& calibration,
-                         const BatchPlan& plan, std::size_t rows,
-                         const std::vector<std::size_t>& levels);
-
-// Runs detection and reliability analysis on repeated results, as `run` does: all features, up to
-// kTrialRows gearboxes, and as many noise levels at once as there are threads, until `budget_s`
-// seconds are over. The rest is extrapolated in proportion.
-AnalysisTrial measure_analysis(const EnsemblePlan& ensemble, const RunCost& calibration,
-                               const BatchPlan& plan, int threads, double budget_s);
-
-inline constexpr std::size_t kTrialRows = 6000;
+// Seconds for thresholds, detection rates and POD of all gearboxes at all noise levels.
+double analysis_s(const RowShape& shape, const BatchPlan& plan, int threads);
 
 // Peak memory for assessing all gearboxes of a run.
 double assessment_bytes(const RowShape& shape, const BatchPlan& plan);
@@ -133,8 +114,8 @@ double verification_s(const Planner& planner, const RunCost& cost);
 double least_memory_bytes(double motion_bytes, const RowShape& shape, const BatchPlan& plan,
                           int threads);
 
-// Forecast of a run. `setup_s`: time for starting the program and setting up the scene. It is an
-RunForecast forecast_run(const RunCost& cost, const BatchPlan& plan, const AnalysisTrial& analysis,
+// Forecast of a run. `setup_s`: time for starting the program and setting up the scene.
+RunForecast forecast_run(const RunCost& cost, const RowShape& shape, const BatchPlan& plan,
                          double verification_s, double setup_s);
 
 }  // namespace gearpod::mc

@@ -133,11 +133,10 @@ IntegrationCounts integrations_of_ranks(const RunCost& cost, const BatchPlan& pl
     return counts;
 }
 
-// Time limit for the trial gearboxes, and again for the trial analysis.
+// Time limit for the trial gearboxes.
 constexpr double kBudget_s = 1.0;
 
-std::string measured_text(const RunCost& calibration, const AnalysisTrial& trial,
-                          std::size_t levels) {
+std::string measured_text(const RunCost& calibration) {
     if (calibration.integration_only) {
         return "the time of one mesh period and the number of mesh periods that the damping "
                "requires, because a batch of gearboxes takes too long";
@@ -150,9 +149,7 @@ std::string measured_text(const RunCost& calibration, const AnalysisTrial& trial
         text +=
             fmt::format(" over {} of {} mesh periods", calibration.recorded, calibration.to_record);
     }
-    return text +
-           fmt::format("; analysis of {} artificial gearboxes, {} of {} noise levels, in {:.1f} s",
-                       trial.rows, trial.levels, levels, trial.trial_s);
+    return text + "; the analysis by its number of values";
 }
 
 // Rows of the gearboxes computed to calibrate the forecast.
@@ -465,8 +462,7 @@ double leader_time_s(double batch_bytes) {
 }
 
 RankForecast forecast_ranks(const RunCost& calibration, const BatchPlan& plan,
-                            const RowShape& shape, const AnalysisTrial& analysis,
-                            const RunForecast& alone, int ranks) {
+                            const RowShape& shape, const RunForecast& alone, int ranks) {
     const IntegrationCounts integrations = integrations_of_ranks(calibration, plan, ranks);
     const double motion = calibration.motion_bytes;
     const auto batches = static_cast<double>(plan.batches());
@@ -491,7 +487,8 @@ RankForecast forecast_ranks(const RunCost& calibration, const BatchPlan& plan,
         gearboxes_s(calibration, plan, calibration.integrations) * calibration.threads;
     forecast.bounding_ranks = thread_s / leading_s / calibration.threads;
     forecast.rank_bytes = memory_bytes(calibration.memory, integrations, motion, 0.0);
-    forecast.leader_bytes = memory_bytes(calibration.memory, integrations, motion, analysis.bytes);
+    forecast.leader_bytes =
+        memory_bytes(calibration.memory, integrations, motion, assessment_bytes(shape, plan));
     return forecast;
 }
 
@@ -552,9 +549,8 @@ void print_forecast(const Scene& scene, const Planner& planner, double setup_s, 
     const BatchPlan plan = ensemble.batches();
     const int threads = thread_count(ensemble);
     const RunCost calibration = measure_run_cost(scene.tile(), ensemble, plan, threads, kBudget_s);
-    const AnalysisTrial trial = measure_analysis(ensemble, calibration, plan, threads, kBudget_s);
-    const RunForecast forecast =
-        forecast_run(calibration, plan, trial, verification_s(planner, calibration), setup_s);
+    const RunForecast forecast = forecast_run(calibration, ensemble.shape, plan,
+                                              verification_s(planner, calibration), setup_s);
     if (!ensemble.meshes.empty()) {
         print_heading("contact");
     }
@@ -577,7 +573,7 @@ void print_forecast(const Scene& scene, const Planner& planner, double setup_s, 
                             "the order of the method");
     }
     print_heading("forecast of a run");
-    print_entry("based on", measured_text(calibration, trial, ensemble.shape.levels));
+    print_entry("based on", measured_text(calibration));
     print_entry("threads", fmt::format("{}, {}", calibration.threads,
                                        machine::name(machine::active_instruction_set())));
     print_entry("set-up", seconds_text(forecast.setup_s));
@@ -588,7 +584,7 @@ void print_forecast(const Scene& scene, const Planner& planner, double setup_s, 
     print_entry("estimated time", seconds_text(forecast.total_s()));
     print_entry("estimated memory", fmt::format("{:.0f} MB", forecast.memory_bytes / 1e6));
     if (ranks > 0) {
-        print_ranks(forecast_ranks(calibration, plan, ensemble.shape, trial, forecast, ranks),
+        print_ranks(forecast_ranks(calibration, plan, ensemble.shape, forecast, ranks),
                     calibration.threads, ranks);
     }
 }

@@ -68,8 +68,7 @@ struct RankForecast {
 };
 
 RankForecast forecast_ranks(const RunCost& calibration, const BatchPlan& plan,
-                            const RowShape& shape, const AnalysisTrial& analysis,
-                            const RunForecast& alone, int ranks);
+                            const RowShape& shape, const RunForecast& alone, int ranks);
 
 // Prints the forecast of `lives`. `chooses`: chooses the integrated torques and speeds as `lives`
 // does if this takes at most some seconds; otherwise states the range. `ranks`: as for

@@ -141,7 +141,7 @@ TEST_CASE("Peak memory is that of the gearboxes, or of the analysis after them")
 }
 
 TEST_CASE("Every shipped study is measured with at most one tile per thread if time is short") {
-    int studies = 0, trials = 0;
+    int studies = 0;
     for (const std::string& name : test::shipped_studies()) {
         Study study = test::shipped_study(name);
         if (!has_gears(study)) {
@@ -157,23 +157,13 @@ TEST_CASE("Every shipped study is measured with at most one tile per thread if t
         const BatchPlan plan(study.ensemble.threshold_instances, study.ensemble.instances);
         const RunCost calibration =
             measure_run_cost(scene.tile(), scene.ensemble(), plan, 1, kNoBudget_s);
-        // The analysis of thousands of gearboxes takes seconds for any study: one study suffices.
-        const bool tried = plan.rows() < kTrialRows / 3 || name == "reference-10k.toml";
-        const AnalysisTrial trial =
-            tried ? measure_analysis(scene.ensemble(), calibration, plan, 1, kNoBudget_s)
-                  : AnalysisTrial{};
-        const RunForecast forecast = forecast_run(calibration, plan, trial,
+        const RunForecast forecast = forecast_run(calibration, scene.ensemble().shape, plan,
                                                   verification_s(Planner(study), calibration), 0.0);
         ++studies;
-        trials += tried ? 1 : 0;
         CHECK(calibration.to_record == scene.record().signal_meshes);
         if (!calibration.integration_only) {
             CHECK(!calibration.gearboxes.empty());
             CHECK(calibration.gearboxes.size() <= static_cast<std::size_t>(study.numerics.lanes));
-            if (tried) {
-                CHECK(trial.levels == 1);
-                CHECK(trial.rows == std::min(plan.rows(), kTrialRows));
-            }
         }
         const bool shortened =
             study.numerics.horizon != Horizon::periodic && !study.effects.quasi_static();
@@ -184,7 +174,6 @@ TEST_CASE("Every shipped study is measured with at most one tile per thread if t
         CHECK(forecast.memory_bytes > 1e6);
     }
     CHECK(studies > 30);
-    CHECK(trials > 20);
 }
 
 TEST_CASE(
@@ -206,33 +195,6 @@ TEST_CASE(
     CHECK(cut.memory.records == 0.0);
     CHECK(motion_bytes(scene.tile()) < 0.01 * scene.solve().record_bytes);
     CHECK(bits_of(first_tile(scene)) == before);
-}
-
-TEST_CASE("Repeated results have the run's groups and the values of computed gearboxes") {
-    const Study study = test::shipped_study("planet-crack-ideal.toml", kFast);
-    const Scene scene(study);
-    const BatchPlan plan(study.ensemble.threshold_instances, study.ensemble.instances);
-    const RunCost calibration = measure_run_cost(scene.tile(), scene.ensemble(), plan, 2, 0.5);
-    const std::size_t rows = 1100;
-    const Results made = repeated_results(scene.ensemble(), calibration, plan, rows, {1, 2});
-    REQUIRE(made.group.size() == rows);
-    CHECK(std::count(made.group.begin(), made.group.end(), 0) == 400);
-    CHECK(made.noise_levels == std::vector<double>{0.5, 1.0});
-
-    const RowShape shape = EnsemblePlan(study).shape;
-    const std::size_t feature = test::feature_index(made, "window_ratio");
-    std::set<std::tuple<int, double, double>> computed;
-    for (std::size_t i = 0; i < calibration.gearboxes.size(); ++i) {
-        const double* values = calibration.rows.values.data() + i * shape.values();
-        computed.emplace(calibration.gearboxes[i].group == Group::test ? 1 : 0,
-                         values[shape.fault_size()], values[shape.value_of(feature, 2)]);
-    }
-    std::set<std::tuple<int, double, double>> repeated;
-    for (std::size_t row = 0; row < rows; ++row) {
-        repeated.emplace(made.group[row], made.parameters.back().values[row],
-                         made.features[feature].values[2 * row + 1]);
-    }
-    CHECK(repeated == computed);
 }
 
 TEST_CASE("A study's description ends with a forecast and writes nothing") {

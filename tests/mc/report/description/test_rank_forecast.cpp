@@ -28,7 +28,7 @@ RankForecast forecast_of(const BatchPlan& plan, double batch_s, int threads, int
     RunForecast alone;
     alone.setup_s = 2.0;
     alone.detection_s = 3.0;
-    return forecast_ranks(given_cost(threads, batch_s), plan, scene().ensemble().shape, {}, alone,
+    return forecast_ranks(given_cost(threads, batch_s), plan, scene().ensemble().shape, alone,
                           ranks);
 }
 
