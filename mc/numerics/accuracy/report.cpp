@@ -42,244 +42,93 @@ void add_words(const std::string& words, std::size_t indent, Text out) {
     fmt::format_to(out, "{}{}\n", std::string(indent, ' '), wrapped_text(words, indent));
 }
 
-void add_head(const AccuracyReport& report, Text out) {
+void add_reference(const AccuracyReport& report, Text out) {
     const Reference& r = report.reference;
-    fmt::format_to(
-        out,
-        "pilot: {} gearboxes, mesh periods in signals: {}, in features: {}\n"
-        "reference: {}{}\n"
-        "compared with: {}{}\n"
-        "  relative L2 {:.1e} (sensor), {:.1e} (TE), worst feature {:.1e}{}\n",
-        report.gearboxes, report.signal_meshes, report.span_meshes, r.first.text(),
-        r.first_order > 0 ? fmt::format("\n  extrapolated at order {:g}", r.first_order) : "",
-        r.second.text(),
-        r.second_order > 0 ? fmt::format("\n  extrapolated at order {:g}", r.second_order) : "",
-        r.agreement.sensor, r.agreement.te, r.agreement.largest_feature(),
-        r.reached ? "" : "\n  the signals do not agree to 1e-8");
-}
-
-void add_heading(Text out) {
-    fmt::format_to(
-        out,
-        "\ntime: processor time of one gearbox of eight that are integrated together\n"
-        "(sixteen in single precision), time integration only; error: relative L2 of the "
-        "noise-free\n"
-        "sensor signal and of the transmission error (TE) without its mean; feature: the\n"
-        "worst one, rms over the gearboxes; *: Pareto frontier of time and error\n\n"
-        "solver setting\n"
-        "{:>7} {:>6} {:>8} {:>10} {:>7} {:>7} {:>7}  {}\n",
-        "steps", "meshes", "us/mesh", "us/gearbox", "sensor", "TE", "feature", "worst");
-}
-
-void add_row(const AccuracyReport& report, const SettingResult& r, const char* mark, Text out) {
-    if (!r.refusal.empty()) {
-        fmt::format_to(out, "{}{}\n", mark, r.setting.integrator());
-        add_words("not possible: " + r.refusal, 4, out);
-        return;
-    }
     add_words(
-        mark + r.setting.text() + (r.failed > 0 ? fmt::format(" ({:g} failed)", r.failed) : ""), 0,
-        out);
-    fmt::format_to(out, "{:>7} {:>6.0f} {:>8.2f} {:>10.1f} {:>7} {:>7} {:>7}  {}\n", r.steps,
-                   r.meshes, 1e6 * r.mesh_s, 1e6 * r.integration_s, short_number(r.error.sensor),
-                   short_number(r.error.te), short_number(r.error.largest_feature()),
-                   worst_feature(report, r.error));
+        fmt::format("Errors are relative to {}; {} differs from it by {:.1e} of the sensor signal, "
+                    "{:.1e} of the transmission error (TE) and {:.1e} of the worst feature{}. "
+                    "{} gearboxes, {} mesh periods.",
+                    r.first.text(), r.second.text(), r.agreement.sensor, r.agreement.te,
+                    r.agreement.largest_feature(),
+                    r.reached ? "" : ": the signals do not agree to 1e-8", report.gearboxes,
+                    report.signal_meshes),
+        0, out);
 }
 
-// True for settings that are listed: those of each family with the tightest convergence tolerance,
-// those with fewer terms in the stiffness curves, the frontier, the chosen ones and the study's
-// own.
-bool is_listed(const AccuracyReport& report, std::size_t i) {
-    const SettingResult& r = report.settings[i];
-    return r.frontier || static_cast<int>(i) == report.own ||
-           (!r.refusal.empty() && r.refusal != kNotTried) ||
-           r.setting.numerics.convergence_tolerance <= 1e-10 ||
-           r.setting.chooses("stiffness_tolerance") ||
-           std::any_of(report.choices.begin(), report.choices.end(),
-                       [&](const ChoiceCheck& c) { return c.chosen == static_cast<int>(i); });
+void add_result(double mesh_s, double integration_s, double sensor, double te, double feature,
+                const std::string& worst, const std::string& name, Text out) {
+    fmt::format_to(out, "{:>10.2f} {:>10.1f} {:>7} {:>7} {:>7}  {}\n    {}\n", 1e6 * mesh_s,
+                   1e6 * integration_s, short_number(sensor), short_number(te),
+                   short_number(feature), worst, name);
 }
 
-void add_explicit_limit(const AccuracyReport& report, Text out) {
+// Settings that are shown: the study's own, and those than which none is both faster and more
+// accurate; where these are many, as many as fit a screen, from the fastest to the most accurate.
+std::vector<const SettingResult*> shown_settings(const AccuracyReport& report) {
+    constexpr std::size_t kMost = 8;
+    std::vector<const SettingResult*> frontier;
+    for (const SettingResult& r : report.settings) {
+        if (r.frontier && r.refusal.empty()) {
+            frontier.push_back(&r);
+        }
+    }
+    std::ranges::sort(frontier, {}, &SettingResult::integration_s);
+    const SettingResult& own = report.settings[static_cast<std::size_t>(report.own)];
+    std::vector<const SettingResult*> shown;
+    const std::size_t rows = std::min(kMost, frontier.size());
+    for (std::size_t i = 0; i < rows; ++i) {
+        shown.push_back(frontier[rows == 1 ? 0 : i * (frontier.size() - 1) / (rows - 1)]);
+    }
+    if (own.refusal.empty() && std::ranges::find(shown, &own) == shown.end()) {
+        shown.push_back(&own);
+    }
+    return shown;
+}
+
+void add_settings(const AccuracyReport& report, Text out) {
+    fmt::format_to(out, "\n{:>10} {:>10} {:>7} {:>7} {:>7}  {}\n", "us/mesh", "us/gearbox",
+                   "sensor", "TE", "feature", "the worst one");
+    for (const SettingResult* r : shown_settings(report)) {
+        add_result(r->mesh_s, r->integration_s, r->error.sensor, r->error.te,
+                   r->error.largest_feature(), worst_feature(report, r->error), r->setting.text(),
+                   out);
+    }
+    for (const PeerResult& p : report.peers) {
+        const auto worst = std::ranges::max_element(
+            p.features, {}, [](const auto& feature) { return feature.second; });
+        const bool any = worst != p.features.end();
+        add_result(p.mesh_s, p.integration_s, p.sensor, p.te, any ? worst->second : kNan,
+                   any ? worst->first : "", p.name, out);
+    }
     const ExplicitLimit& e = report.explicit_limit;
-    fmt::format_to(out, "\n");
-    add_words(fmt::format("rk4 at its stability limit ({}): {:.0f} steps of {:.1f} ns (measured) = "
-                          "{:.3g} us/mesh, x {:.0f} meshes = {:.3g} us/gearbox",
-                          e.refused ? "refused; computed" : "computed", e.steps, 1e9 * e.step_s,
-                          1e6 * e.mesh_s(), e.meshes, 1e6 * e.integration_s()),
-              0, out);
-}
-
-std::size_t column_width(const StabilityCurve& curve) {
-    return std::max<std::size_t>(8, curve.integrator.size());
-}
-
-// Every third factor of the map: a tenth, the study's own stiffness, ten times.
-void add_stability(const StabilityMap& map, Text out) {
-    fmt::format_to(out,
-                   "\nfewest stable steps per mesh period, by the stiffness of the meshes\n"
-                   "{:<20}",
-                   "");
-    for (std::size_t i = 0; i < map.factors.size(); i += 3) {
-        fmt::format_to(out, "{:>11}", fmt::format("x {:g}", map.factors[i]));
-    }
-    for (const StabilityCurve& curve : map.curves) {
-        fmt::format_to(out, "\n{:<20}", curve.integrator);
-        for (std::size_t i = 0; i < map.factors.size(); i += 3) {
-            fmt::format_to(out, "{:>11.0f}", curve.steps[i]);
-        }
-    }
-    fmt::format_to(out, "\n\n{:<40}", "the same in hard cases");
-    for (const StabilityCurve& curve : map.curves) {
-        fmt::format_to(out, " {:>{}}", curve.integrator, column_width(curve));
-    }
-    for (const HardCase& one : map.hard) {
-        fmt::format_to(out, "\n{:<40}", one.name);
-        for (std::size_t i = 0; i < one.steps.size(); ++i) {
-            fmt::format_to(out, " {:>{}.0f}", one.steps[i], column_width(map.curves[i]));
-        }
-    }
-    fmt::format_to(out, "\n");
-    add_words(fmt::format("without mass scaling; above {:.0f} explicit integrators are refused; {} "
-                          "are stable with any steps",
-                          lockstep::kMostExplicitSteps, fmt::join(map.implicit, ", ")),
-              0, out);
-}
-
-void add_choices(const AccuracyReport& report, Text out) {
-    fmt::format_to(out, "\nnumerics.tolerance\n");
-    for (const ChoiceCheck& c : report.choices) {
-        if (c.chosen < 0) {
-            add_words(fmt::format("{:g}: no choice: {}", c.tolerance, c.refusal), 2, out);
-            continue;
-        }
-        const SettingResult& chosen = report.settings[static_cast<std::size_t>(c.chosen)];
-        add_words(fmt::format("{:g}: {}, worst feature {:.1e}, {:.1f} us/gearbox", c.tolerance,
-                              chosen.setting.text(), chosen.error.largest_feature(),
-                              1e6 * chosen.integration_s),
-                  2, out);
-        std::string comparison;
-        if (c.best >= 0) {
-            const SettingResult& best = report.settings[static_cast<std::size_t>(c.best)];
-            comparison = fmt::format("{:+.0f} % against the fastest setting that keeps it ({}); ",
-                                     100.0 * c.over_best, best.setting.text());
-        }
-        comparison += fmt::format(
-            "1/{:.3g} of rk4's time at its limit per mesh period, 1/{:.3g} "
-            "per gearbox",
-            report.explicit_limit.mesh_s() / chosen.mesh_s,
-            report.explicit_limit.integration_s() / chosen.integration_s);
-        add_words(comparison, 4, out);
-    }
-    if (!report.step_costs.empty()) {
-        add_words(
-            fmt::format("time of a step relative to rk4's: {}", fmt::join(report.step_costs, "; ")),
-            2, out);
-    }
-}
-
-void add_features(const AccuracyReport& report, Text out) {
-    fmt::format_to(out, "\nrelative errors of the features on the frontier\n");
-    for (const SettingResult& r : report.settings) {
-        if (!r.frontier) {
-            continue;
-        }
-        fmt::format_to(out, "{}\n", r.setting.text());
-        std::string errors;
-        for (std::size_t f = 0; f < report.features.size(); ++f) {
-            errors +=
-                fmt::format("{}{}={}", errors.empty() ? "" : ", ", report.features[f],
-                            short_number(r.error.feature(static_cast<int>(f), report.levels())));
-        }
-        add_words(errors, 4, out);
-    }
-}
-
-std::string sizes_text(const DetectionChange& d) {
-    if (d.a90 < 0.0) {
-        return "no a90";
-    }
-    return fmt::format("{:.2f} %{}", 100.0 * d.a90,
-                       std::isfinite(d.a90_interval)
-                           ? fmt::format(" (interval {:.1f} %)", 100.0 * d.a90_interval)
-                           : "");
-}
-
-void add_detection(const AccuracyReport& report, Text out) {
-    const auto detected = [](const SettingResult& r) { return r.detection.has_value(); };
-    const auto first = std::find_if(report.settings.begin(), report.settings.end(), detected);
-    if (first == report.settings.end()) {
-        return;
-    }
-    fmt::format_to(out,
-                   "\ndetection: the same {} test gearboxes with the most accurate setting and\n"
-                   "with these; largest change over features, sizes and noise levels\n"
-                   "error/scatter: largest error of a feature over its standard deviation\n"
-                   "between healthy gearboxes\n"
-                   "{:>16} {:>22} {:>14}  {}\n",
-                   first->detection->gearboxes, "alarms changed", "Pd (half width)",
-                   "error/scatter", "a90");
-    for (const SettingResult& r : report.settings) {
-        if (!r.detection) {
-            continue;
-        }
-        const DetectionChange& d = *r.detection;
-        fmt::format_to(out, "{}\n{:>14.3f} % {:>22} {:>14}  {}\n", r.setting.text(),
-                       100.0 * d.alarms, fmt::format("{:.4f} ({:.3f})", d.pd, d.pd_half_width),
-                       short_number(report.largest_share_of_scatter(r.error)), sizes_text(d));
-    }
+    add_words(
+        fmt::format("rk4 at its stability limit, {} steps per mesh period{}, would take "
+                    "{:.1f} us per gearbox.",
+                    std::round(e.steps), e.refused ? " (refused)" : "", 1e6 * e.integration_s()),
+        0, out);
 }
 
 void add_effects(const AccuracyReport& report, Text out) {
-    if (report.effects.empty()) {
-        return;
-    }
-    fmt::format_to(out, "\n");
-    add_words(fmt::format(
-                  "cost of effects: the pilot without an effect of the study, or with one that it "
-                  "leaves out. time: of a gearbox with it over that without; change: of the "
-                  "sensor signal, and of the feature that changes most; needed: it changes a "
-                  "feature by more than {:g} of its scatter between healthy gearboxes, or by {:g} "
-                  "of its value where the scatter was not measured",
-                  kShareOfScatter, kChangeOfFeature),
-              0, out);
-    fmt::format_to(out, "{:<24} {:<8} {:>5} {:>8} {:>8} {:>9}  {:<10} {}\n", "effect", "in study",
-                   "time", "sensor", "feature", "/scatter", "needed", "most");
+    std::vector<std::string> needed, idle;
     for (const MeasuredEffect& e : report.effects) {
-        fmt::format_to(out, "{:<24} {:<8} ", e.effect, e.in_study ? "yes" : "no");
-        if (!e.refusal.empty()) {
-            fmt::format_to(out, "not possible\n");
-            add_words(e.refusal, 4, out);
-            continue;
+        if (e.refusal.empty()) {
+            (report.matters(e.change) ? needed : idle)
+                .push_back(fmt::format("{} (time x {:.2f})", e.effect, e.time_ratio));
         }
-        fmt::format_to(out, "{:>5.2f} {:>8} {:>8} {:>9}  {:<10} {}\n", e.time_ratio,
-                       short_number(e.change.sensor), short_number(e.change.largest_feature()),
-                       short_number(report.largest_share_of_scatter(e.change)),
-                       report.matters(e.change) ? "yes" : "no", worst_feature(report, e.change));
+    }
+    for (const auto& [words, effects] :
+         {std::pair{"Effects that change a feature", &needed}, {"Effects that do not", &idle}}) {
+        if (!effects->empty()) {
+            add_words(fmt::format("{}: {}.", words, fmt::join(*effects, ", ")), 0, out);
+        }
     }
 }
 
 void add_left_out(const AccuracyReport& report, Text out) {
     if (!report.left_out.empty()) {
-        fmt::format_to(out, "\nomitted because the time had run out (--seconds 0: no limit)\n");
-        for (const std::string& what : report.left_out) {
-            add_words(what, 2, out);
-        }
-    }
-}
-
-void add_peers(const AccuracyReport& report, Text out) {
-    for (const PeerResult& p : report.peers) {
-        fmt::format_to(out, "  {}\n{:>7} {:>6} {:>8.3g} {:>10.3g} {:>7} {:>7} ", p.name, "", "",
-                       1e6 * p.mesh_s, 1e6 * p.integration_s, short_number(p.sensor),
-                       short_number(p.te));
-        const auto worst =
-            std::max_element(p.features.begin(), p.features.end(),
-                             [](const auto& a, const auto& b) { return a.second < b.second; });
-        if (worst == p.features.end()) {
-            fmt::format_to(out, "{:>7}\n", "-");
-        } else {
-            fmt::format_to(out, "{:>7}  {}\n", short_number(worst->second), worst->first);
-        }
+        add_words(fmt::format("Omitted because the time had run out (--seconds 0: no limit): {}.",
+                              fmt::join(report.left_out, "; ")),
+                  0, out);
     }
 }
 
@@ -357,21 +206,13 @@ std::string accuracy_text(const AccuracyReport& report) {
     Text out(text);
     add_words(accuracy_headline(report), 0, out);
     fmt::format_to(out, "\n");
-    add_head(report, out);
-    add_heading(out);
-    for (std::size_t i = 0; i < report.settings.size(); ++i) {
-        if (is_listed(report, i)) {
-            add_row(report, report.settings[i], report.settings[i].frontier ? "* " : "  ", out);
-        }
-    }
-    add_peers(report, out);
-    add_explicit_limit(report, out);
-    add_stability(report.stability, out);
-    add_choices(report, out);
-    add_features(report, out);
-    add_detection(report, out);
+    add_reference(report, out);
+    add_settings(report, out);
     add_effects(report, out);
     add_left_out(report, out);
+    add_words(
+        "Each feature, detection rates, stability and all settings: --html FILE, --json FILE.", 0,
+        out);
     return text;
 }
 

@@ -174,6 +174,7 @@ AccuracyReport measure_accuracy(const Planner& planner, const AccuracyRequest& r
 // Time and error of the study's own setting, and the fastest one whose errors are small compared
 // with the features' scatter. Sentences, separated by spaces.
 std::string accuracy_headline(const AccuracyReport& report);
+// One screen: that sentence, the settings on the frontier, and which effects change a feature.
 std::string accuracy_text(const AccuracyReport& report);
 std::string accuracy_json(const AccuracyReport& report, const EnsemblePlan& plan);
 
