@@ -2,7 +2,9 @@
 
 #include <fmt/format.h>
 
+#include "mc/ensemble/gearbox/solution_choice.hpp"
 #include "mc/files/input/problems.hpp"
+#include "mc/numerics/forecast/memory.hpp"
 #include "mc/numerics/numerics_choice.hpp"
 #include "mc/results/result_rows.hpp"
 
@@ -70,6 +72,20 @@ Simulation simulate_row(const TilePlan& tile, const EnsemblePlan& ensemble, long
     }
     if (!problems.empty()) {
         throw BadInput(problems);
+    }
+    // Motion of all lanes, and the columns of one with their copy in the file.
+    const auto lanes = static_cast<double>(tile.solve->settings.numerics.lanes);
+    const lockstep::IntegrationPlan& plan = tile.solve->integration();
+    const double columns =
+        1.0 + dynamics::degrees_of_freedom(plan.layout) + static_cast<double>(plan.nodes.pairs);
+    const double needed = motion_bytes(tile) + 8.0 * (lanes + 2.0) * columns * tile.record.samples *
+                                                   static_cast<double>(simulated);
+    if (const double at_hand = available_memory_bytes(); needed > at_hand) {
+        throw BadInput(
+            fmt::format("--meshes {}: the signals need at least {:.2g} GB of memory, but "
+                        "only {:.2g} GB are available; give fewer, or a lower "
+                        "sensor.sampling_Hz or a shorter sensor.record_turns",
+                        simulated, 1e-9 * needed, 1e-9 * at_hand));
     }
     return simulate(tile, tile.draw().rows.id_of(row), simulated);
 }

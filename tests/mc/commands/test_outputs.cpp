@@ -254,4 +254,13 @@ TEST_CASE("Names of conditions that a results file cannot hold are refused befor
     require_success(command + "--csv -");
 }
 
+TEST_CASE("Signals that need more memory than a job may use are refused before they are computed") {
+    const test::Outcome refused =
+        test::shell("ulimit -v 8000000; " GEARPOD_PROGRAM " simulate " +
+                    test::study("planet-crack-ideal.toml") +
+                    " --instance 0 --meshes 2000 --set sensor.sampling_Hz=100000");
+    CHECK(refused.code == 2);
+    test::check_mentions(refused, {"--meshes 2000: the signals need at least", "GB are available"});
+}
+
 }  // namespace gearpod::test_outputs
