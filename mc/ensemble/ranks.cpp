@@ -4,9 +4,9 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <array>
 #include <cstdlib>
 #include <stdexcept>
-#include <utility>
 
 #include "machine/team.hpp"
 #include "mc/results/provenance.hpp"
@@ -17,16 +17,39 @@ std::string rank_name(const Ranks& ranks) {
     return fmt::format("rank {} on {}", ranks.rank(), host_name());
 }
 
+namespace {
+
+// Environment variables in which a launcher states how many processes it started, and the number
+// of this one.
+struct Launcher {
+    const char *name, *size, *rank;
+};
+// The first one found is the innermost: mpirun starts its processes through srun.
+constexpr std::array<Launcher, 5> kLaunchers{
+    {{"mpirun", "OMPI_COMM_WORLD_SIZE", "OMPI_COMM_WORLD_RANK"},
+     {"a launcher", "PMI_SIZE", "PMI_RANK"},
+     {"mpirun", "MV2_COMM_WORLD_SIZE", "MV2_COMM_WORLD_RANK"},
+     {"mpirun", "MPI_LOCALNRANKS", "MPI_LOCALRANKID"},
+     {"srun", "SLURM_STEP_NUM_TASKS", "SLURM_PROCID"}}};
+
+// Whole number in an environment variable; -1 if there is none.
+long number_in(const char* variable) {
+    const char* text = std::getenv(variable);
+    char* end = nullptr;
+    const long number = text == nullptr ? -1 : std::strtol(text, &end, 10);
+    return end == text ? -1 : number;
+}
+
+}  // namespace
+
 void Ranks::require_connected() const {
-    // The first launcher found is the innermost: mpirun starts its processes through srun.
-    for (const auto& [variable, launcher] : {std::pair{"OMPI_COMM_WORLD_SIZE", "mpirun"},
-                                             {"PMI_SIZE", "a launcher"},
-                                             {"SLURM_STEP_NUM_TASKS", "srun"}}) {
-        const char* text = std::getenv(variable);
-        const int started = text == nullptr ? 0 : std::atoi(text);
+    for (const Launcher& launcher : kLaunchers) {
+        const long size = number_in(launcher.size), ranks = number_in(launcher.rank) + 1;
+        const long started = std::max(size, ranks);
         if (started > size_) {
             throw std::runtime_error(fmt::format(
-                "{} started {} processes ({}), but {}", launcher, started, variable,
+                "{} started {} processes ({}), but {}", launcher.name, started,
+                size < ranks ? launcher.rank : launcher.size,
                 built_with_mpi()
                     ? fmt::format("MPI connects only {}: use srun --mpi=pmix, or the mpirun of {}",
                                   size_, library())

@@ -6,7 +6,12 @@
 #include <atomic>
 #include <cstdlib>
 #include <exception>
+#include <latch>
 #include <mutex>
+#include <new>
+#include <system_error>
+#include <thread>
+#include <vector>
 
 namespace gearpod::machine {
 namespace {
@@ -56,9 +61,30 @@ class Failure {
     std::exception_ptr what_;
 };
 
+// Throws std::bad_alloc if so many threads cannot be created, where OpenMP would end the program.
+void require_threads(int threads) {
+    static std::atomic<int> created{1};
+    if (threads <= created) {
+        return;
+    }
+    std::latch end(1);
+    std::vector<std::jthread> trial;
+    try {
+        for (int i = 1; i < threads; ++i) {
+            trial.emplace_back([&end] { end.wait(); });
+        }
+    } catch (const std::system_error&) {
+        end.count_down();
+        throw std::bad_alloc();
+    }
+    end.count_down();
+    created = threads;
+}
+
 }  // namespace
 
 void run_team(int threads, const std::function<void(int)>& work) {
+    require_threads(threads);
     Failure failure;
 #pragma omp parallel num_threads(threads)
     failure.keep_from([&] { work(omp_get_num_threads()); });
@@ -67,6 +93,7 @@ void run_team(int threads, const std::function<void(int)>& work) {
 
 void for_each_index(std::size_t count, int threads, const std::function<void(std::size_t)>& work) {
     const auto most = std::clamp<std::size_t>(count, 1, static_cast<std::size_t>(threads));
+    require_threads(static_cast<int>(most));
     Failure failure;
 #pragma omp parallel for schedule(dynamic) num_threads(static_cast <int>(most))
     for (std::size_t i = 0; i < count; ++i) {

@@ -7,6 +7,7 @@
 #include <fstream>
 #include <limits>
 #include <string>
+#include <tuple>
 #include <utility>
 
 namespace gearpod::mc {
@@ -14,12 +15,13 @@ namespace {
 
 constexpr double kUnlimited = std::numeric_limits<double>::infinity();
 
-// Entry such as "MemAvailable:   123 kB", in bytes.
-double entry_of(const char* path, const std::string& name, double otherwise) {
+// Entry such as "MemAvailable:   123 kB", in bytes. `unit`: bytes, of its number.
+double entry_of(const std::filesystem::path& path, const std::string& name, double otherwise,
+                double unit = 1024.0) {
     std::ifstream stream(path);
     for (std::string word; stream >> word;) {
-        if (double kilobytes = 0.0; word == name && stream >> kilobytes) {
-            return 1024.0 * kilobytes;
+        if (double number = 0.0; word == name && stream >> number) {
+            return unit * number;
         }
     }
     return otherwise;
@@ -32,12 +34,17 @@ double number_in(const std::filesystem::path& path) {
     return stream >> number ? number : kUnlimited;
 }
 
-double left_of_limit() {
-    rlimit limit{};
-    if (::getrlimit(RLIMIT_AS, &limit) != 0 || limit.rlim_cur == RLIM_INFINITY) {
-        return kUnlimited;
+double left_of_limits() {
+    double left = kUnlimited;
+    for (const auto& [resource, used] :
+         {std::pair{RLIMIT_AS, "VmSize:"}, {RLIMIT_DATA, "VmData:"}}) {
+        rlimit limit{};
+        if (::getrlimit(resource, &limit) == 0 && limit.rlim_cur != RLIM_INFINITY) {
+            left = std::min(left, static_cast<double>(limit.rlim_cur) -
+                                      entry_of("/proc/self/status", used, 0.0));
+        }
     }
-    return static_cast<double>(limit.rlim_cur) - entry_of("/proc/self/status", "VmSize:", 0.0);
+    return left;
 }
 
 }  // namespace
@@ -70,15 +77,18 @@ double left_in_control_groups(std::istream& groups, const std::filesystem::path&
         if (!controllers.empty() && !version_1) {
             continue;
         }
-        const auto [most, used] = version_1
-                                      ? std::pair{"memory.limit_in_bytes", "memory.usage_in_bytes"}
-                                      : std::pair{"memory.max", "memory.current"};
+        // The kernel frees cached files before it refuses memory.
+        const auto [most, used, cached] =
+            version_1 ? std::tuple{"memory.limit_in_bytes", "memory.usage_in_bytes",
+                                   "total_inactive_file"}
+                      : std::tuple{"memory.max", "memory.current", "inactive_file"};
         const auto top = version_1 ? mounted / "memory" : mounted;
         const std::filesystem::path path(line.substr(second + 1));
         // Every group above limits it too. In a container, only the top may be visible.
         for (auto group = path.relative_path();; group = group.parent_path()) {
             if (const double limit = number_in(top / group / most); limit < kUnlimited) {
-                left = std::min(left, limit - number_in(top / group / used));
+                left = std::min(left, limit - number_in(top / group / used) +
+                                          entry_of(top / group / "memory.stat", cached, 0.0, 1.0));
             }
             if (group.empty()) {
                 break;
@@ -90,8 +100,9 @@ double left_in_control_groups(std::istream& groups, const std::filesystem::path&
 
 double available_memory_bytes() {
     std::ifstream groups("/proc/self/cgroup");
-    return std::min({entry_of("/proc/meminfo", "MemAvailable:", kUnlimited),
-                     left_in_control_groups(groups, "/sys/fs/cgroup"), left_of_limit()});
+    return std::max(0.0,
+                    std::min({entry_of("/proc/meminfo", "MemAvailable:", kUnlimited),
+                              left_in_control_groups(groups, "/sys/fs/cgroup"), left_of_limits()}));
 }
 
 }  // namespace gearpod::mc

@@ -20,6 +20,11 @@ TEST_CASE("Processes that a launcher started and MPI does not connect are refuse
                   {"srun started 3 processes (SLURM_STEP_NUM_TASKS)", remedy});
     check_refused(shell("PMI_RANK=0 PMI_SIZE=4 " + run),
                   {"started 4 processes (PMI_SIZE)", remedy});
+    for (const char* rank : {"PMI_RANK=3", "SLURM_NTASKS=3 SLURM_PROCID=1", "MPI_LOCALNRANKS=4",
+                             "SLURM_STEP_NUM_TASKS=4294967297"}) {
+        INFO(rank);
+        check_refused(shell(std::string(rank) + " " + run), {" processes (", remedy});
+    }
     CHECK(folder.empty());
 }
 
@@ -55,6 +60,11 @@ TEST_CASE("A job may use what the tightest of its control groups leaves") {
     write("job/step/task/memory.current", "400\n");
     CHECK(left("0::/job/step/task\n") == 3000.0);
     CHECK(left("0::/job/step/other/not/visible\n") == 3000.0);
+    // Cached files are given back.
+    write("job/step/task/memory.stat", "anon 100\ninactive_file 300\n");
+    CHECK(left("0::/job/step/task\n") == 3000.0);
+    write("job/memory.stat", "inactive_file 250\n");
+    CHECK(left("0::/job/step/task\n") == 3250.0);
     write("memory/slurm/job/memory.limit_in_bytes", "900\n");
     write("memory/slurm/job/memory.usage_in_bytes", "100\n");
     CHECK(left("12:cpuset:/slurm/job\n5:hugetlb,memory:/slurm/job/step\n0::/job/step\n") == 800.0);
@@ -86,6 +96,10 @@ TEST_CASE("Elements of an array that are submitted again keep their parts") {
         CHECK(again.mentions("'out.1.h5' 'out.2.h5' 'out.3.h5'") == (id == 2));
     }
     check_refused(element(4, 4, 1), {"element 4 of 3 parts"});
+    check_refused(element(0, 1, 0), {"element 0 of 3 parts"});
+    CHECK(element(1, 1, 1).mentions("--part 1/3"));
+    check_refused(element(1, 1, 1, "GEARPOD_PARTS=5"), {"GEARPOD_PARTS is 5, but out.parts has 3"});
+    check_refused(element(1, 1, 1, "GEARPOD_PARTS=abc"), {"\"abc\" is not a number of parts"});
 }
 
 }  // namespace gearpod::test_clusters
