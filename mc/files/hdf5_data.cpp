@@ -196,6 +196,15 @@ Hdf5Handle open_group(hid_t parent, const std::string& name) {
     return {H5Gopen2(parent, name.c_str(), H5P_DEFAULT), H5Gclose, name};
 }
 
+bool has_soft_links(hid_t root) {
+    const auto is_soft = [](hid_t, const char*, const H5L_info_t* link, void*) -> herr_t {
+        return link->type == H5L_TYPE_HARD ? 0 : 1;
+    };
+    const herr_t found = H5Lvisit(root, H5_INDEX_NAME, H5_ITER_NATIVE, is_soft, nullptr);
+    check(found, "names");
+    return found > 0;
+}
+
 std::vector<std::string> link_names(hid_t group) {
     H5G_info_t info{};
     check(H5Gget_info(group, &info), "names");

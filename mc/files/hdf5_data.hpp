@@ -96,6 +96,9 @@ void write_text(hid_t parent, const std::string& object, const std::string& name
                 const std::string& text);
 void write_number(hid_t parent, const std::string& object, const std::string& name, double value);
 
+// True if a group below `root` has a soft or external link, which may lead to another file.
+bool has_soft_links(hid_t root);
+
 Hdf5Handle open_group(hid_t parent, const std::string& name);
 Hdf5Handle open_dataset(hid_t parent, const std::string& name);
 // Shape of a dataset. One with more than `most_values` values counts as damaged.

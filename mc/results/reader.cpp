@@ -304,6 +304,9 @@ Results read_open_file(const std::string& path, bool with_columns) {
         const Hdf5Handle file = open_file(path, "opening the file");
         const Hdf5Handle root = open_group(file.get(), "/");
         check_format(path, root.get());
+        if (has_soft_links(root.get())) {
+            refuse_file(path, "has links to other places, as no results file of `run` has");
+        }
         return ResultsReader(root.get(), std::filesystem::file_size(path), with_columns).read();
     } catch (const Hdf5Error& error) {
         refuse_file(path, std::string("is damaged or truncated (at \"") + error.what() + "\")");

@@ -190,6 +190,12 @@ class Package(unittest.TestCase):
         other.write_bytes(damaged)
         with self.assertRaisesRegex(ValueError, "other.h5: is damaged"):
             gearpod.open(other)
+        other.write_bytes(self.results.path.read_bytes())
+        with h5py.File(other, "r+") as file:
+            del file["noise_levels"]
+            file["noise_levels"] = h5py.ExternalLink("elsewhere.h5", "/noise_levels")
+        with self.assertRaisesRegex(ValueError, "other.h5: is damaged"):
+            gearpod.open(other)
         with self.assertRaises(OSError):
             gearpod.open(other.with_name("nothing.h5"))
 

@@ -92,6 +92,14 @@ std::vector<Edit> edits() {
         {"records of healthy gearboxes that have one each",
          [](hid_t root) { mc::write_number(root, "detection", "threshold_records", 3.0); },
          "threshold_records = 3, but the study has 1"},
+        {"a link to another file",
+         [](hid_t root) {
+             mc::check(H5Ldelete(root, "noise_levels", H5P_DEFAULT), "");
+             mc::check(H5Lcreate_external("other.h5", "/noise_levels", root, "noise_levels",
+                                          H5P_DEFAULT, H5P_DEFAULT),
+                       "");
+         },
+         "has links to other places"},
         {"a confidence of nothing",
          [](hid_t root) {
              mc::check(H5Adelete_by_name(root, "detection", "confidence", H5P_DEFAULT), "");
