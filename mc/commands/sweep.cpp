@@ -12,6 +12,7 @@
 #include "mc/commands/lives.hpp"
 #include "mc/commands/options/options.hpp"
 #include "mc/commands/output_folder.hpp"
+#include "mc/ensemble/interruption.hpp"
 #include "mc/ensemble/ranks.hpp"
 #include "mc/ensemble/run_store.hpp"
 #include "mc/files/input/problems.hpp"
@@ -275,6 +276,8 @@ int sweep_command(const SweepOptions& options) {
     if (ranks.from_leader(good ? "go" : "stop") != "go") {
         return kBadInput;
     }
+    // A signal between two points stops the next one.
+    const Interruption interruption(std::nullopt);
     return Sweep(options, keys, points, ranks).run();
 }
 

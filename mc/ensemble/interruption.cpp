@@ -15,6 +15,7 @@ namespace {
 constexpr std::array kSignals{SIGINT, SIGTERM, SIGUSR1, SIGUSR2, SIGXCPU, SIGHUP};
 
 volatile std::sig_atomic_t caught = 0;
+int objects = 0;  // that exist
 // Time of the first signal on the steady clock, in nanoseconds. Signal handlers may only write
 // lock-free atomics.
 std::atomic<long long> caught_ns{0};
@@ -59,6 +60,9 @@ Interruption::Interruption(std::optional<std::chrono::seconds> limit)
     : limit_(limit),
       start_(std::chrono::steady_clock::now()),
       end_(limit ? start_ + *limit : std::chrono::steady_clock::time_point::max()) {
+    if (objects++ > 0) {
+        return;
+    }
     caught = 0;
     for (const int number : kSignals) {
         handle(number, note_signal);
@@ -67,6 +71,9 @@ Interruption::Interruption(std::optional<std::chrono::seconds> limit)
 }
 
 Interruption::~Interruption() {
+    if (--objects > 0) {
+        return;
+    }
     for (const int number : kSignals) {
         handle(number, SIG_DFL);
     }

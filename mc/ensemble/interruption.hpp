@@ -15,8 +15,8 @@ namespace gearpod::mc {
 // or SIGTERM ends the program at once, unless it follows the first within kSameRequest. `timeout`
 // and batch queues send a signal to a program and then to its process group. Computations are
 // cancelled (CancellationSource) kGrace after the first signal, or at the time limit. SIGXFSZ is
-// ignored, so that writing beyond a limit on the file size is a write error. Only one object may
-// exist at a time.
+// ignored, so that writing beyond a limit on the file size is a write error. An object within the
+// lifetime of another knows the signals that came before it.
 class Interruption final : public machine::CancellationSource {
   public:
     // Time for computations that are about to finish when a signal arrives. Open MPI kills

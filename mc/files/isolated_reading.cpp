@@ -21,11 +21,15 @@ constexpr std::uintmax_t kTrialMemory = std::uintmax_t{256} << 20;
 constexpr std::uintmax_t kTrial_s = 10, kTrialBytes_s = 10000000, kLongestTrial_s = 3600;
 
 // Limits of the child process: the memory is the present use plus `more_memory` bytes, core files
-// are disabled, signals have their default actions, and the process ends with its parent.
+// are disabled, crashes have their default actions, and the process ends with its parent.
 void confine_child(std::uintmax_t more_memory) {
     ::prctl(PR_SET_PDEATHSIG, SIGKILL);
-    for (const int signal : {SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT, SIGALRM, SIGINT, SIGTERM}) {
+    for (const int signal : {SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT, SIGALRM}) {
         ::signal(signal, SIG_DFL);  // removes the handlers of the parent process
+    }
+    // Sent to all processes of a job: the parent decides when this one ends.
+    for (const int signal : {SIGINT, SIGTERM, SIGUSR1, SIGUSR2, SIGXCPU, SIGHUP}) {
+        ::signal(signal, SIG_IGN);
     }
     std::ifstream statm("/proc/self/statm");
     std::uintmax_t pages = 0;

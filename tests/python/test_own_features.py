@@ -346,7 +346,7 @@ class OwnFeatures(PythonStudyCase):
 
     def test_a_feature_that_hangs_is_stopped(self):
         process, pid = self.start(self.study(self.HANGS))
-        for number in (signal.SIGINT, signal.SIGTERM, signal.SIGUSR1):
+        for number in (signal.SIGINT, signal.SIGTERM, signal.SIGUSR1, signal.SIGUSR2, signal.SIGXCPU, signal.SIGHUP):
             os.kill(pid, number)  # as batch queues and terminals do
         time.sleep(0.3)
         self.assertIsNone(process.poll())

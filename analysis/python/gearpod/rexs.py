@@ -436,7 +436,7 @@ class Stage:
                               "teeth or the shifts (a positive shift makes teeth thicker, also those of a ring: ISO 21771)")
 
     def check_tip(self, gear):
-        """Rejects a tip circle inside the root circle, such as a placeholder. The option --addendum replaces tip circles."""
+        """Rejects a tip circle that no gear has, such as a placeholder. The option --addendum replaces tip circles."""
         if gear.tip is None or not gear.teeth:
             return
         if "addendum" in self.model.options:
@@ -444,10 +444,18 @@ class Stage:
             gear.tip = None
             return
         helix, shift = math.radians(gear.values["helix_angle_deg"] or 0.0), gear.side * (2.0 * (gear.shift or 0.0) - 2.5)
-        root = (gear.values["module_mm"] or 0.0) * (gear.teeth / math.cos(helix) + shift)
-        if gear.side * (gear.tip - root) <= 0.0:
-            self.model.reject(gear.component, "tip_diameter", f"{gear.tip:g} mm lies {'in' if gear.side == 1 else 'out'}side the "
-                              f"root circle, {root:.6g} mm", "remove it from the model, and the rule is used, or give --addendum")
+        module, reference = gear.values["module_mm"] or 0.0, gear.teeth / math.cos(helix)
+        root, far = module * (reference + shift), module * (reference + shift + gear.side * 6.5)
+        angle = math.atan(math.tan(math.radians(gear.values["pressure_angle_deg"] or 0.0)) / math.cos(helix))
+        base = module * reference * math.cos(angle)
+        for wrong, why in ((gear.side * (gear.tip - root) <= 0.0,
+                            f"lies {'in' if gear.side == 1 else 'out'}side the root circle, {root:.6g} mm"),
+                           (gear.tip <= base, f"lies inside the base circle, {base:.6g} mm"),
+                           (gear.side * (far - gear.tip) < 0.0, "is more than two modules away from the reference circle")):
+            if wrong:
+                self.model.reject(gear.component, "tip_diameter", f"{gear.tip:g} mm {why}",
+                                  "remove it from the model, and the rule is used, or give --addendum")
+                return
 
     def bearings(self, shafts, member=""):
         """Radial stiffness of all bearings between these shafts and other parts. None without bearings, or if any of

@@ -27,6 +27,7 @@ import traceback
 import types
 
 SIGNALS = ("record", "baselines", "change")  # parameters that a feature may have
+MOST_BYTES = 1 << 26  # of a file of Python functions
 ONE_THREAD = ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS")
 
 
@@ -202,9 +203,12 @@ class Records:
 def content(path):
     try:
         if not stat.S_ISREG(os.stat(path).st_mode) and not os.path.isdir(path):
-            raise Refused(f"{path}: is not a regular file")  # reading it might never end
+            raise Refused(f"{path}: is not a regular file; name a file of Python functions")  # it might never end
         with open(path, "rb") as stream:
-            return stream.read()
+            data = stream.read(MOST_BYTES + 1)
+        if len(data) > MOST_BYTES:
+            raise Refused(f"{path}: has more than {MOST_BYTES} bytes; name a file of Python functions")
+        return data
     except OSError as error:
         raise Refused(f"{path}: cannot be read: {error.strerror}") from None
 
@@ -360,7 +364,7 @@ def end_with(parent):
 def main():
     global numpy
     # Sent to all processes of the run: the program decides when this one ends.
-    for request in (signal.SIGINT, signal.SIGTERM, signal.SIGUSR1):
+    for request in (signal.SIGINT, signal.SIGTERM, signal.SIGUSR1, signal.SIGUSR2, signal.SIGXCPU, signal.SIGHUP):
         signal.signal(request, signal.SIG_IGN)
     connection = socket.socket(fileno=os.dup(0))
     os.dup2(os.open(os.devnull, os.O_RDONLY), 0)

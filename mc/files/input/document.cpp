@@ -443,7 +443,15 @@ std::string read_file(const std::string& path, Problems& problems) {
         return {};
     }
     std::ifstream stream(path, std::ios::binary);
-    std::string text{std::istreambuf_iterator<char>(stream), {}};
+    constexpr std::size_t kMostBytes = std::size_t{1} << 26;
+    std::string text(kMostBytes + 1, '\0');
+    stream.read(text.data(), static_cast<std::streamsize>(text.size()));
+    text.resize(static_cast<std::size_t>(stream.gcount()));
+    if (text.size() > kMostBytes) {
+        problems.push_back({path, 0, "", fmt::format("has more than {} bytes", kMostBytes),
+                            "name an existing study file (*.toml)"});
+        return {};
+    }
     if (stream.bad()) {
         problems.push_back({path, 0, "", "cannot be read (input error)", ""});
     }

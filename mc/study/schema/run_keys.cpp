@@ -34,7 +34,7 @@ constexpr machine::InstructionSet kSets[] = {machine::InstructionSet::baseline,
 const std::vector<ChoiceName> kInstructionSets = names_or_auto<machine::InstructionSet>(kSets);
 
 // Closer to 0 or 1, intervals cannot be computed.
-constexpr Range kShare = closed_range(1e-9, 1 - 1e-9);
+constexpr Range kShare = closed_range(1e-9, 1 - 1e-9), kConfidence = closed_range(1e-9, 0.9999);
 constexpr Range kTolerance = {0.0, 1.0, false, true};
 
 // clang-format off
@@ -85,7 +85,7 @@ const Key kRunKeys[] = {
     {"detection", "false_alarms_per_1000_h", number<&Detection::false_alarms_per_1000_h>, kNone, kPositive, may, kShared, "instead of false_alarm_rate: false alarms of a feature in 1000 hours of healthy machines, all machines together"},
     {"detection", "machines", integer<&Detection::machines>, kNone, closed_range(1, 1e6), with_alarm_target, kShared, "number of machines in the fleet that the target is for"},
     {"detection", "record_interval_h", number<&Detection::record_interval_h>, kHours, kPositive, alarm_target_needs, kShared, "hours between two records of a machine; by default life.interval_h"},
-    {"detection", "confidence", number<&Detection::confidence>, kNone, kShare, may, kShared, "confidence level of the intervals"},
+    {"detection", "confidence", number<&Detection::confidence>, kNone, kConfidence, may, kShared, "confidence level of the intervals"},
     {"detection", "size_edges_mm", ascending<&Detection::size_edges_m>, kMm, kNotNegative, length_edges, kShared, "edges of the size groups of a continuous fault size that is a length"},
     {"detection", "size_edges", ascending<&Detection::size_edges>, kNone, kNotNegative, number_edges, kShared, "edges of the size groups of a continuous fault size that is a pure number"},
     {"detection", "uncertain_inputs", list<&Detection::uncertain_inputs>, kNone, kAny, may, kShared, "random inputs, by key, whose distribution describes the uncertainty of one value that is the same for all gearboxes, as calibrate estimates it; its effect is shown as a separate band"},

@@ -30,6 +30,8 @@ TEST_CASE("A signal requests a stop during the lifetime of a watcher") {
         CHECK(interruption.reason(1h).empty());
         std::raise(number);
         CHECK_FALSE(interruption.reason({}).empty());
+        // A sweep has one around those of its points: none of them misses a signal.
+        CHECK(Interruption(std::nullopt).signalled());
     }
 }
 

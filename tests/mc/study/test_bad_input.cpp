@@ -365,6 +365,13 @@ TEST_CASE("A file that cannot be read is one problem") {
         REQUIRE(reading.problems.size() == 1);
         CHECK(reading.problems[0].file == path);
     }
+    const test::Folder folder;
+    const std::string huge = folder.file("huge.toml");
+    test::write_bytes(huge, "");
+    std::filesystem::resize_file(huge, std::uintmax_t{1} << 40);  // of holes
+    const auto reading = read_study(huge);
+    REQUIRE(reading.problems.size() == 1);
+    CHECK(reading.problems[0].what == "has more than 67108864 bytes");
 }
 
 TEST_CASE("No damage to a study file leads to an exception") {
