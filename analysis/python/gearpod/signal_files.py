@@ -872,7 +872,8 @@ class Layout:
     """Names of a table's columns, found in its first lines, if `separator` separates its fields."""
 
     def __init__(self, lines, separator):
-        self.separator, self.rows, self.header, self.units = separator, list(records(lines, separator)), None, None
+        self.lines, self.separator, self.rows = lines, separator, list(records(lines, separator))
+        self.header = self.units = None
         half = [row.fields for row in self.rows[len(self.rows) // 2:]]
         self.width = max(collections.Counter(map(len, half)).items(), key=lambda item: item[::-1])[0]
         columns = [[fields[c] for fields in half if c < len(fields) and fields[c] not in MISSING] for c in range(self.width)]
@@ -921,11 +922,11 @@ class Layout:
         return self.separator == "," and len(rows[0].named) == 1 and not any("." in f for row in rows[1:] for f in row.fields)
 
     def has_row_names(self):
-        """True if the rows begin with names that the header does not name, as R writes them: texts, or counted from 1."""
+        """True if the rows begin with names that the header does not name, as R writes them: quoted, or counted from 1."""
         header = self.rows[self.header or 0]
         rows = self.rows[(self.units or self.header or 0) + 1:]
         return len(header.fields) == len(header.named) == self.width - 1 and bool(rows) and all(
-            row.fields[-1] and (row.fields[0] == str(i) or not is_number(row.fields[0])) for i, row in enumerate(rows, 1))
+            row.fields[-1] and (row.fields[0] == str(i) or self.lines[row.first - 1].startswith('"')) for i, row in enumerate(rows, 1))
 
     def names(self):
         """Names with their units, the numbers of their lines, and that of the last line before the rows."""
