@@ -65,58 +65,6 @@ bool is_universal_file(std::string_view head) {
            head.substr(end + 1, 6).find_first_not_of(" 0123456789") == head.npos;
 }
 
-// File in the folder for temporary files, deleted by the destructor.
-class OutputFile {
-  public:
-    explicit OutputFile(const std::string& path)
-        : name_((std::filesystem::temp_directory_path() / "gearpod-recording-XXXXXX").string()) {
-        const Descriptor created(::mkstemp(name_.data()));
-        if (created.get() < 0) {
-            throw SignalError(fmt::format("{}: cannot be read: no temporary file {} ({})", path,
-                                          name_, std::strerror(errno)));
-        }
-    }
-    OutputFile(const OutputFile&) = delete;
-    OutputFile& operator=(const OutputFile&) = delete;
-    ~OutputFile() { ::unlink(name_.c_str()); }
-
-    const std::string& name() const { return name_; }
-
-  private:
-    std::string name_;
-};
-
-std::string dataset_name(std::size_t channel) {
-    return fmt::format("{:06}", channel);
-}
-
-ForeignChannel channel_of(hid_t file, const std::string& dataset) {
-    const auto has = [&](const char* name) {
-        return H5Aexists_by_name(file, dataset.c_str(), name, H5P_DEFAULT) > 0;
-    };
-    const auto text = [&](const char* name) {
-        return has(name) ? read_text(file, dataset, name) : "";
-    };
-    const auto number = [&](const char* name) {
-        return has(name) ? std::optional(read_number(file, dataset, name)) : std::nullopt;
-    };
-    return {text("name"),
-            text("title"),
-            text(has("text") ? "text" : "name"),
-            text("unit"),
-            text("quantity"),
-            text("unit_text"),
-            text("unit_by_lengths"),
-            number("lengths_per_metre"),
-            number("sampling_Hz"),
-            number("start_s"),
-            text("times"),
-            text("note"),
-            text("problem"),
-            text("unreadable"),
-            shape_of(open_dataset(file, dataset), dataset)};
-}
-
 }  // namespace
 
 FileKind file_kind(const std::string& path) {
@@ -165,13 +113,21 @@ std::string unknown_format_text(const std::string& path) {
            "download the recording itself";
 }
 
-ForeignFile::ForeignFile(const std::string& path, const std::string& reader) : path_(path) {
-    const OutputFile temporary(path);
+PythonOutputFile::PythonOutputFile(const std::string& path)
+    : name_((std::filesystem::temp_directory_path() / "gearpod-recording-XXXXXX").string()) {
+    const Descriptor created(::mkstemp(name_.data()));
+    if (created.get() < 0) {
+        throw SignalError(fmt::format("{}: cannot be read: no temporary file {} ({})", path, name_,
+                                      std::strerror(errno)));
+    }
+}
+
+PythonOutputFile::PythonOutputFile(const std::string& path, const std::string& reader)
+    : PythonOutputFile(path) {
     PythonOutput output;
     try {
         // -B: write no compiled files; -s: ignore the user's own packages.
-        output =
-            run_python({"-Bs", "-c", kSignalFilesSource, reader, path, temporary.name()}, "", true);
+        output = run_python({"-Bs", "-c", kSignalFilesSource, reader, path, name_}, "", true);
     } catch (const PythonError& error) {
         throw SignalError(
             fmt::format("{}: this kind of file is read by Python: {}", path, error.what()));
@@ -183,31 +139,10 @@ ForeignFile::ForeignFile(const std::string& path, const std::string& reader) : p
         throw SignalError(
             fmt::format("{}: is damaged: reading it {}", path, ended_text(output.status)));
     }
-    try {
-        file_.emplace(open_file(temporary.name(), path));
-        separator_ = read_text(file_->get(), ".", "separator").front();
-        note_ = read_text(file_->get(), ".", "note");
-        H5G_info_t info{};
-        check(H5Gget_info(file_->get(), &info), path);
-        for (std::size_t i = 0; i < info.nlinks; ++i) {
-            channels_.push_back(channel_of(file_->get(), dataset_name(i)));
-        }
-    } catch (const Hdf5Error& error) {
-        throw SignalError(
-            fmt::format("{}: what Python has read cannot be taken over ({})", path, error.what()));
-    }
 }
 
-std::vector<double> ForeignFile::values(std::size_t channel, std::size_t column) const {
-    try {
-        std::vector<double> values;
-        read_rows(file_->get(), dataset_name(channel), channels_[channel].shape, {column, 1},
-                  values);
-        return values;
-    } catch (const Hdf5Error&) {
-        throw SignalError(
-            fmt::format("{}: {} cannot be read", path_, printable(channels_[channel].name)));
-    }
+PythonOutputFile::~PythonOutputFile() {
+    ::unlink(name_.c_str());
 }
 
 }  // namespace gearpod::mc

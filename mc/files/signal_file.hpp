@@ -57,8 +57,8 @@ std::string listed_text(const std::vector<std::string>& texts);
 
 // Opens a file according to its first bytes, or to the extension of its name. Throws SignalError.
 //   .csv, .txt   A header line with names and units in brackets ("sensor [m/s^2]"), then a line
-//                of numbers per sample, in any usual form (text_table.hpp); also compressed
-//                with gzip (.csv.gz, .txt.gz). Columns that are not read may contain anything.
+//                of numbers per sample (text_table.hpp). Columns that are not read may contain
+//                anything. Python converts other forms, also compressed ones (.csv.gz, .txt.gz).
 //   .h5, .hdf5   Vectors of numbers, also N x 1, in any group, named by their paths; those in the
 //                group /signals by their names. "data:2" is the second column of a matrix; with
 //                `row`, rows of two-dimensional datasets. Attributes state the unit (unit, units,
@@ -101,7 +101,7 @@ struct SignalSource {
 std::unique_ptr<SignalFile> open_signal_csv(const std::string& path);
 std::unique_ptr<SignalFile> open_signal_hdf5(const std::string& path,
                                              std::optional<std::size_t> row);
-// `reader`: that of ForeignFile (foreign_file.hpp).
+// `reader`: that of PythonOutputFile (foreign_file.hpp).
 std::unique_ptr<SignalFile> open_signal_foreign(const std::string& path, const std::string& reader);
 
 }  // namespace gearpod::mc

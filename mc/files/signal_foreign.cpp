@@ -3,32 +3,59 @@
 
 #include <algorithm>
 #include <cmath>
+#include <nlohmann/json.hpp>
+#include <optional>
 #include <sstream>
 
+#include "machine/no_value.hpp"
 #include "mc/files/column_search.hpp"
 #include "mc/files/foreign_file.hpp"
+#include "mc/files/hdf5_data.hpp"
 #include "mc/files/input/terminal_text.hpp"
 #include "mc/files/signal_file.hpp"
-#include "mc/files/signal_units.hpp"
 
 namespace gearpod::mc {
 namespace {
 
 constexpr const char* kTimes = "time";
 
+// Channel of a recording, as Python states it (signal_files.py). Empty texts and NaN are not
+// stated.
+struct ForeignChannel {
+    std::string name, title;  // the title is another name
+    std::string text;         // name and shape in lists of channels
+    std::string unit;
+    std::string times;       // name of the channel with the times of the samples
+    std::string note;        // lines to report if the channel is used
+    std::string problem;     // reason why it is not a column of numbers
+    std::string unreadable;  // reason why its values cannot be read
+    double sampling_Hz = kNan, start_s = kNan;
+    Shape shape;  // columns of a matrix, and samples
+};
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE_WITH_DEFAULT(ForeignChannel, name, title, text, unit, times,
+                                                note, problem, unreadable, sampling_Hz, start_s,
+                                                shape)
+
 class SignalForeign final : public NamedColumns {
   public:
-    SignalForeign(const std::string& path, const std::string& reader)
-        : NamedColumns(path, "name"), file_(path, reader) {
-        for (const ForeignChannel& channel : file_.channels()) {
-            all_.push_back(channel.name);
+    SignalForeign(const std::string& path, const std::string& reader) : NamedColumns(path, "name") {
+        const PythonOutputFile output(path, reader);
+        try {
+            file_.emplace(open_file(output.name(), path));
+            const auto stated = nlohmann::json::parse(read_text(file_->get(), ".", "recording"));
+            separator_ = stated["separator"].get<std::string>().front();
+            add_notes(stated["note"]);
+            channels_ = stated["channels"];
+            std::ranges::transform(channels_, std::back_inserter(all_), &ForeignChannel::name);
+        } catch (const std::exception& error) {
+            throw SignalError(fmt::format("{}: what Python has read cannot be taken over ({})",
+                                          path, error.what()));
         }
-        add_notes(file_.note());
     }
 
     std::vector<std::string> names() const override {
         std::vector<std::string> names;
-        for (const ForeignChannel& channel : file_.channels()) {
+        for (const ForeignChannel& channel : channels_) {
             if (channel.problem.empty()) {
                 names.push_back(channel.name);
             }
@@ -38,7 +65,7 @@ class SignalForeign final : public NamedColumns {
 
     std::string contents() override {
         std::vector<std::string> texts;
-        for (const ForeignChannel& channel : file_.channels()) {
+        for (const ForeignChannel& channel : channels_) {
             texts.push_back(printable(channel.text));
         }
         return listed_text(texts);
@@ -53,58 +80,39 @@ class SignalForeign final : public NamedColumns {
 
     std::vector<double> read(const std::string& name) override {
         const auto part = part_of(name);
-        const ForeignChannel& channel = file_.channels()[part.channel];
+        const ForeignChannel& channel = channels_[part.channel];
         if (!channel.unreadable.empty()) {
             refuse(channel.unreadable);
         }
         add_notes(channel.note);
         add_sampling(channel);
-        return file_.values(part.channel, part.column);
+        return values(part);
     }
 
-    // Universal files state a quantity and a unit of length in addition to a label.
     std::string unit(const std::string& name) override {
-        const ForeignChannel& channel = file_.channels()[part_of(name).channel];
-        if (!channel.quantity.empty()) {
-            const bool angular =
-                !channel.unit.empty() &&
-                ((channel.quantity == "displacement" &&
-                  unit_factor(Quantity::angle, channel.unit)) ||
-                 (channel.quantity == "velocity" && unit_factor(Quantity::speed, channel.unit)));
-            return angular ? channel.unit : channel.unit_text;
-        }
-        const auto factor = unit_factor(Quantity::acceleration, channel.unit);
-        const auto lengths = channel.lengths_per_metre;
-        // A unit of gravity is no product of the file's units: it agrees with SI only.
-        const bool agrees = !factor || !lengths || std::abs(*factor * *lengths - 1.0) < 1e-4 ||
-                            (*lengths == 1.0 && channel.unit.find('/') == std::string::npos);
-        return agrees ? channel.unit
-                      : fmt::format("{} by the function's label, but {} by dataset 164",
-                                    channel.unit, channel.unit_by_lengths);
+        return channels_[part_of(name).channel].unit;
     }
 
     // Rate of the columns in use, or of the channel; else a number next to the column, or in the
     // groups around it.
     std::optional<double> sampling_Hz_of(const std::string& name) override {
-        if (rate_Hz_) {
+        if (!std::isnan(rate_Hz_)) {
             return rate_Hz_;
         }
-        const auto& channels = file_.channels();
-        const auto rated = std::ranges::find_if(channels, [&](const ForeignChannel& channel) {
-            return channel.sampling_Hz && (name.empty() || channel.name == name);
+        const auto rated = std::ranges::find_if(channels_, [&](const ForeignChannel& channel) {
+            return !std::isnan(channel.sampling_Hz) && (name.empty() || channel.name == name);
         });
-        if (rated != channels.end()) {
+        if (rated != channels_.end()) {
             return rated->sampling_Hz;
         }
-        for (std::string group = group_of(name, file_.separator());;
-             group = group_of(group, file_.separator())) {
+        for (std::string group = group_of(name, separator_);; group = group_of(group, separator_)) {
             std::vector<NumberStatement> statements;
-            for (std::size_t c = 0; c < channels.size(); ++c) {
-                const std::string leaf = leaf_of(channels[c].name, file_.separator());
-                if (group_of(channels[c].name, file_.separator()) == group &&
-                    channels[c].problem.empty() && stated_rate_Hz({leaf, 1.0})) {
-                    if (channels[c].shape[1] == 1) {
-                        statements.push_back({leaf, file_.values(c).front()});
+            for (std::size_t c = 0; c < channels_.size(); ++c) {
+                const std::string leaf = leaf_of(channels_[c].name, separator_);
+                if (group_of(channels_[c].name, separator_) == group &&
+                    channels_[c].problem.empty() && stated_rate_Hz({leaf, 1.0})) {
+                    if (channels_[c].shape[1] == 1) {
+                        statements.push_back({leaf, values({c, 0}).front()});
                     } else if (leaf == "sampling_Hz") {
                         refuse("sampling_Hz must be one number");
                     }
@@ -121,6 +129,17 @@ class SignalForeign final : public NamedColumns {
         std::size_t channel, column;
     };
 
+    std::vector<double> values(const Part& part) const {
+        const ForeignChannel& channel = channels_[part.channel];
+        try {
+            std::vector<double> values;
+            read_rows(file_->get(), fmt::format("{:06}", part.channel), channel.shape,
+                      {part.column, 1}, values);
+            return values;
+        } catch (const Hdf5Error&) {
+            refuse(channel.name + " cannot be read");
+        }
+    }
     [[noreturn]] void refuse(const std::string& why) const {
         throw SignalError(fmt::format("{}: {}", path_, printable(why)));
     }
@@ -131,8 +150,8 @@ class SignalForeign final : public NamedColumns {
         }
     }
     std::vector<std::string> matching(const ColumnChoice& choice) const override {
-        std::vector<std::string> found = matching_columns(all_, choice, file_.separator());
-        for (const ForeignChannel& channel : file_.channels()) {
+        std::vector<std::string> found = matching_columns(all_, choice, separator_);
+        for (const ForeignChannel& channel : channels_) {
             if (!channel.title.empty() && channel.title == choice.name &&
                 std::ranges::find(all_, choice.name) == all_.end()) {
                 found.push_back(channel.name);
@@ -151,7 +170,7 @@ class SignalForeign final : public NamedColumns {
     }
     std::string problem_of(const std::string& name) const override {
         const Part part = part_of(name);
-        const ForeignChannel& channel = file_.channels()[part.channel];
+        const ForeignChannel& channel = channels_[part.channel];
         if (channel.name == name || (!channel.problem.empty() && channel.shape[0] == 1)) {
             return printable(channel.problem);
         }
@@ -164,36 +183,38 @@ class SignalForeign final : public NamedColumns {
     // Samples of columns in use must be at the same times.
     void add_sampling(const ForeignChannel& channel) {
         constexpr double kSameRate = 1e-9;
-        const auto rate = channel.sampling_Hz, start = channel.start_s;
+        const double rate = channel.sampling_Hz, start = channel.start_s;
         if (!channel.times.empty() || !times_.empty()) {
-            if (rate || rate_Hz_ ||
+            if (!std::isnan(rate) || !std::isnan(rate_Hz_) ||
                 (!times_.empty() && channel.name != times_ && channel.times != times_)) {
                 refuse(fmt::format("column {} has other times than the first column in use",
                                    channel.name));
             }
             times_ = times_.empty() ? channel.times : times_;
         }
-        if (rate && rate_Hz_ && std::abs(*rate - *rate_Hz_) > kSameRate * *rate_Hz_) {
+        if (std::abs(rate - rate_Hz_) > kSameRate * rate_Hz_) {
             refuse(fmt::format("its columns {} and {} have different time steps, {:g} s and {:g} s",
-                               rate_column_, channel.name, 1.0 / *rate_Hz_, 1.0 / *rate));
+                               rate_column_, channel.name, 1.0 / rate_Hz_, 1.0 / rate));
         }
-        if (rate && !rate_Hz_) {
+        if (std::isnan(rate_Hz_)) {
             rate_Hz_ = rate;
             rate_column_ = channel.name;
         }
-        if (start && start_s_ && rate_Hz_ && std::abs(*start - *start_s_) * *rate_Hz_ > 0.5) {
+        if (std::abs(start - start_s_) * rate_Hz_ > 0.5) {
             refuse(fmt::format("its columns {} and {} start at different times, {:g} s apart",
-                               start_column_, channel.name, std::abs(*start - *start_s_)));
+                               start_column_, channel.name, std::abs(start - start_s_)));
         }
-        if (start && !start_s_) {
+        if (std::isnan(start_s_)) {
             start_s_ = start;
             start_column_ = channel.name;
         }
     }
 
-    ForeignFile file_;
+    std::optional<Hdf5Handle> file_;
+    char separator_ = '/';  // between the parts of a channel's name
+    std::vector<ForeignChannel> channels_;
     std::vector<std::string> all_;
-    std::optional<double> rate_Hz_, start_s_;  // of the columns in use
+    double rate_Hz_ = kNan, start_s_ = kNan;  // of the columns in use
     std::string rate_column_, start_column_;
     std::string times_;  // name of the column with their times
 };

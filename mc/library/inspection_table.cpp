@@ -195,7 +195,7 @@ std::vector<double> powers(const std::string& scale, Problems& problems) {
     if (scale == "linear" || scale == "log" || scale == "box-cox") {
         return {scale == "linear" ? 1.0 : scale == "log" ? 0.0 : kNan};
     }
-    const auto power = number_of(scale, false);
+    const auto power = number_of(scale);
     if (!power || !(std::abs(*power) <= 10.0)) {
         reject(problems, 0,
                "--response-scale {}: must be linear, log, box-cox or a power "

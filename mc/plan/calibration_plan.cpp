@@ -52,8 +52,8 @@ class ParameterReader {
         }
         CalibratedInput input{key->path(), 0.0, 0.0, false, key->unit.to_si};
         const std::vector<std::string> parts = split(text.substr(equals + 1), ':');
-        const auto low = number_of(parts.front(), false);
-        const auto high = parts.size() > 1 ? number_of(parts[1], false) : std::nullopt;
+        const auto low = number_of(parts.front());
+        const auto high = parts.size() > 1 ? number_of(parts[1]) : std::nullopt;
         input.logarithmic = parts.size() == 3 && parts[2] == "log";
         if (!low || !high || parts.size() > 3 || (parts.size() == 3 && !input.logarithmic)) {
             return reject("\"" + text.substr(equals + 1) + "\" is not a range",

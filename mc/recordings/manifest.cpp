@@ -80,7 +80,7 @@ class Reading {
 
     void read_known(Recording& recording) {
         if (const std::string* text = field("row")) {
-            const auto value = number_of(*text, true);
+            const auto value = number_of(*text);
             if (!value || !(*value >= 0.0) || *value != std::floor(*value) || *value > 1e15) {
                 reject("row", fmt::format("\"{}\" is not a row number", *text),
                        "rows are numbered from 0");

@@ -4,6 +4,7 @@
 Files are written from the formats' specifications, or by scipy, h5py and soundfile. Every value read must equal the value
 written."""
 
+import json
 import pathlib
 import random
 import struct
@@ -24,6 +25,8 @@ sys.path.insert(0, str(pathlib.Path(sys.argv.pop(1)) / "analysis/python/gearpod"
 sys.path.insert(0, str(pathlib.Path(__file__).parents[1] / "recordings"))
 import signal_files  # noqa: E402
 from written_recordings import uff164, uff58  # noqa: E402
+
+signal_files.load_libraries()
 
 SIX = np.array([1.0, -2.0, 3.0, -4.0, 5.0, -6.0])
 SINES = 30 * np.sin(0.37 * np.arange(1001))
@@ -414,12 +417,13 @@ class UniversalFiles(Case):
             for data in ((uff164(lengths) + set58, set58 + uff164(lengths), uff164(1.0) + uff164(lengths) + set58)
                          if lengths else (set58,)):
                 self.assertEqual(self.read(data)[1]["sensor"].unit, unit, (lengths, fields))
-        channel = self.read(uff164(1.0) + dataset_58(unit="mm/s^2"))[1]["sensor"]
-        self.assertEqual((channel.unit, channel.lengths_per_metre, channel.unit_by_lengths), ("mm/s^2", 1.0, "m/s^2"))
+        for label, unit in (("mm/s^2", "mm/s^2 by the function's label, but m/s^2 by dataset 164"), ("M/SEC**2", "M/SEC**2")):
+            self.assertEqual(self.read(uff164(1.0) + dataset_58(unit=label))[1]["sensor"].unit, unit)
+        self.assertEqual([self.sensor(quantity=q, unit=u).unit for q, u in ((8, "deg"), (11, "rpm"))], ["deg", "rpm"])
         for quantity, unit, text in ((11, "m/s", "velocity in m/s, ordinate data type 11"),
                                      (11, "NONE", "velocity, ordinate data type 11"), (99, "N", "specific data type 99 in N, "
                                                                                        "ordinate data type 99")):
-            self.assertEqual(self.sensor(quantity=quantity, unit=unit).unit_text, text)
+            self.assertEqual(self.sensor(quantity=quantity, unit=unit).unit, text)
 
     def test_other_functions(self):
         response = dataset_58(function=4, kind=5, count=2, abscissa=18)
@@ -464,14 +468,16 @@ class Process(Case):
         genuine["mat"] = self.path.read_bytes()
         soundfile.write(self.path, 0.03 * SINES, 5120, format="WAV", subtype="PCM_16")
         genuine["sound"] = self.path.read_bytes()
+        genuine["text"] = "Rig;2\n\"Zeit [s]\";g\n0;2,5\n0,5;1.5\n1;\"3\"\n".encode("utf-16")
         dice = random.Random(7)
         for self.kind, whole in genuine.items():
             for _ in range(150):
                 data = bytearray(whole)
                 for _ in range(dice.randint(1, 4)):
                     data[dice.randrange(len(data))] = dice.choice((0, 255, dice.randrange(256)))
+                self.path.write_bytes(data[:dice.choice((len(data), dice.randint(1, len(data))))])
                 try:
-                    self.read(bytes(data[:dice.choice((len(data), dice.randint(1, len(data))))]))
+                    signal_files.write_plain_csv(str(self.path), f"{self.path}.csv") if self.kind == "text" else self.read()
                 except (signal_files.Refusal, MemoryError):
                     pass
 
@@ -481,9 +487,9 @@ class Process(Case):
         signal_files.write_recording(signal_files.read_uff(str(self.path)), output)
         with h5py.File(output) as file:
             self.assertEqual(file["000000"][()].tolist(), [[1, -2, 3.5, 4]])
-            self.assertEqual(file["000000"].attrs["name"], "sensor")
-            self.assertEqual(file["000000"].attrs["sampling_Hz"], 5120.0)
-            self.assertNotIn("times", file["000000"].attrs)
+            channel = json.loads(file.attrs["recording"])["channels"][0]
+            self.assertEqual((channel["name"], channel["sampling_Hz"], channel["shape"]), ("sensor", 5120.0, [1, 4]))
+            self.assertNotIn("times", channel)
 
 
 if __name__ == "__main__":

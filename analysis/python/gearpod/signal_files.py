@@ -1,16 +1,20 @@
-"""Reads recordings of other programs for gearpod: MAT, TDMS, universal and sound files.
+"""Reads recordings of other programs for gearpod: MAT, TDMS, universal and sound files, and text tables other than plain CSV.
 
 The program contains this file and starts it once for each recording: python -c SOURCE KIND PATH OUT. The
-process writes an HDF5 file with a dataset for each channel, in doubles, one row per column of a matrix.
-Attributes state name, unit, sampling rate, start and problems (mc/files/foreign_file.hpp). If the file cannot be
-read, the process prints the reason and ends with exit code 3. Memory and time are limited.
+process writes an HDF5 file with a dataset for each channel, in doubles, one row per column of a matrix. An
+attribute states name, unit, sampling rate, start and problems (mc/files/signal_foreign.cpp). Of a text table it writes
+plain CSV. If the file cannot be read, the process prints the reason and ends with exit code 3. Memory and time are limited.
 """
 
 # mypy: ignore-errors
 
 import collections
+import csv
+import datetime
 import decimal
+import gzip
 import itertools
+import json
 import math
 import mmap
 import os
@@ -21,20 +25,15 @@ import signal
 import struct
 import sys
 import warnings
+import zlib
 from types import SimpleNamespace
 
 os.environ["OPENBLAS_NUM_THREADS"] = "1"
 
-try:
-    import h5py
-    import numpy as np
-except ImportError:
-    pass  # main() names what is missing
-
 FREE_MEMORY, MEMORY_PER_BYTE = 256 << 20, 1000
-FREE_SECONDS, BYTES_PER_SECOND = 20, 10_000_000
+FREE_SECONDS, BYTES_PER_SECOND = 20, 500_000
 REFUSED = 3
-PACKAGES = {"mat": ("numpy", "h5py", "scipy.io"), "sound": ("numpy", "h5py", "soundfile")}
+PACKAGES = {"mat": ("numpy", "h5py", "scipy.io"), "sound": ("numpy", "h5py", "soundfile"), "text": ()}
 TIME_UNITS = {name: factor for names, factor in (
     ("s sec secs second seconds none n/a null", 1.0), ("ms msec msecs millisecond milliseconds", 1e-3),
     ("us µs μs usec usecs microsecond microseconds", 1e-6), ("ns nsec nanosecond nanoseconds", 1e-9),
@@ -48,11 +47,11 @@ class Refusal(Exception):
 
 class Channel(SimpleNamespace):
     """Channel of a recording: a vector, or a matrix with a row for each column of the file's matrix, and statements
-    (ForeignChannel in mc/files/foreign_file.hpp). Empty texts and None are not stated."""
+    (ForeignChannel in mc/files/signal_foreign.cpp). Empty texts and None are not stated."""
 
     values = ()
-    text = title = unit = unit_text = unit_by_lengths = quantity = times = note = problem = unreadable = ""
-    lengths_per_metre = sampling_Hz = start_s = None
+    text = title = unit = times = note = problem = unreadable = ""
+    sampling_Hz = start_s = None
 
 
 def require(condition, reason):
@@ -435,13 +434,12 @@ class TdmsFile:
             if not 0 <= count <= MOST_SCALES:
                 raise ValueError(f"{count:g} is not a valid number of scales")
             if count > 0:
-                return evaluated(channel, holder, int(count) - 1)
-        return raw_values(channel)
+                return scaled_values(channel, holder, int(count) - 1)
+        return raw_values(channel, next(iter(channel.raw)))
 
 
-def raw_values(channel, scale=None):
-    """Raw values of a scale, or the first ones."""
-    blocks = channel.raw[next(iter(channel.raw)) if scale is None else scale]
+def raw_values(channel, scale):
+    blocks = channel.raw[scale]
     if channel.kind != TDMS_TIME:
         return np.concatenate([block.astype(np.float64).ravel() for block in blocks])
     seconds, fraction = (np.concatenate([block[part].astype(code).ravel() for block in blocks])
@@ -456,32 +454,23 @@ def stated(properties, name, kind=float):
     return value if isinstance(value, kind) else None
 
 
-def evaluated(channel, holder, scale):
-    chain = []  # coefficients, from the last scale to the first
-    while scale != RAW_INPUT and not (channel.daqmx and scale in channel.raw):
-        if len(chain) == MOST_SCALES:
-            raise ValueError("its scales form a circle")
-        coefficients, scale = scale_of(holder, f"NI_Scale[{scale}]_", scale)
-        chain.append(coefficients)
-    values = raw_values(channel, scale if channel.daqmx and scale in channel.raw else None)
-    for coefficients in chain[::-1]:
-        values = np.polynomial.polynomial.polyval(values, coefficients or [0.0])
-    return values
-
-
-def scale_of(holder, prefix, number):
-    """Coefficients of a scale from the constant to the highest power, and its input."""
-    kind = stated(holder, prefix + "Scale_Type", str) or ""
+def scaled_values(channel, holder, scale, depth=0):
+    """Values after a scale, whose input is another scale or the raw values."""
+    if not 0 <= scale < RAW_INPUT or channel.daqmx and scale in channel.raw:
+        return raw_values(channel, scale if scale in channel.raw and channel.daqmx else next(iter(channel.raw)))
+    if depth == MOST_SCALES:
+        raise ValueError("its scales form a circle")
+    prefix = f"NI_Scale[{int(scale)}]_"
+    kind, count = stated(holder, prefix + "Scale_Type", str) or "", stated(holder, prefix + "Polynomial_Coefficients_Size")
     if kind not in ("Linear", "Polynomial"):
-        raise ValueError(f"its scaling {kind or f'{number} is not stated, which'} is not supported{EXPORT}")
-    names, count = ["Linear_Y_Intercept", "Linear_Slope"], stated(holder, prefix + "Polynomial_Coefficients_Size")
-    if kind == "Polynomial":
-        names = [f"Polynomial_Coefficients[{i}]" for i in range(MOST_SCALES) if i < (4.0 if count is None else count)]
-    for name in names:
-        if stated(holder, prefix + name) is None:
-            raise ValueError(f"its scaling lacks the property {prefix}{name}")
-    source = stated(holder, f"{prefix}{kind}_Input_Source")
-    return [holder[prefix + name] for name in names], int(source) if source is not None and 0 <= source < RAW_INPUT else RAW_INPUT
+        raise ValueError(f"its scaling {kind or f'{scale:g} is not stated, which'} is not supported{EXPORT}")
+    names = ["Linear_Y_Intercept", "Linear_Slope"] if kind == "Linear" else \
+        [f"Polynomial_Coefficients[{i}]" for i in range(MOST_SCALES) if i < (4.0 if count is None else count)]
+    coefficients, source = [stated(holder, prefix + name) for name in names], stated(holder, f"{prefix}{kind}_Input_Source")
+    if None in coefficients:
+        raise ValueError(f"its scaling lacks the property {prefix}{names[coefficients.index(None)]}")
+    values = scaled_values(channel, holder, RAW_INPUT if source is None else source, depth + 1)
+    return np.polynomial.polynomial.polyval(values, coefficients or [0.0])
 
 
 def tdms_sampling(properties, first_start):
@@ -506,7 +495,7 @@ def read_tdms(path):
         channel = Channel(name=source.name if names.count(source.name) == 1 else source.path)
         channels.append(channel)
         if source.kind == TDMS_TIME:
-            channel.values, channel.unit = raw_values(source), "s"
+            channel.values, channel.unit = raw_values(source, 0), "s"
             continue
         channel.unit = stated(source.properties, "unit_string", str) or stated(source.properties, "NI_UnitDescription", str) or ""
         try:
@@ -532,8 +521,10 @@ FUNCTIONS = ("general function,time response,auto spectrum,cross spectrum,freque
              "cumulative distribution,peaks and valleys,stress cycles,strain cycles,orbit,mode indicator function,force pattern,"
              "partial power,partial coherence,eigenvalue,eigenvector,shock response spectrum,impulse response filter,"
              "multiple coherence,order function,phase compensation").split(",")
-ACCELERATION, TIME, SPEED = 12, 17, 19
+ACCELERATION, FORCE, TIME, FREQUENCY, SPEED = 12, 13, 17, 18, 19
 LENGTHS = {"m": 1.0, "cm": 100.0, "mm": 1000.0, "um": 1e6, "in": 1 / 0.0254, "ft": 1 / 0.3048}
+ANGULAR = {"displacement": "[mu]?rad|deg|degrees|°|arcmin|arcsec|turns?|revs?",
+           "velocity": "(rad|deg|turns?|revs?)/s(ec)?|(turns?|revs?|r|1)/min|rpm|k?hz"}  # units of rotation
 FORTRAN_NUMBER = re.compile(rb"[+-]?([0-9]+\.?[0-9]*|\.[0-9]+)(E[+-]?[0-9]+|[+-][0-9]{3}(?![0-9.]))?")
 DATASET_END = re.compile(rb"\n *-1 *\r?(\n|$)")
 
@@ -706,24 +697,27 @@ def other_kind(function):
     return "complex time response" if function.complex else ""
 
 
-def unit_statements(function):
-    """Statements about the ordinate. The program compares a label with dataset 164 and with the quantity."""
+def unit_of(function):
+    """Unit of the ordinate, or why there is none: its label must agree with its quantity and with dataset 164."""
     ordinate, denominator, lengths = function.ordinate, function.denominator, function.lengths
+    label, unit = ordinate.unit.lower(), ordinate.unit
     by_lengths = next((f"{name}/s^2" for name, count in LENGTHS.items() if lengths and abs(lengths / count - 1) < 1e-4),
                       f"1/{lengths:g} of m/s^2, by dataset 164" if lengths else "")
     if denominator.kind != 0 or denominator.unit:
-        return {"unit": f"{ordinate.unit or ordinate.quantity} per {denominator.unit or denominator.quantity} by the function's "
-                        "denominator"}
+        return f"{unit or ordinate.quantity} per {denominator.unit or denominator.quantity} by the function's denominator"
     if ordinate.kind in (TIME, SPEED):
-        return {"unit": ordinate.unit or ("rpm" if ordinate.kind == SPEED else "")}
+        return unit or ("rpm" if ordinate.kind == SPEED else "")
     if ordinate.kind not in (0, 1, ACCELERATION):
-        return {"unit": ordinate.unit, "quantity": ordinate.quantity,
-                "unit_text": f"{ordinate.text()}, ordinate data type {ordinate.kind}"}
-    if ordinate.unit:
-        return {"unit": ordinate.unit, "lengths_per_metre": lengths, "unit_by_lengths": by_lengths}
+        return unit if re.fullmatch(ANGULAR.get(ordinate.quantity, ""), label) and unit else \
+            f"{ordinate.text()}, ordinate data type {ordinate.kind}"
+    if unit:
+        length = re.match("(mm|cm|um|in|ft|m)[ ./*]*s", label)
+        agrees = not lengths or (abs(lengths / LENGTHS[length[1]] - 1) < 1e-4 if length else
+                                 lengths == 1 or not re.fullmatch("m?g|gn|g_n|g0", label))
+        return unit if agrees else f"{unit} by the function's label, but {by_lengths} by dataset 164"
     if ordinate.kind == ACCELERATION:
-        return {"unit": "rad/s^2" if function.rotational else by_lengths}
-    return {"unit": f"not stated, with {lengths:g} units of length per metre by dataset 164" if lengths not in (None, 1) else ""}
+        return "rad/s^2" if function.rotational else by_lengths
+    return f"not stated, with {lengths:g} units of length per metre by dataset 164" if lengths not in (None, 1) else ""
 
 
 def state_sampling(channel, function):
@@ -748,7 +742,7 @@ def read_uff(path):
     for name, function in histories:
         name, title = ("sensor", "") if alone else (name, function.title)
         channel = Channel(name=name, values=function.values, title=title, text=name + (f" ({title})" if title else ""),
-                          **unit_statements(function))
+                          unit=unit_of(function))
         channels.append(channel)
         try:
             if function.unreadable:
@@ -767,31 +761,298 @@ def read_uff(path):
     return Recording(channels + times)
 
 
-def read_uff_responses(path):
-    """Frequency responses: rows are the frequency, the real and the imaginary part."""
-    functions = [f for f in UniversalFile(path).functions if f.kind in (4, 5)]
+def si_factor(axis):
+    """Quantity and unit of an axis after multiplication by the factor: m/s^2 or N if it can be converted."""
+    length = re.fullmatch(r"(mm|cm|um|in|ft|m)(/s(ec)?(\^|\*\*)?[2²]|/s/s| ?s\^?-2)", axis.unit.lower())
+    if axis.kind in (0, 1, ACCELERATION) and (length or axis.unit.lower() in ("g", "")):
+        return "acceleration in m/s^2", 1 / LENGTHS[length[1]] if length else 9.80665 if axis.unit else 1.0
+    if axis.kind == FORCE and not axis.unit or axis.kind in (0, 1, FORCE) and axis.unit in ("N", "kN"):
+        return "excitation force in N", 1e3 if axis.unit == "kN" else 1.0
+    return axis.text(), 1.0
+
+
+def write_uff_responses(path, output):
+    """Frequency responses as a table with the axes in place of units."""
+    columns, functions = {}, [f for f in UniversalFile(path).functions if f.kind in (4, 5)]
     require(functions, "contains no frequency response")
-    return Recording([
-        Channel(name=f.abscissa.text(), title=f.ordinate.text(), text=f.denominator.text(), unit=f.ordinate.unit,
-                unit_text=f.denominator.unit, unreadable=f.unreadable, values=() if f.unreadable else np.stack(
-                    [f.first + f.step * np.arange(len(f.values)) if f.even else f.abscissae, f.values,
-                     f.imaginary if f.complex else np.zeros(len(f.values))])) for f in functions])
+    for i, f in enumerate(functions, 1):
+        (above, factor), (below, divisor), end = si_factor(f.ordinate), si_factor(f.denominator), f" {i}" * (len(functions) > 1)
+        values = np.array(f.values, complex) + (1j * np.asarray(f.imaginary) if f.complex else 0)
+        if bool(f.ordinate.unit) != bool(f.denominator.unit):  # one unit alone does not state the ratio
+            above, below = f.ordinate.text(), f.denominator.text()
+        known = f.abscissa.kind in (0, 1, FREQUENCY) and f.abscissa.unit.lower() in ("", "hz")
+        for name, axes, numbers in (("frequency", "frequency in Hz" if known else f.abscissa.text(),
+                                     f.first + f.step * np.arange(len(values)) if f.even else f.abscissae),
+                                    ("gain", f"{above} over {below}", factor / divisor * abs(values)),
+                                    ("phase", f"{above} over {below}", np.degrees(np.angle(values)))):
+            columns[f"{name}{end} [{f.unreadable or axes}]"] = np.asarray(numbers).tolist()
+    with open(output, "w", encoding="utf-8", newline="\n") as file:
+        csv.writer(file, lineterminator="\n").writerows([columns, *itertools.zip_longest(*columns.values(), fillvalue="")])
+
+
+# Text tables. The output is plain CSV: the names in a line before the first one, then each row in the line where it begins.
+
+FREE_TEXT, TEXT_PER_BYTE = 64 << 20, 200  # of compressed files: recordings shrink to a third or a twentieth
+SAMPLE_LINES, SAMPLE_BYTES, LONGEST_FIELD = 200, 1 << 19, 1 << 20
+BLANKS, ONE_FIELD, SEPARATORS = " ", "", (";", "\t", ",", " ", "")  # runs of blanks; none
+END = "\x1a"  # line after the last one
+MISSING = {"", *"- -- NA N/A n/a #N/A NaN nan NAN null NULL None <NA>".split()}
+NUMBER = re.compile(r"[+-]?(([0-9]+[.,]?[0-9]*|[.,][0-9]+)(e[+-]?[0-9]+)?|inf(inity)?|nan)", re.IGNORECASE)
+GROUPED = re.compile(r"[+-]?[1-9][0-9]{0,2}(,[0-9]{3})+")  # may have thousands separators
+TIME_STAMP = re.compile(r"[0-9]{4}-[0-9]{2}-[0-9]{2}[T ][0-9]{2}:")
+UNIT_TERM = ("(?:1|[mkuµμ]?(?:m|s|g|rad|V|Hz|N|Nm|Pa|W|A|bar)|cm|in|ft|MPa|GPa|m?sec|usec|seconds?|min|minutes?|h|hours?|deg|degrees|"
+             r"[°%]|°[CF]|degC|K|turns?|revs?|revolutions|r|U|rpm|RPM|G|dB|[vV]olts?)(?:(?:\^|\*\*)?[-⁻]?[0-9²³¹])?")
+UNIT = re.compile(rf"{UNIT_TERM}(?:[ */·.]\(?{UNIT_TERM})*\)?(?: ?\(.*\))?")
+Record = collections.namedtuple("Record", "first last fields named")  # its lines; `named`: fields up to the last one with text
+
+
+def is_number(text):
+    return NUMBER.fullmatch(text) is not None
+
+
+def bare(text):
+    """Text without brackets around all of it."""
+    return re.sub(r"^[\[(](.*)[\])]$", r"\1", text)
+
+
+def is_comment(line):
+    return line.lstrip(' \t"').startswith("#")
+
+
+def text_lines(path):
+    """Lines of a file in UTF-8, Latin-1 or UTF-16, perhaps compressed with gzip."""
+    with open(path, "rb") as file:
+        zipped = file.read(2) == b"\x1f\x8b"
+    opened, characters = gzip.open if zipped else open, 0
+    most = FREE_TEXT + TEXT_PER_BYTE * os.stat(path).st_size
+    try:
+        with opened(path, "rb") as file:
+            wide = file.read(2) in (b"\xff\xfe", b"\xfe\xff")
+        with opened(path, "rt", encoding="utf-16" if wide else "utf-8-sig", errors="strict" if wide else "surrogateescape") as file:
+            for number, line in enumerate(file, 1):
+                characters += len(line)
+                require(not zipped or characters <= most,
+                        f"holds more than {most >> 20} MB of text, over {TEXT_PER_BYTE} times its size: not a recording")
+                if "\0" in line:
+                    raise Refusal(f":{number}: is not a line of text (UTF-16 needs a byte order mark)")
+                yield line
+    except (EOFError, zlib.error, gzip.BadGzipFile) as error:
+        how = "end too early: the file is truncated" if isinstance(error, EOFError) else f"are damaged ({error})"
+        raise Refusal(f": the compressed data {how}") from error
+    except UnicodeDecodeError as error:
+        raise Refusal(": is not valid UTF-16") from error
+
+
+def split_lines(lines, separator):
+    """First line, last line and fields of each record. Quoted fields may have ends of lines, unless blanks separate."""
+    lines = ("\n" if "#" in line and is_comment(line) else line for line in lines)
+    if separator in (BLANKS, ONE_FIELD):
+        for number, line in enumerate(lines, 1):
+            # A unit in brackets belongs to the name before it.
+            yield number, number, re.split(r"\s+(?![\[(\s])", line.strip()) if separator else [line.strip(' \t\n"')]
+        return
+    reader, last = csv.reader(lines, delimiter=separator, skipinitialspace=True), 0
+    try:
+        for fields in reader:
+            yield last + 1, reader.line_num, [field.strip() for field in fields]
+            last = reader.line_num
+    except csv.Error as error:
+        raise Refusal(f":{last + 1}: a quotation mark is not closed, or the line is longer than {LONGEST_FIELD} bytes") from error
+
+
+def records(lines, separator):
+    """Records of a table without comments, blank lines and rows of empty fields."""
+    for first, last, fields in split_lines(lines, separator):
+        if any(fields):
+            named = fields if fields[-1] else fields[:max(i for i, field in enumerate(fields, 1) if field)]
+            yield Record(first, last, fields, named)
+
+
+class Layout:
+    """Names of a table's columns, found in its first lines, if `separator` separates its fields."""
+
+    def __init__(self, lines, separator):
+        self.lines, self.separator, self.rows = lines, separator, list(records(lines, separator))
+        self.header = self.units = None
+        half = [row.fields for row in self.rows[len(self.rows) // 2:]]
+        self.width = max(collections.Counter(map(len, half)).items(), key=lambda item: item[::-1])[0]
+        columns = [[fields[c] for fields in half if c < len(fields) and fields[c] not in MISSING] for c in range(self.width)]
+        self.numeric = [c for c, texts in enumerate(columns) if texts and 2 * sum(map(is_number, texts)) >= len(texts)]
+        self.find_header()
+        before = [i for i, line in enumerate(lines[:self.rows[0].first - 1], 1) if line.strip()]
+        self.comment = before[-1] if before and is_comment(lines[before[-1] - 1]) else None
+        names = next(records([lines[self.comment - 1].split("#", 1)[1]], separator), None) if self.comment else None
+        # Names may be in a comment directly before the first row. Columns of numbers alone are called 1, 2, ...
+        self.other_names = names.named if names and len(names.named) == self.width and not any(map(is_number, names.named)) else \
+            [str(i + 1) for i in range(len(self.rows[0].named))] if len({len(row.named) for row in self.rows}) == 1 and \
+            all(is_number(field) for row in self.rows for field in row.named) else []
+        self.found = self.header is not None or bool(self.other_names)
+
+    def fits(self, row):
+        """True if the row has the usual number of fields, apart from empty ones at its end."""
+        return len(row.fields) == self.width or len(row.named) <= self.width < len(row.fields)
+
+    def is_row(self, row):
+        return self.fits(row) and all(row.fields[c] in MISSING or is_number(row.fields[c]) for c in self.numeric)
+
+    def is_names(self, row):
+        return (self.fits(row) or len(row.named) in (self.width, self.width - 1)) and \
+            not any(is_number(field) or field.endswith(":") for field in row.named)
+
+    def find_header(self):
+        """Numbers follow the names, perhaps after a line of units. Texts do not show where a header ends."""
+        if self.numeric:
+            first = next((i for i, row in enumerate(self.rows) if self.is_row(row)), 0)
+            names = [i for i in range(first) if self.is_names(self.rows[i])]
+            self.header = names[-1] if names else None
+            if self.header and self.header - 1 in names and any(UNIT.fullmatch(bare(f)) for f in self.rows[self.header].named):
+                self.header, self.units = self.header - 1, self.header
+        else:
+            self.header = next((i for i, row in enumerate(self.rows) if self.is_names(row) and
+                                (i == 0 and self.fits(row) or all(map(self.fits, self.rows[i:])))), None)
+
+    def consistency(self):
+        """Share of the rows, names included, that fit."""
+        rows = self.rows[self.header or 0:]
+        return sum(map(self.fits, rows)) / len(rows)
+
+    def has_decimal_commas(self):
+        """True if there is one name above numbers with commas."""
+        rows = self.rows[self.header or 0:]
+        return self.separator == "," and len(rows[0].named) == 1 and not any("." in f for row in rows[1:] for f in row.fields)
+
+    def has_row_names(self):
+        """True if the rows begin with names that the header does not name, as R writes them: quoted, or counted from 1."""
+        header = self.rows[self.header or 0]
+        rows = self.rows[(self.units or self.header or 0) + 1:]
+        return len(header.fields) == len(header.named) == self.width - 1 and bool(rows) and all(
+            row.fields[-1] and (row.fields[0] == str(i) or self.lines[row.first - 1].startswith('"')) for i, row in enumerate(rows, 1))
+
+    def names(self):
+        """Names with their units, the numbers of their lines, and that of the last line before the rows."""
+        if self.header is None and self.other_names:
+            return self.other_names, {self.comment}, self.rows[0].first - 1
+        header, own = self.rows[self.header or 0], []
+        names, last = [""] * self.has_row_names() + header.named, header.last
+        if self.units:
+            own, last = self.rows[self.units], self.rows[self.units].last
+            for i, unit in enumerate(map(bare, own.fields), len(names) - len(header.named)):
+                if unit in ("", "-") or i >= len(names) or not names[i]:
+                    continue
+                stated = re.search(r"\[(.*)\]$|\((.*)\)$", names[i])
+                given = stated and (stated[1] or UNIT.fullmatch(stated[2] or "") and stated[2])
+                if given and given != unit:
+                    raise Refusal(f":{last}: column {names[i]}: unit {unit}, but the line before states {given}")
+                names[i] += "" if given else f" [{unit}]"
+            own = range(own.first, last + 1)
+        return names, {*range(header.first, header.last + 1), *own}, last
+
+
+def decimal_comma_columns(rows, count, separator):
+    """Columns whose commas are decimal commas. Those that may be thousands separators stay, and are no numbers."""
+    points, commas, groups, plain = set(), set(), set(), set()
+    for fields in rows:
+        for c, text in enumerate(fields[:count]):
+            if "," in text:
+                if c not in commas and NUMBER.fullmatch(text):
+                    (groups if GROUPED.fullmatch(text) else commas).add(c)
+            elif c not in points and ("." in text or c not in plain) and NUMBER.fullmatch(text):
+                (points if "." in text else plain).add(c)
+    doubtful = groups if points or separator == "," else groups & plain
+    return (commas | groups - doubtful) - points
+
+
+def seconds_since(start, text):
+    """Seconds between two time stamps; the text if it is none."""
+    try:
+        return repr((datetime.datetime.fromisoformat(text) - datetime.datetime.fromisoformat(start)).total_seconds())
+    except (ValueError, TypeError):
+        return text
+
+
+def table_layout(lines):
+    """Layout with the separator that is stated, or that splits most of the first lines into equal numbers of fields."""
+    stated = re.match(r'\s*"?sep=(.)"?\s*$', "".join(lines[:1]))
+    lines = ["\n", *lines[1:]] if stated else lines
+    require(any(re.search(r'[^,;\s"]', line) and not is_comment(line) for line in lines),
+            "is empty; a header line of column names must come first")
+    if stated:
+        return Layout(lines, stated[1])
+    *split, blanks, single = (Layout(lines, separator) for separator in SEPARATORS)
+    good = [layout for layout in split if layout.width > 1 and layout.found and not layout.has_decimal_commas()]
+    if good:
+        return max(good, key=Layout.consistency)
+    if blanks.found and len(blanks.names()[0]) > 1 and blanks.consistency() == 1:
+        return blanks
+    header = single.rows[single.header or 0].fields[0]  # names that no row fits: the message about the first row states it
+    return next((layout for layout in split if layout.separator in header), single)
+
+
+def write_plain_csv(path, output):
+    csv.field_size_limit(LONGEST_FIELD)
+    lines, size, sampled = [], 0, 0
+    for line in text_lines(path):
+        lines.append(line)
+        size, sampled = size + len(line), sampled + bool(line.strip() and not is_comment(line))
+        if size > SAMPLE_BYTES or sampled == SAMPLE_LINES:
+            break
+    layout = table_layout(lines)
+    names, own_lines, last = layout.names()
+
+    def rows():
+        for record in records(itertools.chain(text_lines(path), [END]), layout.separator):
+            if record.named == [END]:
+                return
+            if record.first > last:
+                yield record
+        raise Refusal(f":{record.first}: a quotation mark is not closed")
+
+    commas = decimal_comma_columns((row.fields for row in rows()), len(names), layout.separator)
+    times = {c: text for row in itertools.islice(rows(), 1) for c, text in enumerate(row.fields[:len(names)])
+             if TIME_STAMP.match(text) and "time" in names[c].lower()}
+    with open(output, "w", encoding="utf-8", errors="surrogateescape", newline="\n") as file:
+        writer = csv.writer(file, lineterminator="\n")
+        writer.writerow([name.replace("\n", " ") + " [s]" * (c in times and "[" not in name) for c, name in enumerate(names)])
+        file.writelines("#" + ("\n" if number in own_lines else line.strip() + "\n") for number, line in enumerate(lines[:last], 1))
+        written = last
+        for row in rows():
+            fields = row.fields[:len(names)] if len(row.named) <= len(names) else row.fields
+            if len(fields) == len(names):
+                for c in commas:
+                    fields[c] = fields[c].replace(",", ".")
+                for c in times:
+                    fields[c] = seconds_since(times[c], fields[c])
+            file.write("#\n" * (row.first - 1 - written))
+            writer.writerow(fields if row.first == row.last else [field.replace("\n", " ") for field in fields])
+            written = row.first
 
 
 # The process
 
 
-READERS = {"mat": read_mat, "sound": read_sound, "tdms": read_tdms, "uff": read_uff, "responses": read_uff_responses}
+READERS = {"mat": read_mat, "sound": read_sound, "tdms": read_tdms, "uff": read_uff}
+TABLES = {"text": write_plain_csv, "responses": write_uff_responses}
 
 
 def write_recording(recording, path):
+    """Writes the values, and all statements as JSON."""
+    channels = []
     with h5py.File(path, "w") as file:
-        file.attrs["separator"], file.attrs["note"] = recording.separator, recording.note
         for i, channel in enumerate(recording.channels):
             dataset = file.create_dataset(f"{i:06}", data=np.atleast_2d(np.asarray(channel.values, dtype=np.float64)))
+            channels.append({"text": channel.name, "shape": dataset.shape})
             for name, value in vars(channel).items():
-                if name != "values" and value not in (None, ""):
-                    dataset.attrs[name] = value.replace("\0", "?") if isinstance(value, str) else float(value)
+                if isinstance(value, str) and value:
+                    channels[-1][name] = value.replace("\0", "?").encode(errors="replace").decode()
+                elif isinstance(value, float) and math.isfinite(value):
+                    channels[-1][name] = value
+        file.attrs["recording"] = json.dumps({"separator": recording.separator, "note": recording.note, "channels": channels})
+
+
+def load_libraries():
+    global h5py, np
+    import h5py
+    import numpy as np
 
 
 def limit_resources(size):
@@ -817,7 +1078,12 @@ def main(kind, path, output):
                 f"apt-get install {' '.join('python3-' + name for name in missing)}; GEARPOD_PYTHON names another Python")
         limit_resources(os.stat(path).st_size)
         warnings.simplefilter("ignore")
-        write_recording(READERS[kind](path), output)
+        if kind != "text":
+            load_libraries()
+        if kind in TABLES:
+            TABLES[kind](path, output)
+        else:
+            write_recording(READERS[kind](path), output)
     except (Refusal, MemoryError) as problem:
         print(problem if isinstance(problem, Refusal) else ": is damaged, or needs more memory than reading a file may use", end="")
         return REFUSED

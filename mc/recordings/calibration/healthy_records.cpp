@@ -72,7 +72,7 @@ class TableReading {
         if (turns.empty()) {
             return span_.meshes();
         }
-        const auto number = number_of(turns, false);
+        const auto number = number_of(turns);
         if (!number || !(*number >= 1.0) || *number > 1e6) {
             reject("planet_turns", fmt::format("\"{}\" is not a number of turns", turns),
                    "give 1 or more");

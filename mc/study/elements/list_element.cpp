@@ -5,19 +5,17 @@
 
 #include <algorithm>
 #include <cmath>
-#include <complex>
 #include <filesystem>
 #include <iterator>
-#include <numbers>
 #include <optional>
 #include <vector>
 
+#include "machine/no_value.hpp"
 #include "mc/files/foreign_file.hpp"
 #include "mc/files/input/file_text.hpp"
 #include "mc/files/input/input_file.hpp"
 #include "mc/files/input/spelling.hpp"
 #include "mc/files/signal_file.hpp"
-#include "mc/files/signal_units.hpp"
 #include "mc/files/text/text_table.hpp"
 #include "mc/study/distributions/range.hpp"
 #include "mc/study/housing.hpp"
@@ -186,108 +184,44 @@ bool ListElement::first_of(std::string_view first, std::string_view second) cons
     return has(first);
 }
 
-namespace {
-
-constexpr const char* kFrequencyColumn = "frequency";
-constexpr const char* kGainColumn = "gain";
-constexpr const char* kPhaseColumn = "phase";
-
-// True if an axis, "acceleration in g", has this quantity or states none.
-bool is_of(const std::string& axis, const std::string& quantity) {
-    const std::string has = axis.substr(0, axis.find(" in "));
-    return has == quantity || has == "unknown" || has == "general";
-}
-
-// Factor that converts a force to N; empty for an unknown unit.
-std::optional<double> force_factor(const std::string& unit) {
-    const std::string plain = plain_unit(unit);
-    return plain == "N" ? std::optional(1.0) : plain == "kN" ? std::optional(1e3) : std::nullopt;
-}
-
-// Factor of the gain by the units above and below the fraction line. The channel's title and text
-// are the axes (`read_uff_responses` in signal_files.py).
-double unit_ratio(const std::string& path, const ForeignChannel& response, ResponseTo to) {
-    const std::string &above = response.unit, &below = response.unit_text;
-    const auto refuse = [&] {
-        throw SignalError(fmt::format(
-            "{}: its response is {} over {}; {} needs acceleration over {}", path, response.title,
-            response.text, to == ResponseTo::force ? "a bearing" : "the housing",
-            to == ResponseTo::force ? "force in N or kN" : "acceleration"));
-    };
-    if (!is_of(response.title, "acceleration") ||
-        !is_of(response.text, to == ResponseTo::force ? "excitation force" : "acceleration")) {
-        refuse();
-    }
-    if (above.empty() && below.empty()) {
-        return 1.0;
-    }
-    const auto a = unit_factor(Quantity::acceleration, above),
-               b = to == ResponseTo::force ? force_factor(below)
-                                           : unit_factor(Quantity::acceleration, below);
-    if (!a || !b || above.empty() || below.empty()) {
-        refuse();
-    }
-    return *a / *b;
-}
-
-void check_frequency(const std::string& path, const std::string& axis) {
-    const std::size_t end = std::min(axis.find(" in "), axis.size());
-    const std::string unit = lower_case(axis.substr(end));
-    if (!is_of(axis, "frequency") || (!unit.empty() && unit != " in hz")) {
-        throw SignalError(
-            fmt::format("{}: its abscissa is {}, but must be a frequency in Hz", path, axis));
-    }
-}
-
-}  // namespace
-
 std::vector<double> uff_response_column(const std::string& path, const std::string& column,
                                         ResponseTo to) {
+    // The columns of a response are read one after the other, from the same file.
+    thread_local TextTable table;
+    thread_local std::filesystem::file_time_type read_time;
     if (const std::string why = why_not_readable(path); !why.empty()) {
         throw SignalError(path + ": " + why);
     }
-    // The columns of a response are read one after the other, from the same file.
-    thread_local std::optional<ForeignFile> file;
-    thread_local std::string read_path;
-    thread_local std::filesystem::file_time_type read_time;
     const auto time = std::filesystem::last_write_time(path);
-    if (!file || read_path != path || read_time != time) {
-        file.reset();
-        file.emplace(path, "responses");
-        read_path = path;
+    if (table.path != path || read_time != time) {
+        table = {};
+        table = read_converted_table(path, "responses");
         read_time = time;
     }
-    const std::vector<ForeignChannel>& responses = file->channels();
-    for (std::size_t i = 0; i < responses.size(); ++i) {
-        const ForeignChannel& response = responses[i];
-        const std::string number = responses.size() == 1 ? "" : fmt::format(" {}", i + 1);
-        const bool gain = column == kGainColumn + number, phase = column == kPhaseColumn + number;
-        if (!gain && !phase && column != kFrequencyColumn + number) {
-            continue;
-        }
-        if (!response.unreadable.empty()) {
-            throw SignalError(fmt::format("{}: {}", path, response.unreadable));
-        }
-        if (!gain && !phase) {
-            check_frequency(path, response.name);
-            return file->values(i, 0);
-        }
-        const double factor = unit_ratio(path, response, to);
-        const std::vector<double> real = file->values(i, 1), imaginary = file->values(i, 2);
-        std::vector<double> all;
-        for (std::size_t k = 0; k < real.size(); ++k) {
-            const std::complex<double> value(real[k], imaginary[k]);
-            all.push_back(gain ? factor * std::abs(value)
-                               : std::arg(value) * 180.0 / std::numbers::pi);
-        }
-        return all;
+    const auto found = table.find(column);
+    if (!found) {
+        throw SignalError(
+            fmt::format("{}: no column {}; its columns are {}", path, column, table.names()));
     }
-    throw SignalError(fmt::format("{}: no column {}; {}", path, column,
-                                  responses.size() == 1
-                                      ? "its columns are frequency, gain, phase"
-                                      : fmt::format("its columns are frequency n, gain n, phase n "
-                                                    "with n = 1 to {}",
-                                                    responses.size())));
+    // Python states the axes as units, after converting them to these if it can.
+    const bool frequency = column.starts_with("frequency"), force = to == ResponseTo::force;
+    const std::string& axes = table.columns[*found].unit;
+    if (frequency && axes != "frequency in Hz") {
+        throw SignalError(
+            fmt::format("{}: its abscissa is {}, but must be a frequency in Hz", path, axes));
+    }
+    if (!frequency &&
+        axes != fmt::format("acceleration in m/s^2 over {}",
+                            force ? "excitation force in N" : "acceleration in m/s^2")) {
+        throw SignalError(fmt::format("{}: its response is {}; {} needs acceleration over {}", path,
+                                      axes, force ? "a bearing" : "the housing",
+                                      force ? "force in N or kN" : "acceleration"));
+    }
+    std::vector<double> all;
+    for (std::size_t row = 0; row < table.rows.size() && !table.rows[row][*found].empty(); ++row) {
+        all.push_back(table.number(row, *found).value_or(kNan));
+    }
+    return all;
 }
 
 namespace {

@@ -135,7 +135,7 @@ TEST_CASE("Responses that are no ratio of accelerations are refused with the rea
     refused(dataset({.abscissa = 17}), "frequency", "must be a frequency in Hz");
     refused(dataset({.function_type = 6}), "gain", "contains no frequency response");
     refused(dataset({}), "amplitude", "its columns are frequency, gain, phase");
-    refused(dataset({}) + dataset({}), "gain", "with n = 1 to 2");
+    refused(dataset({}) + dataset({}), "gain", "frequency 1, gain 1, phase 1, frequency 2");
     CHECK(mc::uff_response_column(file_of(folder, dataset({}) + dataset({})), "gain 2").size() ==
           kPoints);
 }
