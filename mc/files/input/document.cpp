@@ -444,9 +444,11 @@ std::string read_file(const std::string& path, Problems& problems) {
     }
     std::ifstream stream(path, std::ios::binary);
     constexpr std::size_t kMostBytes = std::size_t{1} << 26;
-    std::string text(kMostBytes + 1, '\0');
-    stream.read(text.data(), static_cast<std::streamsize>(text.size()));
-    text.resize(static_cast<std::size_t>(stream.gcount()));
+    std::string text, part(std::size_t{1} << 16, '\0');
+    while (text.size() <= kMostBytes && stream) {
+        stream.read(part.data(), static_cast<std::streamsize>(part.size()));
+        text.append(part, 0, static_cast<std::size_t>(stream.gcount()));
+    }
     if (text.size() > kMostBytes) {
         problems.push_back({path, 0, "", fmt::format("has more than {} bytes", kMostBytes),
                             "name an existing study file (*.toml)"});
