@@ -188,6 +188,12 @@ void print_omitted(const char* what, const DescribeOptions& options) {
                     what, options.seconds));
 }
 
+void print_description(const Planner& planner, const Numerics& numerics) {
+    for (const DescriptionSection& section : planner.description(numerics)) {
+        print_section(section);
+    }
+}
+
 // Forecast where the budget is used up. `chosen`: false if the pilot run that chooses the solver
 // setting took too long.
 void print_fallback(const Planner& planner, bool chosen, double setup_s, int ranks,
@@ -241,8 +247,7 @@ int describe_command(const DescribeOptions& options) {
     print_section(false_alarm_description(*study));
     std::fflush(stdout);
     const auto start = WallClock::now();
-    const char* missing =
-        "gearbox, effects and cost, because a pilot run chooses the solver setting first";
+    const char* missing = "solver setting and cost, which a pilot run chooses";
     std::optional<Planner> chosen;  // with the chosen numerics
     PeakMemory memory{.setup_bytes = peak_memory_bytes()};
     double setup_s = begun_s;
@@ -260,9 +265,7 @@ int describe_command(const DescribeOptions& options) {
         memory.setup_bytes = peak_memory_bytes();
         print_python_features(scene.features().python);
         const Numerics& numerics = chosen->facts().numerics;
-        for (const DescriptionSection& section : chosen->description(numerics)) {
-            print_section(section);
-        }
+        print_description(*chosen, numerics);
         print_life(scene.lives());
         missing = "cost";
         print_cost(scene.gearbox(), scene.solve(), scene.record(), scene.features(),
@@ -279,6 +282,9 @@ int describe_command(const DescribeOptions& options) {
         print_problems({{options.study.path, 0, error.key(), error.what(), error.remedy()}});
         return kBadInput;
     } catch (const machine::Cancelled&) {
+        if (!chosen) {
+            print_description(planner, without_tolerance(planner.facts().numerics));
+        }
         print_omitted(missing, options);
         const double now_bytes = peak_memory_bytes();
         memory.computed_bytes = now_bytes > before_bytes ? now_bytes : 0.0;
