@@ -63,7 +63,7 @@ def measured(program: str, case: Case, folder: str) -> tuple[tuple[float, float,
 def runs(study: str) -> bool:
     """True if a study has gears with teeth; the others have modes only."""
     with open(study, encoding="utf-8") as text:
-        return re.search(r"^(sun|pinion)_teeth", text.read(), re.MULTILINE) is not None
+        return re.search(r"^(teeth|\w+\.teeth) =", text.read(), re.MULTILINE) is not None
 
 
 def main() -> None:

@@ -15,12 +15,12 @@ interval of Pd contains the share that the run's threshold detects among the gea
 import argparse
 import concurrent.futures
 import os
-import subprocess
-import sys
 import tempfile
 
 import h5py
 import numpy as np
+
+from measuring import finished
 
 
 def command_line() -> argparse.Namespace:
@@ -37,12 +37,6 @@ def command_line() -> argparse.Namespace:
     parser.add_argument("--program", default="build/gearpod")
     parser.add_argument("--set", action="append", default=[], metavar="KEY=VALUE")
     return parser.parse_args()
-
-
-def finished(command: list[str]) -> None:
-    done = subprocess.run(command, capture_output=True, text=True, check=False)
-    if done.returncode not in (0, 3):  # 3: some gearboxes failed
-        sys.exit(f"{' '.join(command)} ended with {done.returncode}:\n{done.stderr}")
 
 
 def one_run(args: argparse.Namespace, plan: str, seed: int, folder: str) -> dict:

@@ -5,7 +5,7 @@
 
 namespace gearpod::test {
 
-// Values of one gearbox bit by bit, so that NaN equals NaN.
+// Values bit by bit, so that NaN equals NaN.
 using Bits = std::vector<std::uint64_t>;
 
 inline Bits bits_of(std::span<const double> values) {

@@ -5,6 +5,7 @@
 #include <unistd.h>
 
 #include "mc/results/results_file.hpp"
+#include "tests/mc/gearbox_bits.hpp"
 #include "tests/shipped_studies.hpp"
 #include "tests/test.hpp"
 
@@ -175,21 +176,12 @@ std::string message_of(Call call) {
     return "";
 }
 
-// Bits of values, so that NaN equals NaN.
-inline std::vector<std::uint64_t> bits_of_values(const std::vector<double>& values) {
-    std::vector<std::uint64_t> all;
-    for (const double value : values) {
-        all.push_back(std::bit_cast<std::uint64_t>(value));
-    }
-    return all;
-}
-
 // All datasets of the gearboxes bit by bit.
-inline std::vector<std::uint64_t> bits(const mc::Results& results) {
-    std::vector<std::uint64_t> all;
+inline Bits bits(const mc::Results& results) {
+    Bits all;
     const auto add = [&](const auto& columns) {
         for (const auto& column : columns) {
-            const auto more = bits_of_values(column.values);
+            const auto more = bits_of(column.values);
             all.insert(all.end(), more.begin(), more.end());
         }
     };
@@ -204,7 +196,7 @@ inline std::vector<std::uint64_t> bits(const mc::Results& results) {
     return all;
 }
 
-inline std::vector<std::uint64_t> bits(const std::string& path) {
+inline Bits bits(const std::string& path) {
     return bits(mc::read_results(path));
 }
 

@@ -5,6 +5,7 @@
 #include "mc/ensemble/gearbox/gearbox_tile.hpp"
 #include "mc/ensemble/gearbox/realization_features.hpp"
 #include "mc/plan/scene.hpp"
+#include "tests/mc/gearbox_bits.hpp"
 #include "tests/shipped_studies.hpp"
 #include "tests/test.hpp"
 
@@ -61,12 +62,10 @@ inline mc::Results run(const mc::Study& study) {
     return mc::run_ensemble(scene.tile(), scene.ensemble(), progress);
 }
 
-inline std::vector<std::uint64_t> feature_bits(const mc::Study& study) {
-    std::vector<std::uint64_t> all;
+inline Bits feature_bits(const mc::Study& study) {
+    Bits all;
     for (const auto& feature : run(study).features) {
-        for (const double value : feature.values) {
-            all.push_back(std::bit_cast<std::uint64_t>(value));
-        }
+        std::ranges::copy(bits_of(feature.values), std::back_inserter(all));
     }
     return all;
 }

@@ -24,7 +24,7 @@ except ImportError as missing:
 sys.path.insert(0, str(pathlib.Path(sys.argv.pop(1)) / "analysis/python/gearpod"))
 sys.path.insert(0, str(pathlib.Path(__file__).parents[1] / "recordings"))
 import signal_files  # noqa: E402
-from written_recordings import uff164, uff58  # noqa: E402
+from written_recordings import TdmsBytes, dataset_58, uff164, uff58  # noqa: E402
 
 signal_files.load_libraries()
 
@@ -209,47 +209,6 @@ class SoundFiles(Case):
         self.refused("is compressed with loss (IMA ADPCM)")
 
 
-class TdmsBytes:
-    """Writes TDMS segments in one byte order."""
-
-    META, NEW, RAW, INTERLEAVED, BIG = 2, 4, 8, 32, 64
-    ALL = META | NEW | RAW
-    NO_INDEX, SAME_INDEX = 0xFFFFFFFF, 0
-
-    def __init__(self, big=False):
-        self.order = ">" if big else "<"
-
-    def pack(self, form, *values):
-        return struct.pack(self.order + form, *values)
-
-    def text(self, text):
-        return self.pack("I", len(text.encode())) + text.encode()
-
-    def properties(self, entries):
-        data = self.pack("I", len(entries))
-        for name, value in entries.items():
-            data += self.text(name)
-            data += self.pack("I", 0x20) + self.text(value) if isinstance(value, str) else \
-                self.pack("II", 7, value) if isinstance(value, int) else \
-                self.pack("IqQ", 0x44, value[0], value[1]) if isinstance(value, tuple) and self.order == ">" else \
-                self.pack("IQq", 0x44, value[1], value[0]) if isinstance(value, tuple) else self.pack("Id", 10, value)
-        return data
-
-    def index(self, kind, count, size=None):
-        return self.pack("IIIQ", 20, kind, 1, count) + (b"" if size is None else self.pack("Q", size))
-
-    def segment(self, contents, objects, raw, closed=True):
-        """`objects`: path, raw data index, properties."""
-        meta = b""
-        if contents & self.META:
-            meta = self.pack("I", len(objects))
-            for path, index, *entries in objects:
-                meta += self.text(path) + (self.pack("I", index) if isinstance(index, int) else index)
-                meta += self.properties(entries[0] if entries else {})
-        head = b"TDSm" + struct.pack("<I", contents | (self.BIG if self.order == ">" else 0))
-        return head + self.pack("IQQ", 4713, len(meta) + len(raw) if closed else 2**64 - 1, len(meta)) + meta + raw
-
-
 class TdmsFiles(Case):
     kind = "tdms"
     A, B = "/'g'/'a'", "/'g'/'b'"
@@ -360,16 +319,6 @@ class TdmsFiles(Case):
                                         ("an invalid path", "/'g'/a", to.index(10, 1), to.pack("d", 1)),
                                         ("has no channel with numbers", "/'g'", to.NO_INDEX, b"")):
             self.refused(words, to.segment(to.ALL if raw else to.META, [(path, index)], raw))
-
-
-def dataset_58(title="NONE", binary="", function=1, direction=0, kind=2, count=4, spacing=1, abscissa=17, quantity=12, start=0.0,
-               step=0.5, abscissa_unit="s", unit="g", denominator="NONE", denominator_kind=0,
-               data="  1.00000e+00 -2.00000e+00  3.50000e+00  4.00000e+00\n"):
-    axis = lambda kind, unit: f"{kind:10d}{0:5d}{0:5d}{0:5d} {'NONE':20s} {unit:20s}\n"
-    return (f"    -1\n    58{binary}\n{title}\nNONE\nNONE\nNONE\nNONE\n"
-            f"{function:5d}{1:10d}{1:5d}{0:10d} {'NONE':10s}{1:10d}{direction:4d} {'NONE':10s}{0:10d}{0:4d}\n"
-            f"{kind:10d}{count:10d}{spacing:10d}{start:13.5e}{step:13.5e}{0:13.5e}\n" + axis(abscissa, abscissa_unit) +
-            axis(quantity, unit) + axis(denominator_kind, denominator) + axis(0, "NONE") + data + "    -1\n")
 
 
 def binary_58(order, form, size):

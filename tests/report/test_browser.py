@@ -1,10 +1,8 @@
 """Checks a report's page in headless Chromium: python3 test_browser.py CASES PROGRAM SOURCES
 
-CASES holds the JSON from make_report_cases, PROGRAM is gearpod, SOURCES its sources. Exits with 77,
-which ctest shows as skipped, if the browser or its driver is missing.
+Exits with 77, which ctest shows as skipped, if the browser or its driver is missing.
 """
 
-import json
 import os
 import pathlib
 import shutil
@@ -13,23 +11,21 @@ import sys
 import tempfile
 import unittest
 
-CASES, PROGRAM, SOURCES = (pathlib.Path(argument) for argument in sys.argv[1:4])
-sys.path.insert(0, str(SOURCES / "analysis" / "report"))
-sys.path.insert(0, str(pathlib.Path(__file__).parent))
+from report_case import PROGRAM, SOURCES, case
 
 try:
-    import build_page
     from selenium import webdriver
     from selenium.webdriver.chrome.service import Service
     from selenium.webdriver.common.action_chains import ActionChains
     from selenium.webdriver.common.keys import Keys
 except ImportError as error:
-    print(f"skipped: {error} (Debian: python3-matplotlib python3-selenium)")
+    print(f"skipped: {error} (Debian: python3-selenium)")
     sys.exit(77)
 for missing in (name for name in ("chromium", "chromedriver") if shutil.which(name) is None):
     print(f"skipped: no {missing} (Debian: chromium chromium-driver)")
     sys.exit(77)
 
+import build_page  # noqa: E402
 import made_sweeps  # noqa: E402
 from in_page import CONTRASTS, OVERLAPS  # noqa: E402
 
@@ -74,7 +70,7 @@ class InBrowser(unittest.TestCase):
         cls.pages["inspection"] = os.path.join(cls.folder.name, "inspection.html")
         make_page([PROGRAM, "pod", tables / "inspections_hits.csv", "--html",
                    cls.pages["inspection"]])
-        made = {name: json.loads((CASES / f"{name}.json").read_text()) for name in SHOWN}
+        made = {name: case(name) for name in SHOWN}
         made.update(made_sweeps.all_of())
         for name, data in made.items():
             cls.pages[name] = os.path.join(cls.folder.name, name + ".html")

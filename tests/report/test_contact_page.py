@@ -1,27 +1,16 @@
-"""Checks tooth contact on a report's page: python3 test_contact_page.py CASES PROGRAM SOURCES
+"""Checks tooth contact on a report's page: python3 test_contact_page.py CASES PROGRAM SOURCES"""
 
-CASES holds the JSON from make_report_cases, SOURCES gearpod's sources.
-"""
-
-import json
-import pathlib
 import sys
 import unittest
 
-CASES, SOURCES = pathlib.Path(sys.argv[1]), pathlib.Path(sys.argv[3])
-sys.path.insert(0, str(SOURCES / "analysis" / "report"))
-sys.path.insert(0, str(pathlib.Path(__file__).parent))
+from report_case import case
 
-try:
-    import build_page
-except ImportError as error:
-    print(f"skipped: {error} (Debian: python3-matplotlib)")
-    sys.exit(77)
-from page_html import PageHtml  # noqa: E402
+import build_page
+from page_html import PageHtml
 
 
 def page_of(blocks):
-    data = json.loads((CASES / "usual.json").read_text())
+    data = case("usual")
     data["findings"].append({"key": "contact", "title": "Contact of the teeth", "blocks": blocks})
     return PageHtml(build_page.page_html(data)).text()
 

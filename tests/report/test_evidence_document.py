@@ -5,30 +5,24 @@ import hashlib
 import json
 import pathlib
 import re
-import subprocess
 import sys
 import tempfile
 import unittest
 import warnings
 
-CASES, PROGRAM, SOURCES = (pathlib.Path(argument) for argument in sys.argv[1:4])
-sys.path.insert(0, str(SOURCES / "analysis" / "report"))
+from report_case import SOURCES, case, gearpod
 
-try:
-    import summary_sheet
-    from evidence import evidence, evidence_document
-    from words import typeset
-except ImportError as error:
-    print(f"skipped: {error} (Debian: python3-matplotlib)")
-    sys.exit(77)
+import summary_sheet
+from evidence import evidence, evidence_document
+from words import typeset
 
 DPI = 72
 SUBJECTS = ["scope", "definition", "threshold", "false_alarms", "detection", "limits", "data",
             "software"]
 
 
-def case(name):
-    return evidence.with_evidence(json.loads((CASES / f"{name}.json").read_text()))
+def case_with_evidence(name):
+    return evidence.with_evidence(case(name))
 
 
 def areas_of(page):
@@ -41,10 +35,6 @@ def areas_of(page):
             + [("chart", axes.get_tightbbox(renderer)) for axes in page.axes])
 
 
-def gearpod(*arguments):
-    return subprocess.run([PROGRAM, *arguments], capture_output=True, text=True, check=False)
-
-
 def tables(sections):
     return {block["key"]: block for section in sections for block in section["blocks"]
             if "rows" in block}
@@ -53,7 +43,7 @@ def tables(sections):
 class Document(unittest.TestCase):
     def test_everything_is_on_the_pages_without_overlap(self):
         for name in ("usual", "no_fault", "no_features"):
-            data = case(name)
+            data = case_with_evidence(name)
             with self.subTest(name), warnings.catch_warnings():
                 warnings.filterwarnings("ignore", message="Glyph")
                 _, document = evidence_document.document_of(data)
@@ -80,7 +70,7 @@ class Document(unittest.TestCase):
                                 self.assertIn(word[:8], words)
 
     def test_the_pdf_has_all_pages_and_is_reproducible(self):
-        data = case("usual")
+        data = case_with_evidence("usual")
         _, document = evidence_document.document_of(data)
         first = evidence_document.pdf(data)
         self.assertTrue(first.startswith(b"%PDF-"))

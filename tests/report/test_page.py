@@ -1,7 +1,4 @@
-"""Checks a report's page as HTML: python3 test_page.py CASES PROGRAM SOURCES
-
-CASES holds the JSON from make_report_cases, PROGRAM is gearpod, SOURCES its sources.
-"""
+"""Checks a report's page as HTML: python3 test_page.py CASES PROGRAM SOURCES"""
 
 import functools
 import json
@@ -15,23 +12,13 @@ import tempfile
 import unittest
 import xml.etree.ElementTree
 
-CASES, PROGRAM, SOURCES = (pathlib.Path(argument) for argument in sys.argv[1:4])
-sys.path.insert(0, str(SOURCES / "analysis" / "report"))
-sys.path.insert(0, str(pathlib.Path(__file__).parent))
+from report_case import CASES, PROGRAM, SOURCES, case
 
-try:
-    import build_page
-    import charts
-    import words
-    from lives import campaign_data
-except ImportError as error:
-    print(f"skipped: {error} (Debian: python3-matplotlib)")
-    sys.exit(77)
-from page_html import PageHtml  # noqa: E402
-
-
-def case(name):
-    return json.loads((CASES / f"{name}.json").read_text())
+import build_page
+import charts
+import words
+from lives import campaign_data
+from page_html import PageHtml
 
 
 @functools.lru_cache(maxsize=None)

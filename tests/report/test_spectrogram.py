@@ -1,17 +1,12 @@
 """Checks the spectrogram of a page: python3 test_spectrogram.py CASES PROGRAM SOURCES"""
 
-import pathlib
 import sys
 import unittest
 
-sys.path.insert(0, str(pathlib.Path(sys.argv[3]) / "analysis" / "report"))
+import report_case  # noqa: F401
 
-try:
-    import numpy
-    from signal_figures import WINDOW, levels_over_time
-except ImportError as error:
-    print(f"skipped: {error} (Debian: python3-matplotlib)")
-    sys.exit(77)
+import numpy
+from signal_figures import WINDOW, levels_over_time
 
 SAMPLES, MESH_HZ, ORDER = 40, 100.0, 3
 

@@ -4,23 +4,17 @@ import json
 import os
 import pathlib
 import re
-import subprocess
 import sys
 import tempfile
 import unittest
 import warnings
 
-CASES, PROGRAM, SOURCES = (pathlib.Path(argument) for argument in sys.argv[1:4])
-sys.path.insert(0, str(SOURCES / "analysis" / "report"))
+from report_case import CASES, SOURCES, gearpod
 
-try:
-    import headline
-    import summary_sheet
-    from matplotlib.text import Text
-    from report import Report
-except ImportError as error:
-    print(f"skipped: {error} (Debian: python3-matplotlib)")
-    sys.exit(77)
+import headline
+import summary_sheet
+from matplotlib.text import Text
+from report import Report
 
 DPI = 72
 
@@ -82,11 +76,6 @@ class Program(unittest.TestCase):
     def test_report_writes_it(self):
         with tempfile.TemporaryDirectory() as folder:
             results, sheet = os.path.join(folder, "r.h5"), os.path.join(folder, "r.pdf")
-
-            def gearpod(*arguments):
-                return subprocess.run([PROGRAM, *arguments], capture_output=True, text=True,
-                                      check=False)
-
             gearpod("run", SOURCES / "studies" / "published" / "park-fig-13.toml", "--quiet", "--out", results)
             made = gearpod("report", results, "--pdf", sheet)
             self.assertEqual(made.returncode, 0, made.stderr)

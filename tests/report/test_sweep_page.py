@@ -4,22 +4,15 @@ import json
 import os
 import pathlib
 import re
-import subprocess
 import sys
 import tempfile
 import unittest
 
-PROGRAM, SOURCES = (pathlib.Path(argument) for argument in sys.argv[2:4])
-sys.path.insert(0, str(SOURCES / "analysis" / "report"))
-sys.path.insert(0, str(pathlib.Path(__file__).parent))
+from report_case import SOURCES, gearpod
 
-try:
-    import build_page
-except ImportError as error:
-    print(f"skipped: {error} (Debian: python3-matplotlib)")
-    sys.exit(77)
-import made_sweeps  # noqa: E402
-from page_html import PageHtml  # noqa: E402
+import build_page
+import made_sweeps
+from page_html import PageHtml
 
 MADE = made_sweeps.all_of()
 
@@ -86,16 +79,15 @@ class Program(unittest.TestCase):
     def test_page_and_json_agree(self):
         with tempfile.TemporaryDirectory() as folder:
             html = os.path.join(folder, "s.html")
-            command = [PROGRAM, "sweep", SOURCES / "studies" / "published" / "park-fig-13.toml", "--quiet",
+            command = ["sweep", SOURCES / "studies" / "published" / "park-fig-13.toml", "--quiet",
                        "--vary", "operation.torque_N_m=[90e3,180e3]", "--out",
                        os.path.join(folder, "s"), "--html"]
-            made = subprocess.run([*command, html, "--json", "-"], capture_output=True, text=True,
-                                  check=True)
+            made = gearpod(*command, html, "--json", "-")
+            self.assertEqual(made.returncode, 0, made.stderr)
             self.assertEqual(pathlib.Path(html).read_text(),
                              build_page.page_html(json.loads(made.stdout)))
             self.assertIn("Sweep: TE features against fault size", pathlib.Path(html).read_text())
-            refused = subprocess.run([*command, "/nonexistent/s.html"], capture_output=True,
-                                     text=True, check=False)
+            refused = gearpod(*command, "/nonexistent/s.html")
             self.assertEqual(refused.returncode, 2)
             self.assertIn("/nonexistent/s.html", refused.stderr)
 

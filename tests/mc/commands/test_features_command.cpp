@@ -14,25 +14,6 @@ nlohmann::json features_of(const std::string& signal, const std::string& options
     return json_of("features " + signal + " --study " + options + " --json -");
 }
 
-using Named = std::vector<std::pair<std::string, std::vector<double>>>;
-
-// Variables of MATLAB 4: type, rows, columns, no imaginary part, length of the name.
-void write_mat(const std::string& path, const Named& columns, bool rows) {
-    std::string bytes;
-    for (const auto& [name, values] : columns) {
-        const std::size_t count = values.size();
-        for (const std::uint64_t number : {std::size_t{0}, rows ? 1 : count, rows ? count : 1,
-                                           std::size_t{0}, name.size() + 1}) {
-            append_number(bytes, number, 4);
-        }
-        bytes += name + '\0';
-        for (const double value : values) {
-            append_number(bytes, std::bit_cast<std::uint64_t>(value), 8);
-        }
-    }
-    write_bytes(path, bytes);
-}
-
 // Definitions in numpy on stored signals: tests/features/reference/README.md.
 TEST_CASE("Every feature equals the numpy result for the same signals") {
     const auto result =
@@ -65,9 +46,9 @@ TEST_CASE("A simulated signal read from a file has the features of the simulatio
               {columns[0], columns[2], columns[3]}, 17, "\t");
     const double rate = 1.0 / columns[0][1];
     Named variables{{"sensor_noise_1", columns[2]}, {"te", columns[3]}};
-    write_mat(folder.file("column.mat"), variables, false);
+    write_bytes(folder.file("column.mat"), mat_bytes(variables, false));
     variables.emplace_back("sampling_Hz", std::vector{rate});
-    write_mat(folder.file("rate.mat"), variables, true);
+    write_bytes(folder.file("rate.mat"), mat_bytes(variables, true));
     const std::string noisy = " --sensor sensor_noise_1 --noise-level 1";
     std::map<std::string, double> first;
     for (const std::string& file :
@@ -198,7 +179,7 @@ TEST_CASE("Every problem of a signal is reported in one message, with exit code 
     phase[30] = phase[29];
     write_csv(folder.file("back.csv"), "mesh_phase,sensor", {phase, good});
     refused(folder.file("back.csv"), "the mesh phase does not increase from sample 30 to the next");
-    write_mat(folder.file("long.mat"), {{"sensor", good}, {"te", eight}}, true);
+    write_bytes(folder.file("long.mat"), mat_bytes({{"sensor", good}, {"te", eight}}, true));
     refused(folder.file("long.mat") + " --sampling-Hz 280",
             "column te has 8 samples, but sensor has 80");
 }

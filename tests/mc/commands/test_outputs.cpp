@@ -184,17 +184,29 @@ TEST_CASE("An input that is a pipe or a device is refused by every command") {
     REQUIRE(::mkfifo(pipe.c_str(), 0600) == 0);
     REQUIRE(::mkfifo(csv.c_str(), 0600) == 0);
     const std::string measured = "features --study " + place.study + " ";
-    for (const std::string& command :
-         {"report " + pipe, "repair " + pipe, "compare " + place.results + " " + pipe,
-          "merge " + pipe + " --out " + place.folder.file("m.h5"),
-          "misses " + pipe + " --feature window_z --size 1",
-          "rare " + pipe + " --feature window_z --rate 0.01", "run " + csv, "describe " + csv,
-          std::string("describe /dev/zero"), "stiffness " + csv, "pod " + csv,
-          "accuracy " + place.study + " --seconds 1 --peers " + csv, measured + csv,
-          measured + pipe, measured + "--manifest " + csv + " --csv -",
-          measured + place.signal + " --against " + pipe,
-          "calibrate " + place.study + " --features " + csv,
-          "run " + place.study + kSmall + " --resume --out " + pipe}) {
+    std::vector<std::string> commands{"compare " + place.results + " " + pipe,
+                                      "merge " + pipe + " --out " + place.folder.file("m.h5"),
+                                      "misses " + pipe + " --feature window_z --size 1",
+                                      "rare " + pipe + " --feature window_z --rate 0.01",
+                                      "describe /dev/zero",
+                                      "accuracy " + place.study + " --seconds 1 --peers " + csv,
+                                      measured + csv,
+                                      measured + pipe,
+                                      measured + "--manifest " + csv + " --csv -",
+                                      "features " + place.signal + " --study " + csv,
+                                      "calibrate " + place.study + " --features " + csv,
+                                      "simulate " + place.study + " --instance 0 --out " + pipe,
+                                      "run " + place.study + kSmall + " --resume --out " + pipe};
+    for (const char* command : {"run ", "describe ", "modes ", "lives ", "stiffness ", "pod "}) {
+        commands.push_back(command + csv);
+    }
+    for (const char* command : {"report ", "repair "}) {
+        commands.push_back(command + pipe);
+    }
+    for (const char* option : {" --against ", " --healthy ", " --baseline "}) {
+        commands.push_back(measured + place.signal + option + pipe);
+    }
+    for (const std::string& command : commands) {
         check_refused(shell("timeout 60 " + std::string(GEARPOD_PROGRAM) + " " + command),
                       {"a regular file is needed"});
     }

@@ -1,5 +1,5 @@
 // Checks recordings as written by data loggers, made from simulated ones: the right features, or a
-// reason.
+// reason. tests/recordings has units, times and formats.
 #include "tests/mc/recording_files.hpp"
 
 namespace gearpod::test_real_recordings {
@@ -47,25 +47,8 @@ const Simulated& simulated() {
     return once;
 }
 
-TEST_CASE("Units are converted, and unknown ones refused with those that are known") {
+TEST_CASE("A unit that takes precedence over the file is noted") {
     const Simulated& s = simulated();
-    s.check_same(features_of(
-        s.write("time [ms],sensor [g]", {times(s.time, 1e3), times(s.sensor, 1.0 / 9.80665)})));
-    s.check_same(features_of(s.write("time,sensor (mm/s²)", {s.time, times(s.sensor, 1e3)})));
-    s.check_same(features_of(s.write("time,sensor", {s.time, times(s.sensor, 1.0 / 9.80665)}),
-                             "--sensor-unit g"));
-    check_refused(features(s.write("time,sensor [parsec]", {s.time, s.sensor})),
-                  {"unknown unit parsec; known units are m/s^2, mm/s^2, cm/s^2, um/s^2"});
-}
-
-TEST_CASE("The options for the unit take precedence over the file, with a note") {
-    const Simulated& s = simulated();
-    const std::string volts = s.write("time,sensor [V]", {s.time, times(s.sensor, 0.1 / 9.80665)});
-    check_refused(features(volts),
-                  {"column sensor: unit V is that of a voltage", "give --sensor-sensitivity"});
-    s.check_same(features_of(volts, "--sensor-sensitivity '100 mV/g'"));
-    check_refused(features(volts, "--sensor-sensitivity 100"),
-                  {"--sensor-sensitivity 100: is not a voltage per acceleration"});
     const std::string path = s.write("time,sensor [V]", {s.time, s.sensor});
     const std::string note = "the file states V; taken as m/s^2 (--sensor-unit)";
     CHECK(features(path, "--sensor-unit m/s^2").mentions("note: column sensor: " + note));
@@ -75,8 +58,6 @@ TEST_CASE("The options for the unit take precedence over the file, with a note")
     CHECK(found["notes"][0] == "column sensor: " + note);
     check_mentions(features(path + " " + path, "--sensor-unit m/s^2 --csv -"),
                    {"and 1 more: column sensor: " + note});
-    // Latin-1, as recorders under Windows write it.
-    s.check_same(features_of(s.write("time,sensor [m/s\xB2]", {s.time, s.sensor})));
 }
 
 TEST_CASE("A stated sampling rate that is not used is reported") {
@@ -98,38 +79,10 @@ TEST_CASE("A stated sampling rate that is not used is reported") {
     CHECK(features(path, "--sensor run/acc").mentions("its columns are run/sensor ("));
 }
 
-TEST_CASE("Decimal commas are accepted if the fields are not separated by commas") {
+TEST_CASE("Clipped samples are reported") {
     const Simulated& s = simulated();
-    const std::string path = s.write("time,sensor", {s.time, s.sensor});
-    std::string text = bytes_of(path);
-    std::replace(text.begin(), text.end(), ',', ';');
-    std::replace(text.begin(), text.end(), '.', ',');
-    write_bytes(path, "\xEF\xBB\xBF" + text);
-    s.check_same(features_of(path));
-}
-
-TEST_CASE("Rounded times are recognized as a constant rate") {
-    const Simulated& s = simulated();
-    std::vector<double> rounded = s.time;
-    for (double& value : rounded) {
-        value = std::round(value * 1e3) / 1e3;  // a quarter of a sample interval
-    }
-    check_alike(features_of(s.write("time,sensor", {rounded, s.sensor})), s.plain, 2e-3,
-                {"sensor_rms", "window_ratio", "crest_factor", "fm4", "energy_ratio"});
-}
-
-TEST_CASE("Gaps in time, decreasing times and clipped samples are reported") {
-    const Simulated& s = simulated();
-    auto time = s.time, sensor = s.sensor;
-    time.erase(time.begin() + 100, time.begin() + 103);
-    sensor.erase(sensor.begin() + 100, sensor.begin() + 103);
-    check_refused(features(s.write("time,sensor", {time, sensor})),
-                  {"between sample 100 and the next", "3 sample(s) are missing"});
-    time = s.time;
-    std::swap(time[50], time[51]);
-    check_refused(features(s.write("time,sensor", {time, s.sensor})), {"evenly spaced"});
+    auto sensor = s.sensor;
     const double largest = *std::max_element(s.sensor.begin(), s.sensor.end());
-    sensor = s.sensor;
     for (double& value : sensor) {
         value = std::clamp(value, -0.3 * largest, 0.3 * largest);
     }
@@ -241,18 +194,6 @@ TEST_CASE("An encoder or a mesh phase that jumps ahead is refused with the time 
         check_refused(features(s.write("mesh_phase,sensor", {phase, s.sensor})),
                       {"column mesh_phase: jumps by"});
     }
-}
-
-TEST_CASE("Times of single precision and of six digits, and Unix times, are even") {
-    const Simulated& s = simulated();
-    std::vector<double> unix_time = s.time, single = s.time;
-    for (std::size_t i = 0; i < s.time.size(); ++i) {
-        unix_time[i] += 1.7e9;
-        single[i] = static_cast<float>(s.time[i] + 64.0);
-    }
-    s.check_same(features_of(s.write("time,sensor", {unix_time, s.sensor})), 1e-4);
-    s.check_same(features_of(s.write("time,sensor", {single, s.sensor}, 9)), 1e-4);
-    s.check_same(features_of(s.write("time,sensor", {s.time, s.sensor}, 6)), 1e-3);
 }
 
 TEST_CASE("A recording is compared with a results file in one sentence") {

@@ -6,14 +6,6 @@
 
 namespace gearpod::test {
 
-inline std::vector<double> sine_values(std::size_t count, double size) {
-    std::vector<double> values;
-    for (std::size_t i = 0; i < count; ++i) {
-        values.push_back(size * std::sin(0.37 * static_cast<double>(i)));
-    }
-    return values;
-}
-
 inline std::string file_with(const Folder& folder, const std::string& name,
                              const std::string& bytes) {
     write_bytes(folder.file(name), bytes);

@@ -1,7 +1,5 @@
-// Checks HDF5 files of other programs: their structure and links, and their statements of units,
-// scales and rates.
-#include <sys/stat.h>
-
+// Checks HDF5 files of other programs: their structure, and their statements of units, scales and
+// rates. tests/recordings has links, integers and text of fixed length.
 #include "mc/files/hdf5_data.hpp"
 #include "tests/mc/files/recorded.hpp"
 
@@ -47,20 +45,6 @@ void check_contains(const std::string& text, const std::string& part) {
     CHECK_THAT(text, Catch::Contains(part));
 }
 
-// Text of fixed length, as MATLAB, C and R write it, padded with blanks.
-void write_fixed_text(hid_t file, const std::string& object, const std::string& name,
-                      const std::string& text) {
-    const mc::Hdf5Handle type(H5Tcopy(H5T_C_S1), H5Tclose, name);
-    H5Tset_size(type.get(), text.size() + 2);
-    H5Tset_strpad(type.get(), H5T_STR_SPACEPAD);
-    const mc::Hdf5Handle scalar(H5Screate(H5S_SCALAR), H5Sclose, name);
-    const mc::Hdf5Handle attribute(
-        H5Acreate_by_name(file, object.c_str(), name.c_str(), type.get(), scalar.get(), H5P_DEFAULT,
-                          H5P_DEFAULT, H5P_DEFAULT),
-        H5Aclose, name);
-    H5Awrite(attribute.get(), type.get(), (text + "  ").c_str());
-}
-
 // Unit of a column with these attributes.
 std::string unit_of(const std::map<std::string, std::string>& attributes) {
     const Made made([&](hid_t file) {
@@ -72,14 +56,9 @@ std::string unit_of(const std::map<std::string, std::string>& attributes) {
     return made.open()->unit("sensor");
 }
 
-TEST_CASE("Attributes state the unit under usual names, in text of fixed and variable length") {
+TEST_CASE("Attributes state the unit under usual names") {
     for (const char* name : {"unit", "units", "Units", "unit_string", "engineering_units"}) {
         INFO(name);
-        const Made fixed([&](hid_t file) {
-            mc::write_numbers(file, "sensor", {6}, kSix);
-            write_fixed_text(file, "sensor", name, "m/s**2");
-        });
-        CHECK(fixed.open()->unit("sensor") == "m/s**2");
         CHECK(unit_of({{name, "g"}}) == "g");
     }
     CHECK(unit_of({{"unit", "m/s^2"}, {"units", "m/s²"}}) == "m/s^2");
@@ -311,62 +290,6 @@ TEST_CASE("Files that cannot be opened as HDF5 are refused with the true reason"
     check_contains(refusal(""), "is empty");
     check_contains(refusal(std::string(2000, '\0')), "begins with zeros");
     check_contains(refusal("time,sensor\n"), "is not an HDF5 file");
-}
-
-TEST_CASE("Links out of an HDF5 file are refused by name and not opened") {
-    const Folder folder;
-    const std::string pipe = folder.file("pipe.h5");  // opening it would block
-    REQUIRE(mkfifo(pipe.c_str(), 0600) == 0);
-    const auto linked = [](auto add) {
-        return Made([&](hid_t file) {
-            mc::write_numbers(file, "time", {3}, {0.0, 1.0, 2.0});
-            add(file);
-        });
-    };
-    const auto external = [&](const char* from, const char* to) {
-        return linked([&](hid_t file) {
-            H5Lcreate_external(pipe.c_str(), from, file, to, H5P_DEFAULT, H5P_DEFAULT);
-        });
-    };
-    check_contains(external("/sensor", "sensor").refusal("sensor"),
-                   "sensor is stored in another file");
-    const Made group = external("/", "signals");
-    CHECK(group.refusal("sensor").empty());
-    CHECK(group.refusal("time").empty());
-    check_contains(group.refusal("signals"), "signals is stored in another file");
-    CHECK(group.open()->contents() == "signals (in another file), time (3)");
-    const Made raw = linked([](hid_t file) {
-        const hsize_t count = 3;
-        const mc::Hdf5Handle space(H5Screate_simple(1, &count, nullptr), H5Sclose, "raw");
-        const mc::Hdf5Handle made(H5Pcreate(H5P_DATASET_CREATE), H5Pclose, "raw");
-        H5Pset_external(made.get(), "/etc/passwd", 0, 24);
-        const mc::Hdf5Handle dataset(H5Dcreate2(file, "sensor", H5T_NATIVE_DOUBLE, space.get(),
-                                                H5P_DEFAULT, made.get(), H5P_DEFAULT),
-                                     H5Dclose, "raw");
-    });
-    check_contains(raw.refusal("sensor"), "sensor is stored in another file");
-    // A link within the file is equivalent to the dataset.
-    const Made soft = linked(
-        [](hid_t file) { H5Lcreate_soft("/time", file, "sensor", H5P_DEFAULT, H5P_DEFAULT); });
-    CHECK(soft.open()->read("sensor") == Values{0.0, 1.0, 2.0});
-}
-
-TEST_CASE("Rate and scale of an HDF5 file may be integers") {
-    const Made made([](hid_t file) {
-        mc::write_numbers(file, "sensor", {3}, {0.0, 1.0, 2.0});
-        const mc::Hdf5Handle scalar(H5Screate(H5S_SCALAR), H5Sclose, "scalar");
-        const auto write = [&](const char* object, const char* name, std::int64_t value) {
-            const mc::Hdf5Handle attribute(
-                H5Acreate_by_name(file, object, name, H5T_STD_I64LE, scalar.get(), H5P_DEFAULT,
-                                  H5P_DEFAULT, H5P_DEFAULT),
-                H5Aclose, name);
-            H5Awrite(attribute.get(), H5T_NATIVE_INT64, &value);
-        };
-        write("/", "sampling_Hz", 5000);
-        write("sensor", "scale", 2);
-    });
-    CHECK(made.open()->sampling_Hz() == 5000.0);
-    CHECK(made.open()->read("sensor") == Values{0.0, 2.0, 4.0});
 }
 
 }  // namespace gearpod::test_hdf5_recordings

@@ -28,7 +28,7 @@ BatchRows rows_of(const BatchPlan& plan, std::size_t batch) {
 }
 
 bool same(const BatchRows& a, const BatchRows& b) {
-    return a.status == b.status && bits_of_values(a.values) == bits_of_values(b.values);
+    return a.status == b.status && bits_of(a.values) == bits_of(b.values);
 }
 
 void fill(const std::string& path, const std::vector<std::size_t>& batches) {

@@ -1,5 +1,7 @@
 // Checks frequency responses of universal files as lists of numbers: text and binary, even and
 // uneven, units, and what is refused.
+#include <fmt/format.h>
+
 #include "mc/files/input/problems.hpp"
 #include "mc/files/signal_file.hpp"
 #include "mc/study/elements/list_element.hpp"

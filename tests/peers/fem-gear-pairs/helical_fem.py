@@ -16,7 +16,7 @@ import numpy as np
 import scipy.sparse as sparse
 from scipy.sparse.linalg import splu
 
-from pairs_fem import linear_hertz, tooth_outline
+from pairs_fem import linear_hertz, stiffness, tooth_outline
 from plane_fem import Geometry, Mesh, run_ccx, table_file
 from teeth import Contact, Gear, Pair, weber
 
@@ -223,10 +223,6 @@ def line_segments(pair, tooth, tau, count):
     parts = max(1, round((high - low) / width * count))
     stops = np.linspace(low, high, parts + 1)
     return [Segment(pair, tooth, tau, a, b) for a, b in zip(stops, stops[1:])]
-
-
-def stiffness(matrix):
-    return 1e3 * float(np.linalg.inv(matrix).sum())
 
 
 def drawn(pair, which, mesh, layers):

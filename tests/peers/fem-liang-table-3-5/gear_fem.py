@@ -14,78 +14,35 @@ import numpy as np
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent / "fem-gear-pairs"))
 from plane_fem import Geometry, Mesh, compliance, edge_loads, solve, table_file
+from teeth import Gear, Pair, turned
 
-TEETH, MODULE, PRESSURE_ANGLE = 23, 6.0, math.radians(20)
 YOUNG, POISSON, WIDTH = MATERIAL = 69e3, 0.33, 15.0
 CRACK, CRACK_ANGLE = 4.7, math.radians(45)
-BORE = 25.0  # the thesis gives none
 TORQUE = 60e3  # N mm; affects the width of the contact only
-
-PITCH_RADIUS = MODULE * TEETH / 2
-BASE = PITCH_RADIUS * math.cos(PRESSURE_ANGLE)
-TIP, ROOT = PITCH_RADIUS + MODULE, PITCH_RADIUS - 1.25 * MODULE
-HALF_BASE_ANGLE = math.pi / (2 * TEETH) + math.tan(PRESSURE_ANGLE) - PRESSURE_ANGLE
-HALF_ROOT = BASE * math.sin(HALF_BASE_ANGLE)
-BASE_PITCH = 2 * math.pi * BASE / TEETH
+TEETH, MODULE = 23, 6.0
+GEAR = Gear(TEETH, MODULE, held=25.0, profile="root-circle")  # the thesis gives no bore
+PAIR = Pair(GEAR, GEAR, TEETH * MODULE, MATERIAL, TORQUE / GEAR.base)
+LOW = GEAR.foot()[0][-1]  # end of the loaded side at the root circle
 LINEAR_HERTZ = 4 * (1 - POISSON**2) / (math.pi * YOUNG * WIDTH)  # mm/N
-LINE = 2 * PITCH_RADIUS * math.sin(PRESSURE_ANGLE)  # between the base circles' tangent points
-ROLL_START = LINE - math.sqrt(TIP**2 - BASE**2)
-CONTACT_RATIO = (LINE - 2 * ROLL_START) / BASE_PITCH
-
-
-def roll(tau):
-    """Distance of the contact from gear 1's tangent point, tau mesh periods after engagement."""
-    return ROLL_START + tau * BASE_PITCH
-
-
-def flank_point(radius, side):
-    alpha = math.acos(min(1.0, BASE / radius))
-    angle = side * (HALF_BASE_ANGLE - math.tan(alpha) + alpha)
-    return radius * math.cos(angle), radius * math.sin(angle)
-
-
-def turned(point, angle):
-    c, s = math.cos(angle), math.sin(angle)
-    return c * point[0] - s * point[1], s * point[0] + c * point[1]
-
-
-def contact_half_width(gear_roll, force):
-    """Hertz half width of two cylinders of the same material."""
-    curvature = 1 / gear_roll + 1 / (LINE - gear_roll)
-    modulus = YOUNG / (2 * (1 - POISSON**2))
-    return math.sqrt(4 * force / WIDTH / (math.pi * modulus * curvature))
-
-
-class Contact:
-    """Load on the flank of one tooth: tooth number (0 or 1, counted forwards) and roll distance."""
-
-    def __init__(self, tooth, gear_roll, force):
-        self.tooth, self.half_width = tooth, contact_half_width(gear_roll, force)
-        turn = 2 * math.pi * tooth / TEETH
-        tangent = turn + HALF_BASE_ANGLE - gear_roll / BASE
-        self.radius = math.hypot(BASE, gear_roll)
-        self.point = turned(flank_point(self.radius, 1), turn)
-        self.direction = np.array([math.sin(tangent), -math.cos(tangent)])  # into the tooth
 
 
 def tooth_outline(geo, turn, contact, cracked):
     """Curves of one tooth from its root on the -side around the tip to the root on the + side.
     The +side is the loaded one. Returns (curves, loaded curves, first point, last point)."""
     at = lambda p: turned(p, turn)
-    low, base = (math.sqrt(ROOT**2 - HALF_ROOT**2), HALF_ROOT), flank_point(BASE, 1)
+    low, base = LOW, GEAR.flank(GEAR.base)
     mirrored = lambda p: (p[0], -p[1])
-    radii = np.linspace(BASE, TIP, 15)
+    radii = np.linspace(GEAR.base, GEAR.tip, 15)
     curves = [geo.curve("Line", [at(mirrored(low)), at(mirrored(base))]),
-              geo.curve("Spline", [at(flank_point(r, -1)) for r in radii])]
-    curves.append(geo.curve("Line", [at(flank_point(TIP, -1)), at(flank_point(TIP, 1))]))
-    loaded, ends = [], [TIP, BASE]
+              geo.curve("Spline", [at(mirrored(GEAR.flank(r))) for r in radii])]
+    curves.append(geo.curve("Line", [at(mirrored(GEAR.flank(GEAR.tip))), at(GEAR.flank(GEAR.tip))]))
+    loaded, ends = [], [GEAR.tip, GEAR.base]
     if contact is not None:
-        reach = min(2 * contact.half_width, 0.9 * (TIP - contact.radius))
-        ends = [TIP, contact.radius + reach, contact.radius, contact.radius - reach, BASE]
+        reach = min(2 * contact.half_width, 0.9 * (GEAR.tip - contact.radius))
+        ends = [GEAR.tip, contact.radius + reach, contact.radius, contact.radius - reach, GEAR.base]
     for upper, lower in zip(ends, ends[1:]):
         count = 6 if upper - lower < 2 else 15
-        loaded.append(geo.curve("Spline", [at(flank_point(r, 1))
-                                           for r in np.linspace(upper, lower, count)]))
+        loaded.append(geo.curve("Spline", [at(GEAR.flank(r)) for r in np.linspace(upper, lower, count)]))
     curves += loaded
     if cracked:
         mouth, tip = (low[0] + 0.02, low[1]), (low[0] - CRACK * math.cos(CRACK_ANGLE),
@@ -104,8 +61,7 @@ def refine_teeth(geo, contacts):
         geo.refine(contact.point, contact.half_width / 6, 0.15)
     for tooth in {c.tooth for c in contacts}:
         for side in (1, -1):
-            corner = (math.sqrt(ROOT**2 - HALF_ROOT**2), side * HALF_ROOT)
-            geo.refine(turned(corner, 2 * math.pi * tooth / TEETH), 0.1, 0.2)
+            geo.refine(turned((LOW[0], side * LOW[1]), 2 * math.pi * tooth / TEETH), 0.1, 0.2)
 
 
 def gear_geometry(size, contacts, cracked_tooth):
@@ -123,22 +79,16 @@ def gear_geometry(size, contacts, cracked_tooth):
     for tooth in range(TEETH):
         loop += curves[tooth]
         loop.append(geo.curve("Circle", [roots[tooth][1], (0, 0), roots[(tooth + 1) % TEETH][0]]))
-    bore = geo.circle(BORE)
+    bore = geo.circle(GEAR.held)
     refine_teeth(geo, contacts)
     geo.background("3.5")
     return geo.finish([loop, bore], loaded, bore)
 
 
-def beneath(contact):
-    """Intersection of the line of action with the tooth's centre line (tooth 0)."""
-    along = -contact.point[1] / contact.direction[1]
-    return np.array(contact.point) + along * contact.direction
-
-
 def tooth_geometry(size, contact):
     """One tooth, fixed along its root chord, with a node beneath the contact."""
     geo = Geometry(size)
-    inner = geo.point(tuple(beneath(contact)))
+    inner = geo.point(tuple(contact.beneath()))
     outline, flank, first, last = tooth_outline(geo, 0.0, contact, False)
     chord = geo.curve("Line", [last, first])
     refine_teeth(geo, [contact])
@@ -146,20 +96,18 @@ def tooth_geometry(size, contact):
     return geo.finish([outline + [chord]], [flank], [chord], [inner])
 
 
-def gear_compliance(size, taus, force, cracked=None):
+def gear_compliance(size, taus, cracked=None):
     """Compliance of a gear driven from the root side: contacts at taus[0] (tooth 0), taus[1]
     (tooth 1)."""
-    contacts = [Contact(i, roll(tau), force) for i, tau in enumerate(taus)]
-    return compliance(gear_geometry(size, contacts, cracked), contacts,
-                      [c.point for c in contacts], MATERIAL)
+    contacts = PAIR.contacts(1, taus)
+    return compliance(gear_geometry(size, contacts, cracked), contacts, [c.point for c in contacts], MATERIAL)
 
 
-def tooth_compliance(size, tau, force):
+def tooth_compliance(size, taus, which):
     """Compliance of one tooth fixed at its root: at the flank, and at the centre line beneath
-    the contact."""
-    contact = Contact(0, roll(tau), force)
-    return compliance(tooth_geometry(size, contact), [contact],
-                      [contact.point, beneath(contact)], MATERIAL)[:, 0]
+    the contact. taus: of all pairs that carry the load; which: the tooth's."""
+    contact = PAIR.contacts(1, taus[which:] + taus[:which])[0]
+    return compliance(tooth_geometry(size, contact), [contact], [contact.point, contact.beneath()], MATERIAL)[:, 0]
 
 
 def mesh_stiffness(matrix):
@@ -169,22 +117,19 @@ def mesh_stiffness(matrix):
 
 def row(size, taus):
     """The mesh with pairs at taus: one, or two a mesh period apart."""
-    force = TORQUE / BASE / len(taus)
-    mates = [CONTACT_RATIO - tau for tau in reversed(taus)]  # gear 2, its low contact first
-    mate = gear_compliance(size, mates, force)[::-1, ::-1]
-    values = [mesh_stiffness(gear_compliance(size, taus, force) + mate)]
-    cracked = [mesh_stiffness(gear_compliance(size, taus, force, i) + mate)
-               for i in range(len(taus))]
-    both = [tooth_compliance(size, tau, force) + tooth_compliance(size, CONTACT_RATIO - tau, force)
-            for tau in taus]
+    mates = [PAIR.contact_ratio - tau for tau in reversed(taus)]  # gear 2, its low contact first
+    mate = gear_compliance(size, mates)[::-1, ::-1]
+    values = [mesh_stiffness(gear_compliance(size, taus) + mate)]
+    cracked = [mesh_stiffness(gear_compliance(size, taus, i) + mate) for i in range(len(taus))]
+    both = [tooth_compliance(size, taus, i) + tooth_compliance(size, mates[::-1], i) for i in range(len(taus))]
     teeth = sum(1e3 / flank for flank, _ in both)
     beams = sum(1e3 / (centre + LINEAR_HERTZ) for _, centre in both)
     return values + cracked + [float("nan")] * (2 - len(taus)) + [teeth, beams]
 
 
 def table(size, out):
-    double = np.linspace(0.04, CONTACT_RATIO - 1.04, 5)
-    single = np.linspace(CONTACT_RATIO - 0.99, 0.99, 5)
+    double = np.linspace(0.04, PAIR.contact_ratio - 1.04, 5)
+    single = np.linspace(PAIR.contact_ratio - 0.99, 0.99, 5)
     with table_file(out) as f:
         f.write("phase,pairs,gears_N_m,cracked_entering_N_m,cracked_leaving_N_m,teeth_N_m,"
                 "beams_N_m\n")
@@ -218,16 +163,16 @@ def beam_check(length, height):
 
 
 def checks():
-    print(f"contact ratio {CONTACT_RATIO:.4f}")
+    print(f"contact ratio {PAIR.contact_ratio:.4f}")
     iso = 1 / (0.04723 + (0.15551 + 0.25791) / TEETH) * 1e9 * YOUNG / 206e3 * WIDTH * 1e-3
     print(f"ISO 6336-1, theoretical single stiffness: {iso:.4e} N/m")
     for length in (20.0, 40.0, 80.0):
         print(f"cantilever {length:g} x 4 mm, finite elements over Timoshenko: "
               f"{beam_check(length, 4.0):.5f}")
     for size in (2.0, 1.0, 0.5):
-        values = " ".join(f"{v:.5e}" for v in row(size, [CONTACT_RATIO / 2]))
+        values = " ".join(f"{v:.5e}" for v in row(size, [PAIR.contact_ratio / 2]))
         both = " ".join(f"{v:.5e}" for v in row(size, [0.3, 1.3]))
-        print(f"element size x {size}: phase {CONTACT_RATIO / 2:.4f}: {values}; phase 0.3: {both}")
+        print(f"element size x {size}: phase {PAIR.contact_ratio / 2:.4f}: {values}; phase 0.3: {both}")
 
 
 if __name__ == "__main__":

@@ -156,7 +156,7 @@ TEST_CASE("A shaft without stiffness leaves all bits as they are", "[coupled-tra
     const mc::Results none = run_small(folder, "none.h5", kOptions + stages(path, "")),
                       zero = run_small(folder, "zero.h5", kOptions + stages(path, shaft(0)));
     for (std::size_t f = 0; f < none.features.size(); ++f) {
-        CHECK(bits_of_values(none.features[f].values) == bits_of_values(zero.features[f].values));
+        CHECK(bits_of(none.features[f].values) == bits_of(zero.features[f].values));
     }
 }
 

@@ -81,7 +81,7 @@ inline const std::vector<double>& values(const std::vector<mc::FeatureResult>& f
 }
 
 inline void check_same_bits(const std::vector<double>& a, const std::vector<double>& b) {
-    CHECK(bits_of_values(a) == bits_of_values(b));
+    CHECK(bits_of(a) == bits_of(b));
 }
 
 // Checks that all features of two runs have the same bits, at the first sensor and the next one.

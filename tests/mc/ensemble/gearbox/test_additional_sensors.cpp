@@ -40,11 +40,10 @@ TEST_CASE("A second sensor at the place of the first one differs in its noise on
     for (std::size_t f = 0; f < plain.features.size(); ++f) {
         INFO(plain.features[f].name);
         const mc::FeatureResult& own = twin.variants[0].features[f];
-        CHECK(bits_of_values(twin.features[f].values) == bits_of_values(plain.features[f].values));
-        CHECK(bits_of_values(at_level(own, 0)) == bits_of_values(at_level(plain.features[f], 0)));
+        CHECK(bits_of(twin.features[f].values) == bits_of(plain.features[f].values));
+        CHECK(bits_of(at_level(own, 0)) == bits_of(at_level(plain.features[f], 0)));
         const bool of_te = plain.features[f].name.starts_with("te_");
-        CHECK((bits_of_values(at_level(own, 1)) ==
-               bits_of_values(at_level(plain.features[f], 1))) == of_te);
+        CHECK((bits_of(at_level(own, 1)) == bits_of(at_level(plain.features[f], 1))) == of_te);
     }
 }
 

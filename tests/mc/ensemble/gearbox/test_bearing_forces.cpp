@@ -201,10 +201,10 @@ TEST_CASE("A mode without a force in a bearing keeps the bits of the features") 
                       some = run_small(folder, "some.h5", mode + ", sun_bearing_per_kg=0.02}]'");
     for (std::size_t f = 0; f < plain.features.size(); ++f) {
         INFO(plain.features[f].name);
-        const auto bits = bits_of_values(plain.features[f].values);
-        CHECK(bits_of_values(zero.features[f].values) == bits);
+        const auto bits = bits_of(plain.features[f].values);
+        CHECK(bits_of(zero.features[f].values) == bits);
         const bool of_te = plain.features[f].name.starts_with("te_");
-        CHECK((bits_of_values(some.features[f].values) == bits) == of_te);
+        CHECK((bits_of(some.features[f].values) == bits) == of_te);
     }
 }
 

@@ -104,11 +104,11 @@ TEST_CASE("Another fault changes the healthy gearboxes as a background would") {
     for (std::size_t f = 0; f < plain.features.size(); ++f) {
         const std::string& name = plain.features[f].name;
         INFO(name);
-        CHECK(bits_of_values(healthy(other, other.features[f])) ==
-              bits_of_values(healthy(plain, plain.features[f])));
+        CHECK(bits_of(healthy(other, other.features[f])) ==
+              bits_of(healthy(plain, plain.features[f])));
         if (name != "na4") {
-            CHECK(bits_of_values(healthy(other, other.variants[0].features[f])) ==
-                  bits_of_values(healthy(background, background.features[f])));
+            CHECK(bits_of(healthy(other, other.variants[0].features[f])) ==
+                  bits_of(healthy(background, background.features[f])));
         }
     }
     const std::size_t rows = plain.group.size() - 20;

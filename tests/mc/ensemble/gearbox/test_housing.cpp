@@ -79,11 +79,11 @@ TEST_CASE("A sensor with the first one's participation and place has its signal"
     const mc::Results results = run_small(folder, "r.h5", kModes + sensors + quiet);
     for (std::size_t f = 0; f < results.features.size(); ++f) {
         INFO(results.features[f].name);
-        const auto first = bits_of_values(results.features[f].values);
-        CHECK(bits_of_values(results.variants[0].features[f].values) == first);
-        CHECK(bits_of_values(results.variants[1].features[f].values) == first);
+        const auto first = bits_of(results.features[f].values);
+        CHECK(bits_of(results.variants[0].features[f].values) == first);
+        CHECK(bits_of(results.variants[1].features[f].values) == first);
         const bool of_te = results.features[f].name.starts_with("te_");
-        CHECK((bits_of_values(results.variants[2].features[f].values) == first) == of_te);
+        CHECK((bits_of(results.variants[2].features[f].values) == first) == of_te);
     }
 }
 

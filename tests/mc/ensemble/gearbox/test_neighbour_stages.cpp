@@ -130,7 +130,7 @@ TEST_CASE("Another fault is that of the stage, in the same records") {
     CHECK(background.variants.empty());
     const auto& healthy = other.features[4];
     REQUIRE(healthy.name == "sensor_rms");
-    CHECK(bits_of_values(healthy.values) == bits_of_values(background.features[4].values));
+    CHECK(bits_of(healthy.values) == bits_of(background.features[4].values));
     const auto& faulty = other.variants[0].features[4];
     for (std::size_t row = 0; row < 20; ++row) {
         CHECK(faulty.values[row] != healthy.values[row]);

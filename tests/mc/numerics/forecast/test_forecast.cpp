@@ -35,14 +35,6 @@ double forecast_s(const RunCost& calibration, const BatchPlan& plan) {
     return gearboxes_s(calibration, plan, all_integrated(plan));
 }
 
-std::vector<std::uint64_t> bits_of(const BatchRows& rows) {
-    std::vector<std::uint64_t> all;
-    for (const double value : rows.values) {
-        all.push_back(std::bit_cast<std::uint64_t>(value));
-    }
-    return all;
-}
-
 BatchRows first_tile(const Scene& scene) {
     const BatchTask task(scene.tile(), scene.ensemble());
     Seconds seconds;
@@ -181,7 +173,7 @@ TEST_CASE(
     std::vector<std::string> overrides = kFast;
     overrides.push_back("numerics.horizon=full");
     const Scene scene(test::shipped_study("planet-crack-ideal.toml", overrides));
-    const auto before = bits_of(first_tile(scene));
+    const auto before = test::bits_of(first_tile(scene).values);
     const BatchPlan plan(16, 32);
     const RunCost cut = measure_run_cost(scene.tile(), scene.ensemble(), plan, 1, kNoBudget_s);
     CHECK(cut.recorded == kFewestMeshes);
@@ -194,7 +186,7 @@ TEST_CASE(
     // Sensor signals recorded during integration need no stored records, in a run or here.
     CHECK(cut.memory.records == 0.0);
     CHECK(motion_bytes(scene.tile()) < 0.01 * scene.solve().record_bytes);
-    CHECK(bits_of(first_tile(scene)) == before);
+    CHECK(test::bits_of(first_tile(scene).values) == before);
 }
 
 TEST_CASE("A study's description ends with a forecast and writes nothing") {
