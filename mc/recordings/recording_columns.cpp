@@ -502,6 +502,12 @@ std::vector<double> RecordingColumns::times(std::size_t samples) {
                         kTimeColumn, "mesh_phase", file_->contents()));
         return {};
     }
+    if (constexpr double kLeast_Hz = 1e-3; rate < kLeast_Hz) {
+        reject(fmt::format("a sampling rate of {:g} Hz resolves no mesh; correct --sampling-Hz or "
+                           "the rate in the file",
+                           rate));
+        return {};
+    }
     if (columns_.sampling_Hz > 0.0) {
         compare_with_stated_rate(rate);
     }

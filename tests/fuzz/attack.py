@@ -207,7 +207,8 @@ class Arsenal:
     def study(self, folder, number, dice):
         path, = self.written(folder, s_toml=mutated(number))
         command = dice.choice(["stiffness", "modes", "describe", "describe"])
-        return Attack(command, path, prints_numbers=command == "modes")
+        # The budget of a description is processor time; less than the limit of an attack.
+        return Attack(command, path, *["--seconds", "4"] * (command == "describe"), prints_numbers=command == "modes")
 
     def edit(self, path, number, dice):
         """Changes a results file through HDF5 and updates its checksum."""
@@ -277,7 +278,7 @@ class Arsenal:
         arguments += ["--json", "-"] if dice.randrange(2) == 0 else []
         arguments += ["--healthy", path] if dice.randrange(8) == 0 else []
         if dice.randrange(6) == 0:
-            arguments += ["--sampling-Hz", dice.choice(["1e-300", "1", "50", "5000", "1e18", "1e300", "nan", "inf"])]
+            arguments += ["--sampling-Hz", dice.choice(["1e-320", "1e-300", "1", "50", "5000", "1e18", "1e300", "nan", "inf"])]
         return Attack(*arguments, prints_numbers=True)
 
     def table(self, folder, _, dice):

@@ -99,6 +99,7 @@ def csv_dialects(folder):
     yield w("sep_comma.csv", "sep=;\ntime [s];sensor [m/s^2]\n" + rows(tc, xc, separator=";")), [], 1.0
     yield w("blanks.csv", "time [s] , sensor [m/s^2]\n" + rows(t, x, separator=" , ")), [], 1.0
     yield w("one_column.csv", "sensor [m/s^2]\n" + rows(xc)), ["--sampling-Hz", "5120"], 1.0
+    yield "one_column.csv", ["--sampling-Hz", "1e-320"], "--sampling-Hz"
     yield w("units_row_unknown.csv", "time,sensor\ns,furlong/s^2\n" + rows(t, x)), [], "furlong"
     yield w("preamble_comma.csv", "Recorder,X7\nDate,2024-03-01\n" + plain), [], 1.0
     yield w("utf16.csv", plain, "utf-16"), [], 1.0
