@@ -793,7 +793,7 @@ def write_uff_responses(path, output):
 # Text tables. The output is plain CSV: the names in a line before the first one, then each row in the line where it begins.
 
 FREE_TEXT, TEXT_PER_BYTE = 64 << 20, 200  # of compressed files: recordings shrink to a third or a twentieth
-SAMPLE_LINES, SAMPLE_BYTES, LONGEST_FIELD = 200, 1 << 19, 1 << 20
+SAMPLE_LINES, SAMPLE_BYTES, LONGEST_FIELD = 200, 1 << 19, 1 << 22
 BLANKS, ONE_FIELD, SEPARATORS = " ", "", (";", "\t", ",", " ", "")  # runs of blanks; none
 END = "\x1a"  # line after the last one
 MISSING = {"", *"- -- NA N/A n/a #N/A NaN nan NAN null NULL None <NA>".split()}

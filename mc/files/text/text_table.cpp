@@ -12,7 +12,7 @@
 namespace gearpod::mc {
 namespace {
 
-constexpr std::size_t kStreamBuffer = std::size_t{1} << 18, kLongestLine = std::size_t{1} << 20;
+constexpr std::size_t kStreamBuffer = std::size_t{1} << 18, kLongestLine = std::size_t{1} << 22;
 constexpr std::size_t kMostColumns = 10000, kMostTableRows = 1000000;
 
 // Reason why a file cannot be read as plain CSV.
