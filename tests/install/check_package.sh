@@ -16,7 +16,7 @@ trap 'rm -rf "$work"' EXIT
     fail "$(cat "$work/log")"
 package=$(echo "$work"/made/*.deb)
 needs=$(dpkg-deb -f "$package" Depends)
-for library in libc6 libstdc++6 libfmt libhdf5 zlib1g; do
+for library in libc6 libstdc++6 libfmt libhdf5; do
     case $needs in
     *$library*) ;;
     *) fail "the package does not depend on $library: $needs" ;;
