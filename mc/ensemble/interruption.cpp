@@ -9,10 +9,10 @@
 #include <ctime>
 #include <string_view>
 
+#include "machine/stop_signals.hpp"
+
 namespace gearpod::mc {
 namespace {
-
-constexpr std::array kSignals{SIGINT, SIGTERM, SIGUSR1, SIGUSR2, SIGXCPU, SIGHUP};
 
 volatile std::sig_atomic_t caught = 0;
 int objects = 0;  // that exist
@@ -64,7 +64,7 @@ Interruption::Interruption(std::optional<std::chrono::seconds> limit)
         return;
     }
     caught = 0;
-    for (const int number : kSignals) {
+    for (const int number : machine::kStopSignals) {
         handle(number, note_signal);
     }
     handle(SIGXFSZ, SIG_IGN);
@@ -74,7 +74,7 @@ Interruption::~Interruption() {
     if (--objects > 0) {
         return;
     }
-    for (const int number : kSignals) {
+    for (const int number : machine::kStopSignals) {
         handle(number, SIG_DFL);
     }
 }

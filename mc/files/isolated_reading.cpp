@@ -14,6 +14,8 @@
 #include <fstream>
 #include <new>
 
+#include "machine/stop_signals.hpp"
+
 namespace gearpod::mc {
 namespace {
 
@@ -27,8 +29,7 @@ void confine_child(std::uintmax_t more_memory) {
     for (const int signal : {SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT, SIGALRM}) {
         ::signal(signal, SIG_DFL);  // removes the handlers of the parent process
     }
-    // Sent to all processes of a job: the parent decides when this one ends.
-    for (const int signal : {SIGINT, SIGTERM, SIGUSR1, SIGUSR2, SIGXCPU, SIGHUP}) {
+    for (const int signal : machine::kStopSignals) {  // the parent decides when this one ends
         ::signal(signal, SIG_IGN);
     }
     std::ifstream statm("/proc/self/statm");

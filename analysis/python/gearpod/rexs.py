@@ -436,16 +436,16 @@ class Stage:
                               "teeth or the shifts (a positive shift makes teeth thicker, also those of a ring: ISO 21771)")
 
     def check_tip(self, gear):
-        """Rejects a tip circle that no gear has, such as a placeholder. The option --addendum replaces tip circles."""
+        """Rejects a tip circle that no gear has. The option --addendum replaces tip circles."""
         if gear.tip is None or not gear.teeth:
             return
         if "addendum" in self.model.options:
             self.model.notes.append(f"an option replaces the tip diameter of {gear.component.label}, {gear.tip:g} mm")
             gear.tip = None
             return
-        helix, shift = math.radians(gear.values["helix_angle_deg"] or 0.0), gear.side * (2.0 * (gear.shift or 0.0) - 2.5)
-        module, reference = gear.values["module_mm"] or 0.0, gear.teeth / math.cos(helix)
-        root, far = module * (reference + shift), module * (reference + shift + gear.side * 6.5)
+        helix, module = math.radians(gear.values["helix_angle_deg"] or 0.0), gear.values["module_mm"] or 0.0
+        reference, shift = gear.teeth / math.cos(helix), 2.0 * (gear.shift or 0.0)  # in modules
+        root, far = (module * (reference + gear.side * (shift + beyond)) for beyond in (-2.5, 4.0))
         angle = math.atan(math.tan(math.radians(gear.values["pressure_angle_deg"] or 0.0)) / math.cos(helix))
         base = module * reference * math.cos(angle)
         for wrong, why in ((gear.side * (gear.tip - root) <= 0.0,

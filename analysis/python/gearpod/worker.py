@@ -363,7 +363,7 @@ def end_with(parent):
 
 def main():
     global numpy
-    # Sent to all processes of the run: the program decides when this one ends.
+    # The stop signals (src/machine/stop_signals.hpp): the program decides when this process ends.
     for request in (signal.SIGINT, signal.SIGTERM, signal.SIGUSR1, signal.SIGUSR2, signal.SIGXCPU, signal.SIGHUP):
         signal.signal(request, signal.SIG_IGN)
     connection = socket.socket(fileno=os.dup(0))

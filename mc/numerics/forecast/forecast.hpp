@@ -9,7 +9,6 @@
 #include "mc/ensemble/gearbox/integration_cache.hpp"
 #include "mc/plan/planner.hpp"
 #include "mc/plan/scene.hpp"
-#include "mc/results/results_file.hpp"
 
 namespace gearpod::mc {
 
