@@ -201,7 +201,7 @@ int merge_command(const MergeOptions& options) {
         return kBadInput;
     }
     const std::string& first = options.results.front();
-    const StudyScene made = make_scene(first, read_study_text(merge.study(), first));
+    const StudyScene made = make_scene(first, read_study_text(merge.study(), first), true);
     if (!made) {
         print_problems(made.problems);
         return kBadInput;

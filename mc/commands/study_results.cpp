@@ -100,7 +100,7 @@ std::string miss_probability_text(const RequestedSize& size, const std::string& 
 }
 
 StudyScene scene_for_results(const StudyResults& results, const std::string& study) {
-    StudyScene made = make_scene(results.path, read_study_text(study, results.path));
+    StudyScene made = stored_scene(results.path, study);
     if (!made) {
         const std::string size = results.source.fault.size_key->path();
         for (Problem& problem : made.problems) {

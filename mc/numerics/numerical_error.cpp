@@ -221,27 +221,23 @@ SolverSetting with_steps(SolverSetting setting, const Planner& planner) {
 
 constexpr int kVerified = 8;  // gearboxes, unless the study has numerics.paired_gearboxes
 
-// At most `count` of the gearboxes, spread evenly over them.
-std::vector<GearboxId> spread(const std::vector<GearboxId>& all, std::size_t count) {
-    const std::size_t stride =
-        std::max<std::size_t>(1, all.size() / std::max<std::size_t>(1, count));
-    std::vector<GearboxId> ids;
-    for (std::size_t i = stride / 2; i < all.size() && ids.size() < count; i += stride) {
-        ids.push_back(all[i]);
-    }
-    return ids;
-}
-
-// Gearboxes of a group that has so many; of the test gearboxes only those with a fault.
-std::vector<GearboxId> members(const Sampler& sampler, Group group, std::int64_t count) {
-    std::vector<GearboxId> ids;
-    for (std::int64_t i = 0; i < count; ++i) {
-        const GearboxId id{group, static_cast<std::uint64_t>(i)};
-        if (group == Group::threshold || sampler.draw(id).inputs.fault_size > 0.0) {
-            ids.push_back(id);
+// Rows of the gearboxes `ids` among those with which `each_row` calls its argument; empty if one is
+// missing. `width`: values in a row.
+template <class EachRow>
+std::optional<BatchRows> rows_among(const std::vector<GearboxId>& ids, std::size_t width,
+                                    const EachRow& each_row) {
+    BatchRows rows{std::vector<int>(ids.size()), std::vector<double>(ids.size() * width)};
+    std::size_t found = 0;
+    each_row([&](const GearboxId& id, int status, const double* values) {
+        for (std::size_t i = 0; i < ids.size(); ++i) {
+            if (id.group == ids[i].group && id.index == ids[i].index && id.repeat == 0) {
+                rows.status[i] = status;
+                std::copy_n(values, width, &rows.values[i * width]);
+                ++found;
+            }
         }
-    }
-    return ids;
+    });
+    return found == ids.size() ? std::optional(rows) : std::nullopt;
 }
 
 // Values of the features of some gearboxes, by gearbox, and their fault sizes.
@@ -388,7 +384,29 @@ std::optional<SolverSetting> finer_setting(const Planner& planner, const Numeric
     return std::nullopt;
 }
 
-std::optional<NumericalError> find_numerical_error(const Planner& planner) {
+std::vector<GearboxId> paired_gearboxes(const Sampler& sampler, const EnsemblePlan& ensemble,
+                                        int pairs) {
+    std::vector<GearboxId> faulty, spread;
+    for (std::int64_t i = 0; pairs > 0 && i < ensemble.test_gearboxes; ++i) {
+        const GearboxId id{Group::test, static_cast<std::uint64_t>(i)};
+        if (sampler.draw(id).inputs.fault_size > 0.0) {
+            faulty.push_back(id);
+        }
+    }
+    const auto count = static_cast<std::size_t>(pairs);
+    const std::size_t stride =
+        std::max<std::size_t>(1, faulty.size() / std::max<std::size_t>(1, count));
+    for (std::size_t i = stride / 2; i < faulty.size() && spread.size() < count; i += stride) {
+        spread.push_back(faulty[i]);
+    }
+    for (std::int64_t i = 0; i < std::min<std::int64_t>(pairs, ensemble.threshold_gearboxes); ++i) {
+        spread.push_back({Group::threshold, static_cast<std::uint64_t>(i)});
+    }
+    return spread;
+}
+
+std::optional<NumericalError> find_numerical_error(const Planner& planner, const RowSource* run,
+                                                   const FineRows* fine) {
     const Numerics& numerics = planner.facts().numerics;
     const auto finer = planner.facts().verified ? finer_setting(planner, numerics) : std::nullopt;
     if (!finer) {
@@ -396,39 +414,57 @@ std::optional<NumericalError> find_numerical_error(const Planner& planner) {
     }
     const TilePlan plan = planner.tile(numerics);
     const EnsemblePlan ensemble = planner.ensemble(numerics);
-    const auto pairs = static_cast<std::size_t>(numerics.paired_gearboxes);
-    std::vector<GearboxId> ids, healthy;
-    if (pairs > 0) {
-        ids = spread(members(*plan.sampler, Group::test, ensemble.test_gearboxes), pairs);
-        healthy =
-            spread(members(*plan.sampler, Group::threshold, ensemble.threshold_gearboxes), pairs);
-    }
-    const std::size_t faulty = ids.size();
-    if (ids.empty()) {  // no pairs, or no gearbox with a fault
+    const int pairs = numerics.paired_gearboxes;
+    std::vector<GearboxId> ids = paired_gearboxes(*plan.sampler, ensemble, pairs);
+    const auto faulty =
+        static_cast<std::size_t>(std::ranges::count(ids, Group::test, &GearboxId::group));
+    std::size_t test_count = faulty;
+    if (faulty == 0) {  // no pairs, or no gearbox with a fault
         const auto stride = static_cast<std::uint64_t>(std::max<std::int64_t>(
             1, ensemble.test_gearboxes / static_cast<std::int64_t>(kVerified)));
-        ids = pilot_gearboxes(stride / 2, stride);
+        const std::vector<GearboxId> tested = pilot_gearboxes(stride / 2, stride);
+        ids.insert(ids.begin(), tested.begin(), tested.end());
+        test_count = tested.size();
     }
-    const std::size_t test_count = ids.size();
-    ids.insert(ids.end(), healthy.begin(), healthy.end());
-    const BatchRows coarse_rows = rows_of_gearboxes(plan, ensemble, ids),
-                    fine_rows = rows_of_gearboxes(planner.tile(finer->numerics),
-                                                  planner.ensemble(finer->numerics), ids);
-    const Values coarse = values_of(ensemble.shape, coarse_rows),
-                 fine = values_of(ensemble.shape, fine_rows);
+    const std::size_t width = ensemble.shape.values();
+    const RowOrder& order = plan.draw().rows;
+    std::optional<BatchRows> coarse_rows, fine_rows;
+    if (run != nullptr && order.threshold_noise == NoiseSampling::plain) {
+        coarse_rows = rows_among(ids, width, [&](const auto& use) {
+            for_each_row(*run, [&](const ResultRow& row) {
+                use(order.id_of(static_cast<long>(row.index)), row.status, row.values);
+            });
+        });
+    }
+    if (fine != nullptr && fine->numerics == finer->numerics) {
+        fine_rows = rows_among(ids, width, [&](const auto& use) {
+            for (std::size_t i = 0; i < fine->ids.size(); ++i) {
+                use(fine->ids[i], fine->rows.status[i], &fine->rows.values[i * width]);
+            }
+        });
+    }
+    if (!coarse_rows) {
+        coarse_rows = rows_of_gearboxes(plan, ensemble, ids);
+    }
+    if (!fine_rows) {
+        fine_rows = rows_of_gearboxes(planner.tile(finer->numerics),
+                                      planner.ensemble(finer->numerics), ids);
+    }
+    const Values coarse = values_of(ensemble.shape, *coarse_rows),
+                 fine_values = values_of(ensemble.shape, *fine_rows);
     NumericalError error{with_steps(own_setting(numerics), planner).text(),
                          with_steps(*finer, planner).text(),
                          static_cast<int>(test_count),
                          {},
                          {}};
-    error.healthy_pairs = static_cast<int>(healthy.size());
+    error.healthy_pairs = static_cast<int>(ids.size() - test_count);
     error.faulty_pairs = static_cast<int>(faulty);
     for (std::size_t value = 0; value < coarse.count; ++value) {
-        add_differences(coarse, fine, test_count, value, error);
+        add_differences(coarse, fine_values, test_count, value, error);
         PairedValues values;
         for (std::size_t g = 0; g < ids.size(); ++g) {
             values.own.push_back(coarse.features[g][value]);
-            values.fine.push_back(fine.features[g][value]);
+            values.fine.push_back(fine_values.features[g][value]);
             values.size.push_back(g < test_count ? coarse.size[g] : 0.0);
         }
         if (pairs > 0) {

@@ -52,12 +52,27 @@ std::vector<CorrectedDetection> corrected_detection(const Results& frame, const 
 // rule. Empty for a quasi-static study.
 std::optional<SolverSetting> finer_setting(const Planner& planner, const Numerics& numerics);
 
+// Rows of gearboxes that were computed with fine steps.
+struct FineRows {
+    Numerics numerics;
+    std::vector<GearboxId> ids;
+    BatchRows rows;
+};
+
+// Gearboxes of numerics.paired_gearboxes: faulty ones spread over the test group, then as many
+// healthy ones, the first of the threshold group.
+std::vector<GearboxId> paired_gearboxes(const Sampler& sampler, const EnsemblePlan& ensemble,
+                                        int pairs);
+
 // Integrates eight test gearboxes, spread over the ensemble, as the run did and again with
 // finer_setting(); with numerics.paired_gearboxes that many, and as many healthy ones. For
 // methods of order 2 and above, the difference is the error of the run's own steps to within a
-// sixteenth. Empty unless the
-// study has a tolerance, numerics.verify or numerics.paired_gearboxes (SolverFacts::verified).
-std::optional<NumericalError> find_numerical_error(const Planner& planner);
+// sixteenth. Empty unless the study has a tolerance, numerics.verify or numerics.paired_gearboxes
+// (SolverFacts::verified). `run`: all rows of the run; `fine`: rows with fine steps. What they hold
+// is not computed again.
+std::optional<NumericalError> find_numerical_error(const Planner& planner,
+                                                   const RowSource* run = nullptr,
+                                                   const FineRows* fine = nullptr);
 
 // Numerical and statistical uncertainty of one feature at one noise level.
 struct NumericalContribution {

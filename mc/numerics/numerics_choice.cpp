@@ -14,9 +14,10 @@
 
 #include "lockstep/integrators/facts.hpp"
 #include "lockstep/kernels/kernel_table.hpp"
+#include "machine/team.hpp"
 #include "mc/ensemble/batch_workers.hpp"
+#include "mc/ensemble/ranks.hpp"
 #include "mc/files/python/python_worker.hpp"
-#include "mc/numerics/numerical_error.hpp"
 #include "mc/numerics/pilot.hpp"
 #include "mc/numerics/solver_setting.hpp"
 #include "mc/plan/mesh_loads.hpp"
@@ -37,7 +38,8 @@ std::string NumericsChoice::text() const {
 namespace {
 
 constexpr std::uint64_t kHealthyPilots = 16;
-constexpr int kMostTries = 6;  // of a limit of the mass scaling
+constexpr int kMostTries = 6;   // of a limit of the mass scaling
+constexpr int kMostAtOnce = 4;  // candidates integrated together, of which the first may suffice
 // Half of normally distributed errors lie within this share of their root mean square.
 constexpr double kHalf = 0.6745;
 
@@ -70,7 +72,7 @@ Numerics unscaled(Numerics numerics) {
 
 class ScatterChoice {
   public:
-    ScatterChoice(const Planner& planner, const Numerics& numerics)
+    ScatterChoice(const Planner& planner, const Numerics& numerics, bool pairs)
         : planner_(planner),
           given_(numerics),
           unscaled_(unscaled(numerics)),
@@ -78,10 +80,21 @@ class ScatterChoice {
         for (std::uint64_t i = 0; i < kHealthyPilots; ++i) {
             ids_.push_back({Group::threshold, i});
         }
-        shape_ = planner.ensemble(unscaled_).shape;
-        reference_ = rows_with(unscaled_);
+        const TilePlan tile = planner.tile(unscaled_);
+        const EnsemblePlan ensemble = planner.ensemble(unscaled_);
+        shape_ = ensemble.shape;
+        const auto fine = std::make_shared<FineRows>(FineRows{unscaled_, ids_, {}});
+        const int count = pairs ? unscaled_.paired_gearboxes : 0;
+        for (const GearboxId& id : paired_gearboxes(*tile.sampler, ensemble, count)) {
+            if (id.group == Group::test || id.index >= kHealthyPilots) {
+                fine->ids.push_back(id);
+            }
+        }
+        fine->rows = rows_of_gearboxes(tile, ensemble, fine->ids);
+        fine_ = fine;
+        threads_ = std::min(thread_count(ensemble), kMostAtOnce);
         for (std::size_t value = 0; value < shape_.features * shape_.levels; ++value) {
-            scatter_.push_back(standard_deviation(column(reference_, value)));
+            scatter_.push_back(standard_deviation(column(fine_->rows, value)));
         }
     }
 
@@ -90,16 +103,23 @@ class ScatterChoice {
         made.gearboxes = static_cast<int>(ids_.size());
         made.of_scatter = true;
         made.setting = {unscaled_, {}};
+        made.fine = fine_;
         const NumericsChoice without_scaling = made;
-        const auto keeps = [&](const Numerics& numerics) {
-            const auto [error, feature] = error_of(numerics);
-            made.error = error;
-            made.worst_feature = planner_.facts().features[feature];
-            made.setting = {numerics, {"mass_scaling_Hz"}};
-            return error <= given_.scatter_tolerance;
+        // The first of the candidates that keeps the tolerance. All are integrated at once.
+        const auto one_keeps = [&](const std::vector<Numerics>& candidates) {
+            const std::vector<Error> errors = errors_of(candidates);
+            for (std::size_t i = 0; i < candidates.size(); ++i) {
+                made.error = errors[i].error;
+                made.worst_feature = planner_.facts().features[errors[i].feature];
+                made.setting = {candidates[i], {"mass_scaling_Hz"}};
+                if (made.error <= given_.scatter_tolerance) {
+                    return true;
+                }
+            }
+            return false;
         };
         if (given_.mass_scaling_Hz > 0.0) {
-            if (!keeps(without_tolerance(given_))) {
+            if (!one_keeps({without_tolerance(given_)})) {
                 throw SceneError("numerics.scatter_tolerance",
                                  fmt::format("the steps given change {} by {:.2g} of its scatter",
                                              made.worst_feature, made.error),
@@ -109,24 +129,27 @@ class ScatterChoice {
             return made;
         }
         const double fastest_Hz = planner_.fastest_mode_Hz(unscaled_);
+        std::vector<Numerics> candidates;  // as many as there are threads, or fewer at the end
         for (int steps = unscaled_steps_.samples; steps < unscaled_steps_.steps;
              steps += unscaled_steps_.samples) {
-            const auto numerics = scaled_numerics(planner_, unscaled_, fastest_Hz, steps);
-            if (numerics && keeps(*numerics)) {
-                return made;
+            if (const auto numerics = scaled_numerics(planner_, unscaled_, fastest_Hz, steps)) {
+                candidates.push_back(*numerics);
+            }
+            const bool last = steps + unscaled_steps_.samples >= unscaled_steps_.steps;
+            if (last || candidates.size() == static_cast<std::size_t>(threads_)) {
+                if (one_keeps(std::exchange(candidates, {}))) {
+                    return made;
+                }
             }
         }
         return without_scaling;
     }
 
   private:
-    BatchRows rows_with(const Numerics& numerics) const {
-        return rows_of_gearboxes(planner_.tile(numerics), planner_.ensemble(numerics), ids_);
-    }
-
+    // Values of the pilot gearboxes.
     std::vector<double> column(const BatchRows& rows, std::size_t value) const {
         std::vector<double> values;
-        for (std::size_t row = 0; row < rows.count(); ++row) {
+        for (std::size_t row = 0; row < ids_.size(); ++row) {
             values.push_back(rows.values[row * shape_.values() + shape_.parameters + value]);
         }
         return values;
@@ -139,11 +162,22 @@ class ScatterChoice {
         double error = 0.0;
         std::size_t feature = 0;
     };
-    Error error_of(const Numerics& numerics) const {
-        const BatchRows rows = rows_with(numerics);
+    std::vector<Error> errors_of(const std::vector<Numerics>& candidates) const {
+        std::vector<std::pair<TilePlan, EnsemblePlan>> plans;  // a planner serves one thread
+        for (const Numerics& numerics : candidates) {
+            plans.emplace_back(planner_.tile(numerics), planner_.ensemble(numerics));
+        }
+        std::vector<Error> errors(candidates.size());
+        machine::for_each_index(plans.size(), threads_, [&](std::size_t i) {
+            errors[i] = error_of(rows_of_gearboxes(plans[i].first, plans[i].second, ids_));
+        });
+        return errors;
+    }
+    Error error_of(const BatchRows& rows) const {
         Error worst;
         for (std::size_t value = 0; value < scatter_.size(); ++value) {
-            const std::vector<double> here = column(rows, value), there = column(reference_, value);
+            const std::vector<double> here = column(rows, value),
+                                      there = column(fine_->rows, value);
             std::vector<double> errors;
             for (std::size_t i = 0; i < here.size(); ++i) {
                 if (std::isfinite(there[i])) {
@@ -169,14 +203,15 @@ class ScatterChoice {
     const PlannedSteps unscaled_steps_;
     RowShape shape_;
     std::vector<GearboxId> ids_;
-    BatchRows reference_;
+    std::shared_ptr<const FineRows> fine_;
+    int threads_ = 1;
     std::vector<double> scatter_;  // by feature and noise level
 };
 
-NumericsChoice choose_by_scatter(const Planner& planner, const Numerics& numerics) {
+NumericsChoice choose_by_scatter(const Planner& planner, const Numerics& numerics, bool pairs) {
     check_free(numerics);
     try {
-        return ScatterChoice(planner, numerics).run();
+        return ScatterChoice(planner, numerics, pairs).run();
     } catch (const SceneError& error) {
         if (error.key() == "numerics.mass_scaling_Hz" && numerics.mass_scaling_Hz == 0.0) {
             throw SceneError("numerics.scatter_tolerance", error.what(), error.remedy());
@@ -412,10 +447,10 @@ std::optional<Numerics> scaled_numerics(const Planner& planner, const Numerics& 
     return std::nullopt;
 }
 
-ResolvedNumerics resolve_numerics(const Planner& planner, const Numerics& numerics) {
+ResolvedNumerics resolve_numerics(const Planner& planner, const Numerics& numerics, bool pairs) {
     ResolvedNumerics resolved{numerics, std::nullopt};
     if (numerics.scatter_tolerance > 0.0) {
-        resolved.choice = choose_by_scatter(planner, numerics);
+        resolved.choice = choose_by_scatter(planner, numerics, pairs);
     } else if (numerics.tolerance > 0.0) {
         resolved.choice = Search(planner, numerics).run();
     }
@@ -459,7 +494,7 @@ void choose_numerics_of_stages(Study& study) {
 
 }  // namespace
 
-StudyScene make_scene(const std::string& name, StudyReading reading) {
+StudyScene make_scene(const std::string& name, StudyReading reading, bool pairs) {
     if (!reading.study) {
         return refused(std::move(reading.problems));
     }
@@ -492,7 +527,7 @@ StudyScene make_scene(const std::string& name, StudyReading reading) {
         }
         choose_numerics_of_stages(*reading.study);
         const Planner planner(*reading.study);
-        ResolvedNumerics resolved = resolve_numerics(planner, numerics);
+        ResolvedNumerics resolved = resolve_numerics(planner, numerics, pairs);
         StudyScene made{std::make_unique<const Scene>(planner.scene(resolved.numerics)),
                         std::move(resolved.choice),
                         {},
@@ -509,6 +544,14 @@ StudyScene make_scene(const std::string& name, StudyReading reading) {
     } catch (const PythonError& error) {
         return refused({{name, 0, "features.python", error.what(), ""}});
     }
+}
+
+StudyScene stored_scene(const std::string& name, const std::string& text) {
+    StudyReading reading = read_study_text(text, name);
+    if (reading.study) {
+        reading.study->numerics = without_tolerance(reading.study->numerics);
+    }
+    return make_scene(name, std::move(reading));
 }
 
 }  // namespace gearpod::mc

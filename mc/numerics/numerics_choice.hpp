@@ -5,6 +5,7 @@
 #include <optional>
 #include <string>
 
+#include "mc/numerics/numerical_error.hpp"
 #include "mc/numerics/solver_setting.hpp"
 #include "mc/plan/scene.hpp"
 
@@ -19,6 +20,9 @@ struct NumericsChoice {
     std::string worst_feature;  // name of that feature
     double cost = 0.0;  // of integrating the pilot by the cost model, in rk4 steps per gearbox
     int gearboxes = 0;  // number of pilot gearboxes
+    // Rows with fine steps of numerics.scatter_tolerance: of the pilot, and of the faulty pairs if
+    // they were asked for.
+    std::shared_ptr<const FineRows> fine = {};
 
     std::string text() const;
 };
@@ -42,8 +46,10 @@ struct ResolvedNumerics {
 // integrator's own rule, and with fewer steps and more mass scaling. If both are given, they are
 // the only candidate. The choice depends on the study only, not on timing, lanes, threads or
 // instruction set. Throws SceneError if no candidate keeps the tolerance, or if a key that would be
-// chosen is given.
-ResolvedNumerics resolve_numerics(const Planner& planner, const Numerics& numerics);
+// chosen is given. `pairs`: faulty gearboxes of numerics.paired_gearboxes are computed at the same
+// time.
+ResolvedNumerics resolve_numerics(const Planner& planner, const Numerics& numerics,
+                                  bool pairs = false);
 
 // Plan of a study with resolved numerics. Throws SceneError.
 Scene resolved_plan(const Study& study);
@@ -61,7 +67,9 @@ struct StudyScene {
 };
 
 // Sets the kernels' instruction set, chooses the numerics and makes the scene. Messages about
-// problems use `name` for the study.
-StudyScene make_scene(const std::string& name, StudyReading reading);
+// problems use `name` for the study. `pairs` as in resolve_numerics().
+StudyScene make_scene(const std::string& name, StudyReading reading, bool pairs = false);
+// The same for the study text of a results file, which has the numerics that its run chose.
+StudyScene stored_scene(const std::string& name, const std::string& text);
 
 }  // namespace gearpod::mc

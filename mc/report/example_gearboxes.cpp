@@ -115,25 +115,28 @@ struct ExampleRow {
     std::vector<double> values;  // as in RowShape
 };
 
-struct ExampleRows {
-    std::optional<ExampleRow> healthy, faulty;
-};
-
-ExampleRows choose_rows(const Results& frame, const RowSource& rows) {
+// The first healthy row, and the first with the largest fault.
+std::vector<ExampleRow> choose_rows(const Results& frame, const RowSource& rows) {
     const RowShape shape = row_shape(frame);
     const auto size_at = frame.parameter_index(frame.request.size.name);
-    ExampleRows chosen;
+    std::optional<ExampleRow> chosen[2];
     for_each_row(rows, [&](const ResultRow& row) {
         if (row.status != static_cast<int>(Status::ok)) {
             return;
         }
         const double size = size_at ? row.values[*size_at] : 0.0;
-        auto& place = size > 0.0 ? chosen.faulty : chosen.healthy;
+        auto& place = chosen[size > 0.0 ? 1 : 0];
         if (!place || size > place->size) {
             place = {row.index, size, {row.values, row.values + shape.values()}};
         }
     });
-    return chosen;
+    std::vector<ExampleRow> found;
+    for (const auto& row : chosen) {
+        if (row) {
+            found.push_back(*row);
+        }
+    }
+    return found;
 }
 
 // True if all values are equal bit by bit, as they are for a gearbox computed again.
@@ -162,7 +165,7 @@ Json engagements(const GearboxPlan& gearbox, double size) {
     return json;
 }
 
-// Computes example gearboxes, one at a time.
+// Computes example gearboxes.
 class Examples {
   public:
     Examples(const TilePlan& tile, const EnsemblePlan& ensemble, const Results& frame)
@@ -185,17 +188,38 @@ class Examples {
                                                 : NoiseSampling::plain};
     }
 
-    Json run(const ExampleRow& row) {
-        const GearboxId id = id_of(row.row);
-        const GearboxTile tile = run_gearboxes(plan_, std::span(&id, 1), 1);
-        if (tile.status[0] != Status::ok) {
+    // Results of the gearboxes, which are integrated together where their records allow it.
+    Json run(const std::vector<ExampleRow>& rows) {
+        std::vector<GearboxId> ids;
+        for (const ExampleRow& row : rows) {
+            ids.push_back(id_of(row.row));
+        }
+        Json all = Json::array();
+        for (std::size_t first = 0; first < ids.size();) {
+            const auto left = std::span(ids).subspan(first);
+            const auto together = left.first(shared_records(plan_.record, left, left.size()));
+            const GearboxTile tile =
+                run_gearboxes(plan_, together, static_cast<int>(together.size()));
+            for (LaneId lane{0}; lane < together.size(); ++lane) {
+                all.push_back(gearbox(rows[first + lane], together[lane], tile, lane));
+            }
+            first += together.size();
+        }
+        return all;
+    }
+
+    double noise_level() const { return frame_.noise_levels[level_]; }
+
+  private:
+    Json gearbox(const ExampleRow& row, const GearboxId& id, const GearboxTile& tile, LaneId lane) {
+        if (tile.status[lane] != Status::ok) {
             throw std::runtime_error("the gearbox in row " + std::to_string(row.row) +
                                      " failed when computed again");
         }
         std::vector<LevelSignals> levels;
-        const LaneSignals gearbox_signals =
-            lane_signals(plan_, tile, LaneId{0}, features_.meshes());
-        auto values = features_.compute(gearbox_signals, tile.realizations[0], &levels);
+        const Realization& realization = tile.realizations[lane];
+        const LaneSignals gearbox_signals = lane_signals(plan_, tile, lane, features_.meshes());
+        auto values = features_.compute(gearbox_signals, realization, &levels);
         std::vector<double> te_turn = features_.record().te_turn;
         rotate_to_first_tooth(features_.record(), plan_.record.te_samples, te_turn);
         const RowShape shape = row_shape(frame_);
@@ -211,8 +235,7 @@ class Examples {
                 values[v] = stored[v];
             }
         }
-        const double period_s =
-            dynamics::mesh_period_s(plan_.gearbox->inputs(tile.realizations[0].inputs));
+        const double period_s = dynamics::mesh_period_s(plan_.gearbox->inputs(realization.inputs));
         Json json{{"row", row.row},
                   {"size", row.size},
                   {"mesh_period_s", period_s},
@@ -235,12 +258,12 @@ class Examples {
                 {{"name", frame_.features[f].name}, {"value", analysis::number(value)}});
         }
         if (!gearbox_signals.folded.empty()) {
-            const Signals signals = record_of(plan_.sensors->front(), tile.realizations[0],
-                                              features_, whole_signals(tile));
+            const Signals signals = record_of(plan_.sensors->front(), realization, features_,
+                                              whole_signals(tile, lane));
             add_sensor(signals, json);
             json.update(sensor_json(plan_.sensors->front(), signals, features_,
                                     levels[level_].tooth_rms, period_s));
-            json["additional_sensors"] = additional_sensors(tile, period_s);
+            json["additional_sensors"] = additional_sensors(tile, lane, period_s);
             if (plan_.gearbox->excitation && plan_.gearbox->excitation->speed) {
                 json["spectrogram"] = spectrogram(id);
             }
@@ -248,9 +271,6 @@ class Examples {
         return json;
     }
 
-    double noise_level() const { return frame_.noise_levels[level_]; }
-
-  private:
     // Samples of a record, without and with noise at the page's level.
     struct Signals {
         LaneSignals record;
@@ -259,9 +279,9 @@ class Examples {
     };
 
     // Signals of all sensors from which records are taken.
-    LaneSignals whole_signals(const GearboxTile& tile) const {
+    LaneSignals whole_signals(const GearboxTile& tile, LaneId lane) const {
         return lane_signals(
-            plan_, tile, LaneId{0},
+            plan_, tile, lane,
             plan_.record.length ? plan_.record.signal_meshes : plan_.record.span.meshes());
     }
 
@@ -327,18 +347,19 @@ class Examples {
                 {"highest_Hz", kBeyondBand * plan_.features.low_pass_Hz}};
     }
 
-    Json additional_sensors(const GearboxTile& tile, double period_s) const {
+    Json additional_sensors(const GearboxTile& tile, LaneId lane, double period_s) const {
         Json all = Json::array();
         for (const SensorPlan& sensor : std::span(*plan_.sensors).subspan(1)) {
             const HealthyReference healthy = healthy_reference(plan_, sensor.number);
             RealizationFeatures features(plan_, &healthy, false, sensor.number);
-            const Realization here = sensor.realization(tile.realizations[0]);
+            const Realization here = sensor.realization(tile.realizations[lane]);
             SensorSignals record =
-                signals_of_sensor(sensor, lane_signals(plan_, tile, LaneId{0}, features.meshes()));
+                signals_of_sensor(sensor, lane_signals(plan_, tile, lane, features.meshes()));
             std::vector<LevelSignals> levels;
             features.compute(record.linked(), here, &levels);
-            const Signals signals = record_of(
-                sensor, here, features, signals_of_sensor(sensor, whole_signals(tile)).record);
+            const Signals signals =
+                record_of(sensor, here, features,
+                          signals_of_sensor(sensor, whole_signals(tile, lane)).record);
             Json json = sensor_json(sensor, signals, features, levels[level_].tooth_rms, period_s);
             json["name"] = sensor.name;
             all.push_back(std::move(json));
@@ -357,18 +378,14 @@ class Examples {
 Json gearboxes_json(const TilePlan& tile, const EnsemblePlan& ensemble, const Results& frame,
                     const RowSource& rows) {
     Json json{{"refusal", nullptr}, {"gearboxes", Json::array()}};
-    const ExampleRows chosen = choose_rows(frame, rows);
-    if (!chosen.healthy && !chosen.faulty) {
+    const std::vector<ExampleRow> chosen = choose_rows(frame, rows);
+    if (chosen.empty()) {
         json["refusal"] = "all gearboxes failed";
         return json;
     }
     Examples examples(tile, ensemble, frame);
     json["noise_level"] = examples.noise_level();
-    for (const auto& row : {chosen.healthy, chosen.faulty}) {
-        if (row) {
-            json["gearboxes"].push_back(examples.run(*row));
-        }
-    }
+    json["gearboxes"] = examples.run(chosen);
     return json;
 }
 
@@ -443,8 +460,7 @@ Json or_refusal(Make make) {
 
 nlohmann::json examples_json(const Results& frame, const RowSource& rows) {
     const std::string text = frame.provenance_value("study"), name = "study of the results";
-    const StudyScene made =
-        text.empty() ? StudyScene() : make_scene(name, read_study_text(text, name));
+    const StudyScene made = text.empty() ? StudyScene() : stored_scene(name, text);
     if (!made) {
         const std::string why = text.empty() ? "the file contains no study"
                                              : "this version cannot build the study in the file: " +

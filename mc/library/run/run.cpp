@@ -118,12 +118,13 @@ class Run {
 
     // Computes signals and numerical errors of single gearboxes after all batches; skipped if the
     // run is interrupted.
-    void add_examples(Results& all, const Interruption& interruption,
+    void add_examples(Results& all, const RowSource& rows, const Interruption& interruption,
                       EnsembleOutcome& outcome) const {
         try {
             all.signals = chosen_signals(options_, tile_);
             if (part_.empty()) {  // for a part, `merge` computes them
-                all.numerical = find_numerical_error(*planner_);
+                all.numerical =
+                    find_numerical_error(*planner_, &rows, choice_ ? choice_->fine.get() : nullptr);
                 all.step_error = find_step_error_of_run(
                     *planner_, plan_.threshold_gearboxes() + plan_.test_rows());
             }
@@ -153,8 +154,9 @@ class Run {
 
     int conclude(EnsembleOutcome outcome, const Interruption& interruption) {
         Results examples;
+        const StoredRows rows(*checkpoint_, plan_, outcome.batches);
         if (outcome.failure.empty() && outcome.interruption.empty()) {
-            add_examples(examples, interruption, outcome);
+            add_examples(examples, rows, interruption, outcome);
         }
         const bool whole = outcome.failure.empty() && outcome.interruption.empty();
         if (!whole) {
@@ -164,7 +166,6 @@ class Run {
         const std::string path = results_path(options_);
         std::string problem = outcome.failure;
         std::string screen;
-        const StoredRows rows(*checkpoint_, plan_, outcome.batches);
         Results all;
         if (problem.empty() && (whole || !options_.merges)) {
             try {

@@ -155,10 +155,10 @@ std::string rank_mismatch(const std::string& name, const std::string& program,
     return line.empty() ? "" : fmt::format("{} read another study ({})", name, line);
 }
 
-StudyScene make_in_time(const StudyOptions& options, const Interruption& interruption,
+StudyScene make_in_time(const StudyOptions& options, bool pairs, const Interruption& interruption,
                         const std::function<void(StudyScene&)>& prepare) {
     try {
-        StudyScene made = make_scene(options);
+        StudyScene made = make_scene(options, pairs);
         if (made && prepare) {
             prepare(made);
         }
@@ -180,7 +180,8 @@ StudyScene make_in_time(const StudyOptions& options, const Interruption& interru
 StudyScene load_scene_on_all_ranks(const Ranks& ranks, const StudyOptions& options,
                                    const Interruption& interruption,
                                    const std::function<void(StudyScene&)>& prepare) {
-    StudyScene made = make_in_time(options, interruption, prepare);
+    // a run is made without `prepare`; its leader corrects for the error of the steps
+    StudyScene made = make_in_time(options, ranks.leads() && !prepare, interruption, prepare);
     const auto all_problems = ranks.gather(made ? "" : format(made.problems));
     const auto names = ranks.gather(ranks.size() > 1 ? rank_name(ranks) : "");
     const auto programs =

@@ -508,7 +508,7 @@ double gearboxes_s(const RunCost& calibration, const BatchPlan& plan,
     return last;
 }
 
-double verification_s(const Planner& planner, const RunCost& cost) {
+double verification_s(const Planner& planner, const RunCost& cost, bool chosen) {
     const auto start = WallClock::now();
     const SolverFacts& facts = planner.facts();
     const auto finer = facts.verified ? finer_setting(planner, facts.numerics) : std::nullopt;
@@ -522,12 +522,15 @@ double verification_s(const Planner& planner, const RunCost& cost) {
         mesh_period_s(fine.draw(), *fine.gearbox, *fine.solve, fine.record) *
         fine.solve->integrated_meshes;
     const std::int64_t pairs = facts.numerics.paired_gearboxes;
-    const auto batches = static_cast<double>((2 * pairs + kBatchRows - 1) / kBatchRows);
+    if (pairs > 0 && chosen && cost.threads > 1) {
+        return 0.0;
+    }
+    const auto batches =
+        static_cast<double>(((chosen ? 1 : 2) * pairs + kBatchRows - 1) / kBatchRows);
     const double tiles =
         pairs > 0 ? std::ceil(batches / cost.threads) * kBatchRows / static_cast<double>(cost.lanes)
                   : 1.0;
-    return setup_s +
-           tiles * (2.0 * tile.seconds(cost.lanes) - tile.whole.integration + integration_s);
+    return setup_s + tiles * (tile.seconds(cost.lanes) - tile.whole.integration + integration_s);
 }
 
 double memory_bytes(const MemoryUse& memory, const IntegrationCounts& integrations,

@@ -106,7 +106,9 @@ double memory_bytes(const MemoryUse& memory, const IntegrationCounts& integratio
                     double motion_bytes, double analysis_bytes);
 
 // Time for integrating some gearboxes again if the run verifies its numerics; 0 otherwise.
-double verification_s(const Planner& planner, const RunCost& cost);
+// `chosen`: by numerics.scatter_tolerance, whose pilot has the healthy pairs and computes the
+// faulty ones beside them.
+double verification_s(const Planner& planner, const RunCost& cost, bool chosen);
 
 // Lower limit of the additional memory of a run: the motion of one tile per thread, or the columns
 // of the analysis. See memory_bytes() for an estimate.

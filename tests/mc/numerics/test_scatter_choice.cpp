@@ -1,6 +1,7 @@
 // Checks the choice of steps and mass scaling for an error over the features' scatter on gearboxes
 // that the choice did not see.
 #include "mc/ensemble/batch_workers.hpp"
+#include "mc/ensemble/ensemble.hpp"
 #include "mc/numerics/numerical_error.hpp"
 #include "mc/numerics/numerics_choice.hpp"
 #include "tests/mc/study_file.hpp"
@@ -67,8 +68,18 @@ TEST_CASE("A tighter share of the scatter takes more steps, and the choice can b
         return resolved_plan(study).solve().integration().grid.steps.size();
     };
     CHECK(steps_for("0.005") > steps_for("0.3"));
-    Study study = real_teeth({"numerics.scatter_tolerance=0.3"});
-    study.numerics = resolve_numerics(Planner(study), study.numerics).numerics;
+    Study study = real_teeth({"numerics.scatter_tolerance=0.3", "numerics.paired_gearboxes=8"});
+    const Planner planner(study);
+    const ResolvedNumerics resolved = resolve_numerics(planner, study.numerics, true);
+    study.numerics = resolved.numerics;
+    const auto again = find_numerical_error(planner.with(study.numerics));
+    FineRows fine = *resolved.choice->fine;
+    const auto known = find_numerical_error(planner.with(study.numerics), nullptr, &fine);
+    REQUIRE((again && known));
+    CHECK(known->rms == again->rms);
+    CHECK(known->corrections[0].healthy_bias == again->corrections[0].healthy_bias);
+    std::ranges::fill(fine.rows.values, 0.0);  // they are indeed the ones used
+    CHECK(find_numerical_error(planner.with(study.numerics), nullptr, &fine)->rms != known->rms);
     test::check_reads_back(study);
     CHECK(resolve_numerics(Planner(study), study.numerics).numerics == study.numerics);
 }
@@ -94,6 +105,15 @@ TEST_CASE("Pairs of a run with mass scaling are healthy and faulty gearboxes in 
     study.ensemble.instances = 28;
     const auto found = find_numerical_error(Planner(study));
     REQUIRE(found);
+    // Rows of the run and rows with fine steps are used where they are known.
+    const Scene scene(study);
+    Progress silent(1, true);
+    const Results run = run_ensemble(scene.tile(), scene.ensemble(), silent);
+    const ColumnRows rows(run);
+    const auto from_run = find_numerical_error(Planner(study), &rows);
+    REQUIRE(from_run);
+    CHECK(from_run->rms == found->rms);
+    CHECK(from_run->largest == found->largest);
     CHECK(found->healthy_pairs == 10);
     CHECK(found->faulty_pairs == 10);
     CHECK(found->gearboxes == 10);

@@ -149,8 +149,9 @@ TEST_CASE("Every shipped study is measured with at most one tile per thread if t
         const BatchPlan plan(study.ensemble.threshold_instances, study.ensemble.instances);
         const RunCost calibration =
             measure_run_cost(scene.tile(), scene.ensemble(), plan, 1, kNoBudget_s);
-        const RunForecast forecast = forecast_run(calibration, scene.ensemble().shape, plan,
-                                                  verification_s(Planner(study), calibration), 0.0);
+        const RunForecast forecast =
+            forecast_run(calibration, scene.ensemble().shape, plan,
+                         verification_s(Planner(study), calibration, false), 0.0);
         ++studies;
         CHECK(calibration.to_record == scene.record().signal_meshes);
         if (!calibration.integration_only) {
