@@ -201,7 +201,8 @@ int merge_command(const MergeOptions& options) {
         return kBadInput;
     }
     const std::string& first = options.results.front();
-    const StudyScene made = make_scene(first, read_study_text(merge.study(), first), true);
+    const StudyScene made =
+        make_scene(first, read_study_text(merge.study(), first), Choosing::numerics_with_pairs);
     if (!made) {
         print_problems(made.problems);
         return kBadInput;

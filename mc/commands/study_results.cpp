@@ -100,7 +100,8 @@ std::string miss_probability_text(const RequestedSize& size, const std::string& 
 }
 
 StudyScene scene_for_results(const StudyResults& results, const std::string& study) {
-    StudyScene made = stored_scene(results.path, study);
+    StudyScene made =
+        make_scene(results.path, read_study_text(study, results.path), Choosing::nothing);
     if (!made) {
         const std::string size = results.source.fault.size_key->path();
         for (Problem& problem : made.problems) {

@@ -494,9 +494,12 @@ void choose_numerics_of_stages(Study& study) {
 
 }  // namespace
 
-StudyScene make_scene(const std::string& name, StudyReading reading, bool pairs) {
+StudyScene make_scene(const std::string& name, StudyReading reading, Choosing choosing) {
     if (!reading.study) {
         return refused(std::move(reading.problems));
+    }
+    if (choosing == Choosing::nothing) {
+        reading.study->numerics = without_tolerance(reading.study->numerics);
     }
     if (!has_gears(*reading.study)) {
         return refused({{name, 0, "gearbox.sun.teeth",
@@ -527,7 +530,8 @@ StudyScene make_scene(const std::string& name, StudyReading reading, bool pairs)
         }
         choose_numerics_of_stages(*reading.study);
         const Planner planner(*reading.study);
-        ResolvedNumerics resolved = resolve_numerics(planner, numerics, pairs);
+        ResolvedNumerics resolved =
+            resolve_numerics(planner, numerics, choosing == Choosing::numerics_with_pairs);
         StudyScene made{std::make_unique<const Scene>(planner.scene(resolved.numerics)),
                         std::move(resolved.choice),
                         {},
@@ -544,14 +548,6 @@ StudyScene make_scene(const std::string& name, StudyReading reading, bool pairs)
     } catch (const PythonError& error) {
         return refused({{name, 0, "features.python", error.what(), ""}});
     }
-}
-
-StudyScene stored_scene(const std::string& name, const std::string& text) {
-    StudyReading reading = read_study_text(text, name);
-    if (reading.study) {
-        reading.study->numerics = without_tolerance(reading.study->numerics);
-    }
-    return make_scene(name, std::move(reading));
 }
 
 }  // namespace gearpod::mc

@@ -54,6 +54,10 @@ ResolvedNumerics resolve_numerics(const Planner& planner, const Numerics& numeri
 // Plan of a study with resolved numerics. Throws SceneError.
 Scene resolved_plan(const Study& study);
 
+// What making a scene chooses: numerics for the tolerance; the same with the pairs of a run
+// (resolve_numerics()); nothing, because the study of a results file has what its run chose.
+enum class Choosing { numerics, numerics_with_pairs, nothing };
+
 // Makes the scene of a study that has been read.
 
 struct StudyScene {
@@ -67,9 +71,8 @@ struct StudyScene {
 };
 
 // Sets the kernels' instruction set, chooses the numerics and makes the scene. Messages about
-// problems use `name` for the study. `pairs` as in resolve_numerics().
-StudyScene make_scene(const std::string& name, StudyReading reading, bool pairs = false);
-// The same for the study text of a results file, which has the numerics that its run chose.
-StudyScene stored_scene(const std::string& name, const std::string& text);
+// problems use `name` for the study.
+StudyScene make_scene(const std::string& name, StudyReading reading,
+                      Choosing choosing = Choosing::numerics);
 
 }  // namespace gearpod::mc

@@ -460,7 +460,9 @@ Json or_refusal(Make make) {
 
 nlohmann::json examples_json(const Results& frame, const RowSource& rows) {
     const std::string text = frame.provenance_value("study"), name = "study of the results";
-    const StudyScene made = text.empty() ? StudyScene() : stored_scene(name, text);
+    const StudyScene made = text.empty()
+                                ? StudyScene()
+                                : make_scene(name, read_study_text(text, name), Choosing::nothing);
     if (!made) {
         const std::string why = text.empty() ? "the file contains no study"
                                              : "this version cannot build the study in the file: " +

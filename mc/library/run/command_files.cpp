@@ -108,8 +108,8 @@ std::optional<Study> load_study(const StudyOptions& options) {
     return std::move(reading.study);
 }
 
-StudyScene make_scene(const StudyOptions& options, bool pairs) {
-    return make_scene(options.path, read_study(options.path, options.overrides), pairs);
+StudyScene make_scene(const StudyOptions& options, Choosing choosing) {
+    return make_scene(options.path, read_study(options.path, options.overrides), choosing);
 }
 
 StudyScene load_scene(const StudyOptions& options) {

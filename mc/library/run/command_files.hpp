@@ -45,9 +45,8 @@ void print_problems(const Problems& problems);
 // Reads a study. Empty after its problems were printed.
 std::optional<Study> load_study(const StudyOptions& options);
 
-// Creates the scene of a study; without one, the result contains the problems. `pairs` as in
-// resolve_numerics().
-StudyScene make_scene(const StudyOptions& options, bool pairs = false);
+// Creates the scene of a study; without one, the result contains the problems.
+StudyScene make_scene(const StudyOptions& options, Choosing choosing = Choosing::numerics);
 
 // The same; prints the problems.
 StudyScene load_scene(const StudyOptions& options);

@@ -155,10 +155,11 @@ std::string rank_mismatch(const std::string& name, const std::string& program,
     return line.empty() ? "" : fmt::format("{} read another study ({})", name, line);
 }
 
-StudyScene make_in_time(const StudyOptions& options, bool pairs, const Interruption& interruption,
+StudyScene make_in_time(const StudyOptions& options, Choosing choosing,
+                        const Interruption& interruption,
                         const std::function<void(StudyScene&)>& prepare) {
     try {
-        StudyScene made = make_scene(options, pairs);
+        StudyScene made = make_scene(options, choosing);
         if (made && prepare) {
             prepare(made);
         }
@@ -180,8 +181,10 @@ StudyScene make_in_time(const StudyOptions& options, bool pairs, const Interrupt
 StudyScene load_scene_on_all_ranks(const Ranks& ranks, const StudyOptions& options,
                                    const Interruption& interruption,
                                    const std::function<void(StudyScene&)>& prepare) {
-    // a run is made without `prepare`; its leader corrects for the error of the steps
-    StudyScene made = make_in_time(options, ranks.leads() && !prepare, interruption, prepare);
+    // Runs are made without `prepare`; their leader corrects for the error of the steps.
+    const Choosing choosing =
+        ranks.leads() && !prepare ? Choosing::numerics_with_pairs : Choosing::numerics;
+    StudyScene made = make_in_time(options, choosing, interruption, prepare);
     const auto all_problems = ranks.gather(made ? "" : format(made.problems));
     const auto names = ranks.gather(ranks.size() > 1 ? rank_name(ranks) : "");
     const auto programs =
