@@ -268,6 +268,7 @@ Json sensors_json(const std::vector<SensorDetection>& sensors) {
     Json json = Json::array();
     for (const SensorDetection& sensor : sensors) {
         json.push_back({{"name", sensor.name},
+                        {"noise_level", sensor.noise_level},
                         {"feature", sensor.feature},
                         {"size", sensor.smallest ? Json(sensor.smallest->size) : Json(nullptr)},
                         {"a90", sensor.change ? change_json(sensor.change->a90) : Json(nullptr)},

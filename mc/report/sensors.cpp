@@ -7,8 +7,10 @@
 #include <limits>
 
 #include "analysis/report/wording.hpp"
+#include "analysis/statistics/distributions.hpp"
 #include "analysis/statistics/interval.hpp"
 #include "analysis/statistics/learned_sum.hpp"
+#include "analysis/statistics/rank_statistics.hpp"
 #include "features/feature.hpp"
 #include "features/statistics/signal_statistics.hpp"
 #include "machine/no_value.hpp"
@@ -186,11 +188,47 @@ struct Columns {
     std::vector<double> healthy, test, size;
 };
 
+// Difference between the sensors in the area under the ROC, each with its best feature.
+double spread_of(const std::vector<OneSensor>& sensors) {
+    std::vector<double> best;
+    for (const OneSensor& sensor : sensors) {
+        best.push_back(0.0);
+        for (const FeatureResult& feature : sensor.results.features) {
+            const Columns columns(sensor.results, feature.name);
+            std::vector<double> faulty;
+            for (std::size_t i = 0; i < columns.test.size(); ++i) {
+                if (columns.size[i] > 0.0) {
+                    faulty.push_back(columns.test[i]);
+                }
+            }
+            best.back() = std::fmax(
+                best.back(),
+                analysis::auc(columns.healthy, faulty, columns.alarm == analysis::Alarm::high, 0.95)
+                    .auc);
+        }
+    }
+    return best.empty() ? 0.0 : std::ranges::max(best) - std::ranges::min(best);
+}
+
+// The sensors at the noise level where they differ most.
+std::vector<OneSensor> most_different_sensors(const Results& frame, const RowSource& rows) {
+    std::vector<OneSensor> most = sensors_of(frame, rows, reference_level(frame.noise_levels));
+    double largest = spread_of(most);
+    for (std::size_t level = 0; level < frame.noise_levels.size(); ++level) {
+        std::vector<OneSensor> sensors = sensors_of(frame, rows, level);
+        if (const double spread = spread_of(sensors); spread > largest) {
+            largest = spread;
+            most = std::move(sensors);
+        }
+    }
+    return most;
+}
+
 SensorDetection detection_of(OneSensor& sensor) {
     Results& results = sensor.results;
     const ColumnRows rows(results);
     results.detection = detect_all(results, rows);
-    SensorDetection found{sensor.name, {}, "", {}};
+    SensorDetection found{results.noise_levels.front(), sensor.name, {}, "", {}};
     if (const auto reliability = reliability_of(results, rows, "", thread_count())) {
         found.smallest = analysis::smallest_fault(*reliability, 0);
         found.feature =
@@ -228,8 +266,10 @@ std::string auc_change_text(const analysis::Comparison& change) {
                                       : "-";
 }
 
-// Names of those whose area under the ROC is larger than the first sensor's.
-std::vector<std::string> better_than_first(const std::vector<SensorDetection>& sensors) {
+// Names of those whose area under the ROC is larger than the first sensor's. `levels`: number of
+// noise levels of which the one with the largest difference was taken.
+std::vector<std::string> better_than_first(const std::vector<SensorDetection>& sensors,
+                                           std::size_t levels) {
     std::vector<double> p_values;
     std::vector<const SensorDetection*> compared;
     for (const SensorDetection& sensor : sensors) {
@@ -241,11 +281,27 @@ std::vector<std::string> better_than_first(const std::vector<SensorDetection>& s
     const std::vector<double> corrected = analysis::holm_adjusted(p_values);
     std::vector<std::string> better;
     for (std::size_t i = 0; i < compared.size(); ++i) {
-        if (corrected[i] < analysis::kTestLevel && compared[i]->change->auc.difference() > 0.0) {
+        if (corrected[i] * static_cast<double>(levels) < analysis::kTestLevel &&
+            compared[i]->change->auc.difference() > 0.0) {
             better.push_back(compared[i]->name);
         }
     }
     return better;
+}
+
+// Least change of the area under the ROC that the least certain comparison finds with 80 %
+// probability; 0 without a comparison. The interval's half width is the normal quantile times the
+// standard error.
+double detectable_change(const std::vector<SensorDetection>& sensors, double confidence) {
+    double largest = 0.0;
+    for (const SensorDetection& sensor : sensors) {
+        if (sensor.change && sensor.change->auc.refusal.empty()) {
+            const analysis::Interval& bounds = sensor.change->auc.bounds;
+            largest = std::fmax(largest, bounds.upper - bounds.lower);
+        }
+    }
+    const double quantile = analysis::normal_quantile(0.5 + 0.5 * confidence);
+    return 0.5 * largest * (1.0 + analysis::normal_quantile(0.8) / quantile);
 }
 
 }  // namespace
@@ -258,7 +314,7 @@ std::vector<SensorDetection> sensor_detections(const Results& frame, const RowSo
     if (!several || values > kMostAssessedValues) {
         return {};
     }
-    std::vector<OneSensor> sensors = sensors_of(frame, rows, reference_level(frame.noise_levels));
+    std::vector<OneSensor> sensors = most_different_sensors(frame, rows);
     if (sensors.empty()) {
         return {};
     }
@@ -295,8 +351,11 @@ analysis::Section sensors_section(const Results& frame,
         return section;
     }
     const analysis::SizeUnit& unit = frame.request.size;
+    const std::size_t levels = frame.noise_levels.size();
     const std::string noise =
-        analysis::number_text(frame.noise_levels[reference_level(frame.noise_levels)]);
+        analysis::number_text(sensors.front().noise_level) +
+        (levels > 1 ? fmt::format(", of {} levels the one where the sensors differ most", levels)
+                    : "");
     section.state(
         "sensors.how",
         fmt::format(
@@ -326,15 +385,22 @@ analysis::Section sensors_section(const Results& frame,
     }
     section.add(std::move(table));
     section.state("sensors.tested", tested ? analysis::kTestedAlone : "");
-    const std::vector<std::string> better = better_than_first(sensors);
-    section.state("sensors.verdict",
-                  better.empty()
-                      ? "No sensor and no value of all sensors separates faulty from healthy "
-                        "gearboxes better than the first sensor, beyond scatter (area under the "
-                        "ROC)."
-                      : fmt::format("Better than the first sensor beyond scatter (area under the "
-                                    "ROC, DeLong's test with Holm's correction): {}.",
-                                    analysis::joined(better)));
+    const std::vector<std::string> better = better_than_first(sensors, levels);
+    const double detectable = detectable_change(sensors, frame.request.confidence);
+    section.state(
+        "sensors.verdict",
+        (better.empty() ? "No sensor and no value of all sensors separates faulty from healthy "
+                          "gearboxes better than the first sensor, beyond scatter (area under the "
+                          "ROC)."
+                        : fmt::format("Better than the first sensor beyond scatter (area under the "
+                                      "ROC, DeLong's test with Holm's correction{}): {}.",
+                                      levels > 1 ? ", and Bonferroni's for the levels" : "",
+                                      analysis::joined(better))) +
+            (detectable > 0.0
+                 ? fmt::format(" A change of {:.2g} is found with 80 % probability, smaller ones "
+                               "with less.",
+                               detectable)
+                 : ""));
     return section;
 }
 

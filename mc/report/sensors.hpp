@@ -12,9 +12,10 @@
 
 namespace gearpod::mc {
 
-// A sensor, or a value of all sensors, at the noise level that a report shows first. Only features
-// of the acceleration count.
+// A sensor, or a value of all sensors, at the noise level where the best areas under the ROC of the
+// sensors alone differ most. Only features of the acceleration count.
 struct SensorDetection {
+    double noise_level = 1.0;
     std::string name;  // "first", the name of an additional one, "mean of all", "largest of all",
                        // "learned sum of all"
     std::optional<analysis::SmallestFault> smallest;

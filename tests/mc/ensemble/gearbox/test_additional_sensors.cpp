@@ -132,6 +132,22 @@ TEST_CASE("The mean of two sensors has the area under the ROC that theory gives"
     CHECK(found[2].change->auc.bounds.lower > 0.0);
     CHECK(found[4].change->auc.b == Approx(together).margin(0.015));
     CHECK(std::abs(found[1].change->auc.difference()) < 0.02);
+
+    // At a second noise level the other sensor sees more: the comparison is made there.
+    results.noise_levels = results.request.noise_levels = {1.0, 0.5};
+    for (mc::FeatureResult* feature : {&results.features[0], &results.variants[0].features[0]}) {
+        const std::vector<double> first = feature->values;
+        feature->values.clear();
+        for (std::size_t row = 0; row < first.size(); ++row) {
+            const bool more = feature != &results.features[0] && results.group[row] == 1;
+            feature->values.insert(feature->values.end(),
+                                   {first[row], first[row] + (more ? 0.2 * kShift : 0.0)});
+        }
+    }
+    const auto differing = sensor_detections(results, mc::ColumnRows(results));
+    CHECK(differing[1].noise_level == 0.5);
+    CHECK(differing[1].change->auc.difference() > 0.1);
+    CHECK(found[1].noise_level == 1.0);
 }
 
 TEST_CASE("Problems of additional sensors are all reported") {
