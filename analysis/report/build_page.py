@@ -4,7 +4,7 @@
                                                  accuracy)
     python3 build_page.py F.json > F.html       (- reads the JSON from standard input)
 
-With a final --figures FOLDER the figures are also written there, each as SVG and PNG. With a final
+With a final --figures FOLDER the figures are also written there, each as SVG, PNG and PDF. With a final
 --pdf (for a report) its summary on one sheet is written instead, as PDF. With a final --csv, --evidence
 or --dataset the files of these folders are written instead: a line with their names and sizes (JSON),
 then the files.

@@ -1,6 +1,7 @@
 """Charts as inline SVG drawn by matplotlib. Text stays text, colours follow the page's light or
 dark scheme, and each chart has a name and a description for screen readers."""
 
+import collections
 import html
 import io
 import re
@@ -163,22 +164,27 @@ class SvgNames:
     def __init__(self, folder=None):
         self.count = 0
         self.folder = folder
+        self.used = collections.Counter()  # names of files
 
     def keep(self, figure, title):
-        """Writes the chart on a white background to files such as 03-area-under-the-roc.svg and
-        .png."""
+        """Writes the chart on a white background to files such as pod-change_window_ratio-by-noise.svg,
+        .png and .pdf."""
         if self.folder is None:
             return
-        words = re.sub(r"[^a-z0-9]+", "-", title.lower().replace("×", "x")).strip("-")[:60]
-        for kind in ("svg", "png"):
+        words = title.lower().replace("×", "x").replace("probability of detection", "pod")
+        words = re.sub(r"[^a-z0-9_.]+", "-", re.sub(r"^pod (of|by) ", "pod ", words)).strip("-")
+        self.used[words] += 1
+        if self.used[words] > 1:
+            words += f"-{self.used[words]}"
+        for kind in ("svg", "png", "pdf"):
             # Replaces the file instead of overwriting it: an existing link might lead to another
             # file.
-            path = self.folder / f"{self.count:02d}-{words}.{kind}"
+            path = self.folder / f"{words}.{kind}"
             new = path.with_suffix(f".{kind}.new")
             new.unlink(missing_ok=True)
             with open(new, "xb") as file:
-                figure.savefig(file, format=kind, dpi=200, facecolor=PAPER, metadata={"Date": None}
-                               if kind == "svg" else {"Software": None})
+                undated = {"svg": "Date", "png": "Software", "pdf": "CreationDate"}[kind]
+                figure.savefig(file, format=kind, dpi=200, facecolor=PAPER, metadata={undated: None})
             new.replace(path)
 
 

@@ -73,7 +73,7 @@ void add_accuracy(CLI::App& app, int& code) {
     add_file(command, "--html", options.html,
              "write a page with work-precision diagrams to a file");
     add_file(command, "--figures", options.figures,
-             "write the page's figures into a folder, as SVG and PNG");
+             "write the page's figures into a folder, as SVG, PNG and PDF");
     command.add_option("--peers", options.peers,
                        "table (CSV) with results of other programs, for comparison");
     add_number(command, "--repeats", options.repeats,

@@ -15,7 +15,7 @@ struct ReportOptions {
     std::string json;                   // "": none; "-": standard output
     std::string html, pdf;              // "": none
     std::string csv;                    // folder for every table; "": none
-    std::string figures;                // folder for the page's figures as SVG and PNG; "": none
+    std::string figures;                // folder for the page's figures as SVG, PNG and PDF; "": none
     std::string evidence;               // folder for the evidence pack; "": none
     std::string dataset;                // folder for the dataset; "": none
     std::vector<std::string> sections;  // to print; empty: the screen, or everything if `full`

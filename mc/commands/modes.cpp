@@ -153,7 +153,7 @@ void add_modes(CLI::App& app, int& code) {
     add_json(command, options.json);
     add_file(command, "--html", options.html, "write a page with the Campbell diagram");
     add_file(command, "--figures", options.figures,
-             "write the figures of the page to a folder, as SVG and PNG");
+             "write the figures of the page to a folder, as SVG, PNG and PDF");
     add_force(command, options.force);
 }
 

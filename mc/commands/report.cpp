@@ -190,7 +190,7 @@ void add_report(CLI::App& app, int& code) {
     add_file(command, "--pdf", options.pdf, "write a one-page summary with its limits to a file");
     add_file(command, "--csv", options.csv, "write all tables into a folder");
     add_file(command, "--figures", options.figures,
-             "write the page's figures into a folder, as SVG and PNG");
+             "write the page's figures into a folder, as SVG, PNG and PDF");
     add_file(
         command, "--evidence", options.evidence,
         "write an evidence pack into a folder: a document (PDF) by subjects of EASA AMC1 29.1465 "

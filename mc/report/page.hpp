@@ -9,7 +9,7 @@
 
 namespace gearpod::mc {
 
-// Makes the HTML page for a report's JSON and writes it, and its figures as SVG and PNG, to the
+// Makes the HTML page for a report's JSON and writes it, and its figures as SVG, PNG and PDF, to the
 // given file and folder; "": none. GEARPOD_PYTHON names the interpreter (default /usr/bin/python3).
 // GEARPOD_REPORT_DIR names the folder of the Python program; the default is the installed one.
 // Throws std::runtime_error naming what is missing, or if the page cannot be written. The Python

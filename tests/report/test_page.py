@@ -267,6 +267,8 @@ class Program(unittest.TestCase):
         for drawing in drawings:
             xml.etree.ElementTree.parse(drawing)
             self.assertEqual(drawing.with_suffix(".png").read_bytes()[:8], b"\x89PNG\r\n\x1a\n")
+            self.assertEqual(drawing.with_suffix(".pdf").read_bytes()[:4], b"%PDF")
+        self.assertIn("detection-rate-of-te_fc-over-noise-and-size.svg", [d.name for d in drawings])
         before = pathlib.Path(self.results).read_bytes()
         for made_, option in ((next(tables.glob("*.csv")), "--csv"), (drawings[0], "--figures")):
             made_.unlink()
