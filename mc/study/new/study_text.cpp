@@ -100,10 +100,11 @@ std::string gear_lines(int teeth, const std::optional<double>& shift,
 }
 
 SensorRates sensor_rates(double mesh_frequency_Hz) {
-    constexpr double kHarmonics = 20.0, kHighest_Hz = 10000.0, kAnalyser = 2.56,
+    // What folds back to below the corner is damped by (6 - 1)^4 = 625 by a filter of fourth order.
+    constexpr double kHarmonics = 20.0, kHighest_Hz = 10000.0, kPerLowPass = 6.0,
                      kFewestPerMesh = 12.0;
     const double low_pass = std::min(kHarmonics * mesh_frequency_Hz, kHighest_Hz);
-    return {low_pass, std::max(kAnalyser * low_pass, kFewestPerMesh * mesh_frequency_Hz)};
+    return {low_pass, std::max(kPerLowPass * low_pass, kFewestPerMesh * mesh_frequency_Hz)};
 }
 
 Background background(const SensorRates& rates) {
@@ -138,7 +139,7 @@ std::string sensor_section(double mesh_frequency_Hz, const std::string& place) {
                 fmt::format("20 times the mesh frequency, {} Hz; 10 kHz at most",
                             rounded_text(mesh_frequency_Hz))) +
            line("sampling_Hz", rates.sampling,
-                "2.56 times the low-pass, at least 12 per mesh period") +
+                "6 times the low-pass, at least 12 per mesh period") +
            place +
            line(background(rates).key, background(rates).value,
                 "background of the machine; measure or calibrate it") +
