@@ -43,7 +43,8 @@ OpenStudy::OpenStudy(const std::string& name, const std::optional<std::string>& 
         if (!made) {
             throw BadInput(text_of(made.problems, with_lines));
         }
-        return Plans{made.scene->tile(), made.scene->ensemble()};
+        return Plans{made.scene->tile(), made.scene->ensemble(),
+                     made.planner->description(made.planner->facts().numerics)};
     };
 }
 

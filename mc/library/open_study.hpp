@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "mc/ensemble/gearbox/simulation.hpp"
+#include "mc/plan/description.hpp"
 #include "mc/plan/ensemble_plan.hpp"
 #include "mc/plan/gearbox_plan.hpp"
 
@@ -26,6 +27,7 @@ class OpenStudy {
     struct Plans {
         TilePlan tile;
         EnsemblePlan ensemble;
+        std::vector<DescriptionSection> description;  // of gearbox and effects, as `describe` has
     };
     // Made by the first call. Throws BadInput with every problem.
     const Plans& plans();

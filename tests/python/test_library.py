@@ -71,6 +71,33 @@ class Library(unittest.TestCase):
         printed = json.loads(program("modes", STUDY, "--json", "-"))["frequencies_Hz"]
         np.testing.assert_array_equal(self.study.modes(), printed)
 
+    def test_description(self):
+        printed = program("describe", STUDY, "--full", "--seconds", "0.1")
+        described = gearpod.describe(STUDY)
+        self.assertEqual(list(described), ["gearbox", "effects simulated", "effects omitted"])
+        self.assertIn(described["gearbox"]["mesh frequency"], printed)
+        self.assertIn("tooth errors", described["effects omitted"])
+
+    def test_commands_return_values(self):
+        stage = {"sun": 21, "planet": 39, "ring": 99, "module": 12, "power": 1500, "speed": 18}
+        options = [word for name, value in stage.items() for word in (f"--{name}", value)]
+        self.assertEqual(gearpod.new("planetary", **stage), program("new", "planetary", *options))
+        self.assertEqual(gearpod.check(STUDY), [])
+        bad = self.path("bad.toml")
+        bad.write_text("[gearbox]\nsun_teth = 19\n")
+        self.assertIn("gearbox.sun_teth: unknown key", "\n".join(gearpod.check(STUDY, bad)))
+        few = {"ensemble.threshold_instances": 40, "sensor.noise_levels": [1],
+               "features.use": ["window_ratio"], "ensemble.instances": 28}
+        out = self.path("points")
+        swept = gearpod.sweep(STUDY, {"sensor.noise_m_s2": [1, 2]}, set=few, out=out, quiet=True)
+        self.assertEqual(len(swept["points"]), 2)
+        compared = gearpod.compare(*sorted(out.glob("*.h5")))
+        self.assertEqual(len(compared["files"]), 2)
+        measured = gearpod.accuracy(STUDY, set=few, gearboxes=0, repeats=1, seconds=2)
+        self.assertTrue(measured["settings"])
+        with self.assertRaisesRegex(gearpod.Failed, "--gearboxes"):
+            gearpod.accuracy(STUDY, gearboxes=-1)
+
     def test_simulation(self):
         written = self.path("one.h5")
         program("simulate", STUDY, "--instance", 1, "--out", written)

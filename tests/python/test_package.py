@@ -119,6 +119,17 @@ class Package(unittest.TestCase):
         np.testing.assert_array_equal(frame["te_fc"], self.results.feature("te_fc", 1.0))
         self.assertEqual(set(self.results.detection()["noise_level"]), {0.0, 1.0})
 
+    def test_dataset(self):
+        try:
+            import xarray  # noqa: F401
+        except ImportError:
+            self.skipTest("xarray is not there")
+        dataset = self.results.dataset()
+        self.assertEqual(dict(dataset.sizes), {"gearbox": 200, "noise": 2})
+        np.testing.assert_array_equal(dataset["te_fc"].sel(noise=1.0), self.results.feature("te_fc", 1.0))
+        self.assertEqual(dataset["sensor_rms"].attrs["units"], "m/s^2")
+        self.assertEqual(int((dataset["group"] == 0).sum()), 60)
+
     def test_variants_give_the_findings_of_the_report(self):
         """Alarms of another fault and areas of all sensors, computed again."""
         bearing = {"fault": "outer", "shaft": "sun", "elements": 9, "diameter_ratio": 0.2,

@@ -6,6 +6,7 @@
     study.simulate(rows=[0, 1]).signals["sensor"]         # numpy, gearboxes x samples
     study.features(measured, sampling_Hz=20000)           # of a recording
     gearpod.pod({"size": sizes, "hit": hits}).a90         # of an inspection table
+    gearpod.sweep("study.toml", {"sensor.noise_m_s2": [1, 2]})   # as new, check, compare, accuracy
 
     results = gearpod.run("studies/planet-crack.toml", set={"sensor.noise_levels": [2]})
     results = gearpod.open("planet-crack.h5")
@@ -19,10 +20,12 @@ program for runs.
 
 from . import figures
 from .columns import Columns
-from .library import Features, Pod, Simulation, Study, features, modes, pod, simulate, stiffness
+from .commands import accuracy, check, compare, new, sweep
+from .library import (Features, Pod, Simulation, Study, describe, features, modes, pod, simulate,
+                      stiffness)
 from .program import Failed, find_program
 from .results import Lives, Results, open, run
 
 __all__ = ["Columns", "Failed", "Features", "Lives", "Pod", "Results", "Simulation", "Study",
-           "features", "figures", "find_program", "modes", "open", "pod", "run", "simulate",
-           "stiffness"]
+           "accuracy", "check", "compare", "describe", "features", "figures", "find_program",
+           "modes", "new", "open", "pod", "run", "simulate", "stiffness", "sweep"]

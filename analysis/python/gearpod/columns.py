@@ -54,13 +54,17 @@ class Columns(Mapping[str, Array]):
 
     def dataset(self) -> Any:
         """The columns as an xarray Dataset with units as attributes; needs xarray."""
-        try:
-            import xarray
-        except ImportError as error:
-            raise ImportError("datasets need xarray (Debian: python3-xarray); a column is a numpy "
-                              "array") from error
-        return xarray.Dataset({name: (self.dimensions, array, {"units": self.units[name]})
-                               for name, array in self._arrays.items()})
+        return import_xarray().Dataset({name: (self.dimensions, array, {"units": self.units[name]})
+                                        for name, array in self._arrays.items()})
+
+
+def import_xarray() -> Any:
+    try:
+        import xarray
+    except ImportError as error:
+        raise ImportError("datasets need xarray (Debian: python3-xarray); a column is a numpy "
+                          "array") from error
+    return xarray
 
 
 def import_pandas() -> Any:

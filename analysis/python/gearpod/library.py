@@ -138,6 +138,12 @@ class Study:
         size of the study; or the loaded static transmission error (um)."""
         return Columns(self._open.stiffness(points, transmission_error), ("point",))
 
+    def describe(self) -> Dict[str, Dict[str, str]]:
+        """Texts on gearbox, effects simulated and effects omitted, by heading and name, as in
+        `gearpod describe --full`. The forecast of time and memory is the program's."""
+        description: Dict[str, Dict[str, str]] = self._open.describe()
+        return description
+
     def modes(self) -> Array:
         """Natural frequencies, Hz, ascending, at the mean mesh stiffness."""
         modes: Array = self._open.modes()
@@ -190,6 +196,11 @@ class Study:
 def stiffness(study: StudyLike, *, points: int = 1000, transmission_error: bool = False) -> Columns:
     """See Study.stiffness."""
     return _study(study).stiffness(points=points, transmission_error=transmission_error)
+
+
+def describe(study: StudyLike) -> Dict[str, Dict[str, str]]:
+    """See Study.describe."""
+    return _study(study).describe()
 
 
 def modes(study: StudyLike) -> Array:

@@ -9,7 +9,7 @@ import shutil
 import subprocess
 import sys
 import tempfile
-from typing import Any, Mapping, Sequence, Union
+from typing import Any, List, Mapping, Optional, Sequence, Union
 
 PathLike = Union[str, "os.PathLike[str]"]
 SOME_FAILED = 3
@@ -67,3 +67,9 @@ def toml_value(value: Any) -> str:
     if isinstance(value, (list, tuple)) or getattr(value, "ndim", 0) > 0:
         return "[" + ", ".join(toml_value(each) for each in value) + "]"
     return repr(value.item() if hasattr(value, "item") else value)
+
+
+def settings(changed: Optional[Mapping[str, Any]]) -> List[str]:
+    """Options --set of the keys and values."""
+    return [part for key, value in (changed or {}).items()
+            for part in ("--set", f"{key}={toml_value(value)}")]

@@ -20,8 +20,8 @@ except ImportError as error:
     raise ImportError("gearpod reads its results with h5py (Debian: python3-h5py)") from error
 
 from . import library
-from .columns import Array, import_pandas, require_parquet
-from .program import SOME_FAILED, PathLike, call, toml_value
+from .columns import Array, import_pandas, import_xarray, require_parquet
+from .program import SOME_FAILED, PathLike, call, settings
 
 FORMAT, NEWEST = "gearpod results", 3
 LIFE_COLUMNS = {"crack_depth": "crack_depth", "record_torque": "torque", "record_speed": "speed",
@@ -52,9 +52,7 @@ def run(study: PathLike, *, set: Optional[Mapping[str, Any]] = None, out: Option
     """
     target = pathlib.Path(out) if out is not None else pathlib.Path(
         pathlib.Path(study).with_suffix(".h5").name)
-    arguments = ["run", os.fspath(study), "--out", str(target)]
-    for key, value in (set or {}).items():
-        arguments += ["--set", f"{key}={toml_value(value)}"]
+    arguments = ["run", os.fspath(study), "--out", str(target), *settings(set)]
     for name, number in (("--instances", instances), ("--seed", seed)):
         if number is not None:
             arguments += [name, str(number)]
@@ -207,6 +205,18 @@ class Results:
         frame = import_pandas().DataFrame(self.columns(noise))
         frame.index.name = "row"
         return frame
+
+    def dataset(self) -> Any:
+        """Inputs by gearbox and features by gearbox and noise level (of lives: record) as an xarray
+        Dataset with units, group and status; needs xarray."""
+        axes = ["gearbox", "record" if self.kind == "lives" else "noise"]
+        values = {**{name: self.input(name) for name in self.inputs},
+                  **{name: self.feature(name) for name in self.features}}
+        dataset = import_xarray().Dataset(
+            {name: (axes[:array.ndim], array, {"units": self.units[name]})
+             for name, array in values.items()},
+            coords={"group": ("gearbox", self.group), "status": ("gearbox", self.status)})
+        return dataset if self.kind == "lives" else dataset.assign_coords(noise=self.noise_levels)
 
     def detection_columns(self) -> Dict[str, Array]:
         """Detection rates, one entry per feature, noise level and size."""

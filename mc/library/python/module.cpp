@@ -65,7 +65,7 @@ void append(mc::Simulation& all, const mc::Simulation& next) {
 // exist and GearboxFailed. The values do not depend on the number of threads.
 mc::Simulation simulate_rows(mc::OpenStudy& study, const std::vector<long>& rows, long meshes,
                              const std::function<bool()>& interrupted) {
-    const auto& [tile, ensemble] = study.plans();
+    const auto& [tile, ensemble, description] = study.plans();
     std::vector<mc::Simulation> each(rows.size());
     std::atomic<bool> stopped{false};
     const auto caller = std::this_thread::get_id();
@@ -173,6 +173,20 @@ py::list stiffness(mc::OpenStudy& study, int points, bool transmission_error) {
                                   : mc::stiffness_columns(*study.plans().tile.gearbox, points);
                    }),
                    {points});
+}
+
+// Texts by heading and name.
+py::dict describe(mc::OpenStudy& study) {
+    py::dict all;
+    for (const mc::DescriptionSection& section :
+         unlocked([&]() -> const auto& { return study.plans().description; })) {
+        py::dict entries;
+        for (const auto& [name, text] : section.entries) {
+            entries[py::str(name)] = text;
+        }
+        all[py::str(section.heading)] = entries;
+    }
+    return all;
 }
 
 Doubles modes(const mc::OpenStudy& study) {
@@ -366,6 +380,7 @@ void define_module(py::module_& module) {
         .def(py::init(&open_study), py::arg("name"), py::arg("text"), py::arg("overrides"),
              py::arg("with_lines"))
         .def("stiffness", &stiffness, py::arg("points"), py::arg("transmission_error"))
+        .def("describe", &describe)
         .def("modes", &modes)
         .def("simulate", &simulate, py::arg("rows"), py::arg("meshes"))
         .def("features", &features, py::arg("signal"), py::arg("baseline"), py::arg("healthy"),
