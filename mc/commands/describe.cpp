@@ -8,6 +8,7 @@
 #include <limits>
 #include <numbers>
 #include <optional>
+#include <set>
 
 #include "analysis/report/false_alarm_text.hpp"
 #include "features/feature.hpp"
@@ -37,6 +38,7 @@ namespace {
 struct DescribeOptions {
     StudyOptions study;
     bool keys = false;  // print the keys of study files instead
+    bool full = false;  // print all settings, loads, effects and costs, not only the first screen
     int ranks = 0;      // also forecast a run with this many MPI ranks; 0: do not
     // Processor seconds of each thread for the forecast; then it falls back on step counts.
     double seconds = 10.0;
@@ -228,7 +230,35 @@ int print_keys(const std::string& word) {
     return kDone;
 }
 
-int describe_command(const DescribeOptions& options) {
+// What the first screen shows (print_first_screen).
+const std::set<std::string> kScreen = {"false alarms: in time",
+                                       "false alarms: gearboxes per size",
+                                       "false alarms: false-alarm rate",
+                                       "false alarms: ",
+                                       "gearbox: teeth (sun/planet/ring)",
+                                       "gearbox: teeth (pinion/gear)",
+                                       "gearbox: mesh frequency",
+                                       "gearbox: fault sizes",
+                                       "gearbox: check the torque",
+                                       "effects simulated: names",
+                                       "effects omitted: names",
+                                       "lives: gearboxes",
+                                       "lives: refused by `lives`",
+                                       "cost: record",
+                                       "cost: gearboxes",
+                                       "not computed: ",
+                                       "forecast of a run: time integration",
+                                       "forecast of a run: memory",
+                                       "forecast of a run: estimated time",
+                                       "forecast of a run: estimated memory",
+                                       "forecast of lives: records of a crack",
+                                       "forecast of lives: estimated time",
+                                       "forecast of lives: estimated memory",
+                                       "forecast for MPI ranks: *",
+                                       "what the effects change: ",
+                                       "what the effects change: *"};
+
+int describe_study(const DescribeOptions& options) {
     // Processor time used so far to load the program.
     const double begun_s = static_cast<double>(std::clock()) / CLOCKS_PER_SEC;
     if (options.keys) {
@@ -238,7 +268,13 @@ int describe_command(const DescribeOptions& options) {
     if (!study) {
         return kBadInput;
     }
-    fmt::print("# the resolved study, with all defaults\n{}", wrapped_study(resolved_text(*study)));
+    if (options.full) {
+        fmt::print("# the resolved study, with all defaults\n{}",
+                   wrapped_study(resolved_text(*study)));
+    } else {
+        print_first_screen(kScreen);
+        fmt::print("{}\n", wrapped_text(printable(EnsemblePlan(*study).title), 2));
+    }
     if (!has_gears(*study)) {
         fmt::print("\nthe study has no tooth numbers: only `gearpod modes` can use it\n");
         return kDone;
@@ -307,18 +343,29 @@ int describe_command(const DescribeOptions& options) {
     return kDone;
 }
 
+int describe_command(const DescribeOptions& options) {
+    const int code = describe_study(options);
+    if (code == kDone && !options.full && !options.keys) {
+        fmt::print("\nall settings, loads, effects and costs:\n  gearpod describe {} --full\n",
+                   printable(options.study.path));
+    }
+    return code;
+}
+
 }  // namespace
 
 void add_describe(CLI::App& app, int& code) {
     const auto options = std::make_shared<DescribeOptions>();
     auto* command = app.add_subcommand(
         "describe",
-        "print a study's settings, the effects simulated and omitted, and the estimated time and "
-        "memory of a run; computes for a few seconds and writes nothing");
+        "print what a study simulates and omits, and the estimated time and memory of a run; "
+        "computes for a few seconds and writes nothing");
     add_study(*command, options->study)->required(false);
     command->add_flag(
         "--keys", options->keys,
         "print all keys of study files; `describe --keys WORD`: those with a word that begins so");
+    command->add_flag("--full", options->full,
+                      "print all settings, loads, effects and costs, not only the first screen");
     add_number(*command, "--ranks", options->ranks,
                "also forecast a run with this many MPI ranks: time, memory per rank, disk, and the "
                "number of ranks from which rank 0 limits the speed",

@@ -309,8 +309,13 @@ class Describer {
         }
         add_shifts();
         for (const SceneMesh& mesh : gearbox_.stiffness->meshes()) {
-            add(mesh_name(mesh.members) + " mesh", "contact ratio {}, mean stiffness {:.4g} N/m",
-                contact_ratio_text(*mesh.stiffness), mean_total(*mesh.stiffness));
+            const double mean_N_m = mean_total(*mesh.stiffness);
+            add(mesh_name(mesh.members) + " mesh", "contact ratio {}, mean stiffness {:.4g} N/m{}",
+                contact_ratio_text(*mesh.stiffness), mean_N_m,
+                study_.gearbox.face_width_m
+                    ? fmt::format(", {:.3g} N/(mm um) of face width",
+                                  1e-9 * mean_N_m / *study_.gearbox.face_width_m)
+                    : "");
         }
         add_rigid_bodies();
         add("mesh frequency", "{:.4f} Hz", gearbox_.mesh_frequency_Hz);
@@ -784,7 +789,7 @@ DescriptionSection false_alarm_description(const Study& study) {
     section.entries.push_back({"methods", analysis::threshold_methods_text(rate, confidence)});
     if (const std::string few = analysis::size_shortage(plan.test_gearboxes, plan.request);
         !few.empty()) {
-        section.entries.push_back({"sizes", few});
+        section.entries.push_back({"gearboxes per size", few});
     }
     if (const std::string shortage = plan.healthy_shortage(); !shortage.empty()) {
         section.entries.push_back({"", shortage});
@@ -793,7 +798,7 @@ DescriptionSection false_alarm_description(const Study& study) {
     const analysis::Interval found = analysis::threshold_rate_interval(
         healthy * (plan.request.importance_sampling ? 1 : records), rate, confidence);
     section.entries.push_back(
-        {"rate",
+        {"false-alarm rate",
          fmt::format("{:g}; with {}{} healthy gearboxes the true rate is between {:.2g} and {:.2g} "
                      "at {:g} % confidence{}",
                      rate, records > 1 ? fmt::format("{} records of each of ", records) : "",

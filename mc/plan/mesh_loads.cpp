@@ -119,8 +119,9 @@ std::string stress_list(const MeshLoad& load) {
                         stress_figures(load.stress->root_2_Pa), member_name(load.members.member_2));
     }
     if (load.deflection_m > 0.0) {
-        text += fmt::format("{}mean deflection {}", text.empty() ? "" : ", ",
-                            micrometres(load.deflection_m));
+        text += fmt::format("{}mean deflection {}{}", text.empty() ? "" : ", ",
+                            micrometres(load.deflection_m),
+                            load.stiffness_of_iso ? " by the stiffness of ISO 6336-1" : "");
     }
     return text;
 }
@@ -147,6 +148,7 @@ std::vector<MeshLoad> mesh_loads(const Study& study) {
         }
         if (const double k = mean_stiffness(study, members, geometry, material); k > 0.0) {
             load.deflection_m = force_N / k;
+            load.stiffness_of_iso = !stiffness_given(study);
         }
         load.error_m = sum_of(study.gearbox.meshes[members.kind].error_m) +
                        pitch_error_m(study, members.member_1) +

@@ -18,6 +18,7 @@ struct MeshLoad {
     std::optional<stiffness::ToothStress> stress;  // empty without face width, material or flanks
     // Force over the mean mesh stiffness: the given one, or that of ISO 6336-1.
     double deflection_m = 0.0;
+    bool stiffness_of_iso = false;
     double error_m = 0.0;  // of both gears' teeth, upper estimate
 };
 

@@ -95,12 +95,14 @@ inline std::string measuring_for(int seconds) {
     return " --seconds " + std::to_string(seconds);
 }
 
-// Runs the program. `describe` measures for 10 s of each thread by default, here for one.
+// Runs the program. `describe` measures for 10 s of each thread by default, here for one, and
+// prints everything.
 inline Outcome program(const std::string& arguments) {
-    const bool measures = arguments.starts_with("describe ") &&
-                          arguments.find("--seconds") == std::string::npos &&
-                          arguments.find("--keys") == std::string::npos;
-    return shell(std::string(GEARPOD_PROGRAM) + " " + arguments + (measures ? " --seconds 1" : ""));
+    const bool describes =
+        arguments.starts_with("describe ") && arguments.find("--keys") == std::string::npos;
+    const bool measures = describes && arguments.find("--seconds") == std::string::npos;
+    return shell(std::string(GEARPOD_PROGRAM) + " " + arguments + (describes ? " --full" : "") +
+                 (measures ? " --seconds 1" : ""));
 }
 
 inline void check_mentions(const Outcome& outcome, const std::vector<std::string>& words) {

@@ -54,10 +54,7 @@ std::string change_text(const MeasuredEffect& effect, const SolverFacts& facts, 
         text += fmt::format("; {} {} by {}", effect.in_study ? "changes" : "would change", feature,
                             percent(change));
     } else {
-        text +=
-            fmt::format("; {} no feature by more than {:g} % (most: {} by {}){}",
-                        effect.in_study ? "changes" : "would change", 100.0 * tolerance, feature,
-                        percent(change), effect.in_study ? ", so the study does not need it" : "");
+        text += fmt::format(", not needed: {} by {}", feature, percent(change));
     }
     return text + fmt::format("; time x {:.2g}", effect.time_ratio);
 }
@@ -198,7 +195,8 @@ std::string leader_text(const RankForecast& forecast) {
 }
 
 void print_ranks(const RankForecast& forecast, int threads, int ranks) {
-    print_heading(fmt::format("forecast for {} MPI ranks", ranks));
+    print_heading("forecast for MPI ranks");
+    print_entry("ranks", std::to_string(ranks));
     print_entry("threads", fmt::format("{} per rank, as here; {:.0f} have a batch of {} gearboxes "
                                        "to compute",
                                        threads, forecast.busy_threads, kBatchRows));
@@ -227,18 +225,19 @@ void print_effect_changes(const Planner& planner, const signals::SpanLayout& spa
     const Planner brief = planner.with_short_records(span, mesh_frequency_Hz);
     bool begun = false;
     const EffectMeasurement all = measure_effects(
-        brief,
-        {.seconds = seconds, .measured = [&](const MeasuredEffect& effect) {
-             if (!begun) {
-                 print_heading("what the effects change");
-                 print_entry(
-                     "measured on",
-                     fmt::format("{} gearboxes to test, records of {}", lockstep::kPilotLanes,
-                                 record_length_text(brief.tile(brief.facts().numerics).record)));
-                 begun = true;
-             }
-             print_entry(effect.effect, change_text(effect, facts, tolerance));
-         }});
+        brief, {.seconds = seconds, .measured = [&](const MeasuredEffect& effect) {
+                    if (!begun) {
+                        print_heading("what the effects change");
+                        print_paragraph(fmt::format(
+                            "measured on {} gearboxes to test, records of {}; not needed: no "
+                            "feature changes by more than {:g} %",
+                            lockstep::kPilotLanes,
+                            record_length_text(brief.tile(brief.facts().numerics).record),
+                            100.0 * tolerance));
+                        begun = true;
+                    }
+                    print_entry(effect.effect, change_text(effect, facts, tolerance));
+                }});
     if (!all.omitted.empty()) {
         print_entry(
             "not measured",
@@ -515,7 +514,7 @@ void print_step_forecast(const TilePlan& tile, const EnsemblePlan& ensemble,
                     "more. Raise --seconds to compute some gearboxes instead"));
     print_entry("threads", std::to_string(threads));
     if (tile.solve->settings.quasi_static) {
-        print_entry("gearboxes", "not forecast: a quasi-static study integrates nothing");
+        print_entry("estimated time", "not forecast: a quasi-static study integrates nothing");
     } else {
         const auto lanes = static_cast<double>(ensemble.lanes);
         const double tiles = std::ceil(static_cast<double>(plan.threshold_gearboxes()) / lanes) +

@@ -1,9 +1,12 @@
 #include "mc/report/description/terminal_text.hpp"
 
-#include <fmt/core.h>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
+#include <algorithm>
 #include <cstddef>
+#include <optional>
+#include <utility>
 #include <vector>
 
 #include "mc/files/input/terminal_text.hpp"
@@ -73,22 +76,68 @@ std::string wrapped_line(std::string_view line) {
     return text;
 }
 
+// The first screen: without headings. Without it, everything is printed.
+struct Screen {
+    std::set<std::string> shown;
+    std::string heading;
+    bool begins = false;             // the next entry is the first of its heading
+    std::ptrdiff_t lines_left = 35;  // of 40, without the title and the last ones
+};
+std::optional<Screen> screen;
+
+// Prints the lines of an entry, if the screen shows it and has room.
+void print_under_heading(const std::string& name, const std::string& lines) {
+    if (screen) {
+        const bool shown = screen->shown.contains(screen->heading + ": " + name) ||
+                           (!name.empty() && screen->shown.contains(screen->heading + ": *"));
+        const auto count = std::ranges::count(lines, '\n') + (screen->begins ? 1 : 0);
+        if (!shown || count > screen->lines_left) {
+            return;
+        }
+        screen->lines_left -= count;
+        fmt::print("{}", std::exchange(screen->begins, false) ? "\n" : "");
+    }
+    fmt::print("{}", lines);
+}
+
 }  // namespace
 
+void print_first_screen(std::set<std::string> shown) {
+    screen.emplace().shown = std::move(shown);
+}
+
 void print_heading(const std::string& text) {
-    fmt::print("\n{}\n", text);
+    if (screen) {
+        screen->heading = text;
+        screen->begins = true;
+    } else {
+        fmt::print("\n{}\n", text);
+    }
 }
 
 void print_entry(const std::string& name, const std::string& value) {
-    fmt::print("  {:<25} {}\n", name, wrapped_text(value, kValueColumn));
+    print_under_heading(name,
+                        fmt::format("  {:<25} {}\n", name, wrapped_text(value, kValueColumn)));
 }
 
 void print_paragraph(const std::string& text) {
-    fmt::print("  {}\n", wrapped_text(text, kTextColumn));
+    print_under_heading("", fmt::format("  {}\n", wrapped_text(text, kTextColumn)));
 }
 
 void print_section(const DescriptionSection& section) {
     print_heading(section.heading);
+    if (screen && screen->shown.contains(section.heading + ": names")) {
+        std::set<std::string> names;
+        for (const auto& [name, text] : section.entries) {
+            names.insert(name);
+        }
+        names.erase("");
+        print_under_heading(
+            "names", fmt::format("  {}\n", wrapped_text(fmt::format("{}: {}", section.heading,
+                                                                    fmt::join(names, ", ")),
+                                                        kTextColumn + 2)));
+        return;
+    }
     for (const auto& [name, text] : section.entries) {
         name.empty() ? print_paragraph(text) : print_entry(name, text);
     }

@@ -1,12 +1,18 @@
 // Headings, entries and paragraphs of the text printed by `describe`.
 #pragma once
 
+#include <set>
 #include <string>
 #include <string_view>
 
 #include "mc/plan/description.hpp"
 
 namespace gearpod::mc {
+
+// Prints only these from now on, without headings, and no more than a screen holds:
+// "heading: name" is an entry, "heading: " a paragraph, "heading: *" all entries, and
+// "heading: names" their names as one list.
+void print_first_screen(std::set<std::string> shown);
 
 void print_heading(const std::string& text);
 

@@ -73,10 +73,10 @@ TEST_CASE("Ranks share a machine's processors, but not the OMP_NUM_THREADS of ea
 
 TEST_CASE("A forecast uses the run's number of threads") {
     for (const int threads : {1, 3}) {
-        const auto forecast =
-            shell(with("OMP_NUM_THREADS=" + std::to_string(threads)) + kProgram + "describe " +
-                  study("planet-crack-ideal.toml") + " --set operation.carrier_speed_rpm=60" +
-                  " --set sensor.sampling_Hz=20000 --set sensor.encoder_sampling_Hz=20000");
+        const auto forecast = shell(
+            with("OMP_NUM_THREADS=" + std::to_string(threads)) + kProgram + "describe " +
+            study("planet-crack-ideal.toml") + " --full --set operation.carrier_speed_rpm=60" +
+            " --set sensor.sampling_Hz=20000 --set sensor.encoder_sampling_Hz=20000");
         INFO(forecast.output);
         const std::string entry = "\n  threads ";
         const auto at = forecast.output.find(entry);

@@ -194,8 +194,9 @@ TEST_CASE("A study's description ends with a forecast and writes nothing") {
     const test::Folder folder;
     for (const char* name : {"published/tian-fig-4-6.toml", "published/park-fig-11.toml",
                              "published/liang-fig-5-8.toml"}) {
-        const test::Outcome described = test::require_success(test::shell(
-            "cd " + folder.path() + " && " GEARPOD_PROGRAM " describe " + test::study(name)));
+        const test::Outcome described = test::require_success(
+            test::shell("cd " + folder.path() + " && " GEARPOD_PROGRAM " describe " +
+                        test::study(name) + " --full"));
         for (const char* entry : {"based on", "set-up", "gearboxes", "detection and results",
                                   "estimated time", "estimated memory"}) {
             CHECK(described.mentions(std::string("\n  ") + entry));

@@ -78,4 +78,23 @@ TEST_CASE("describe shows sizes of the fault, and what rigid bodies and lasting 
     CHECK(!elastic.mentions("rigid gear bodies"));
 }
 
+TEST_CASE("Without --full, describe prints one screen that ends with the forecast") {
+    for (const char* name : {"planet-crack.toml", "planet-crack-ideal.toml", "planet-life.toml",
+                             "wind-turbine-train.toml", "published/tian-fig-4-9.toml"}) {
+        INFO(name);
+        const Outcome described = require_success(
+            shell("cd " GEARPOD_SOURCE_DIR " && " GEARPOD_PROGRAM " describe studies/" +
+                  std::string(name) + measuring_for(1)));
+        std::istringstream lines(described.output);
+        std::size_t count = 0;
+        for (std::string line; std::getline(lines, line); ++count) {
+            CHECK(line.size() <= 80);
+        }
+        CHECK(count <= 40);
+        check_mentions(described, {"\n  teeth ", "\n  effects simulated: ", " --full\n"});
+        CHECK((described.mentions("\n  estimated time ") ||
+               described.mentions("\n  time integration ")));
+    }
+}
+
 }  // namespace gearpod::test_describe_gearbox
