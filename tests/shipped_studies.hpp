@@ -1,4 +1,4 @@
-// Names of the shipped studies below studies/.
+// Names of the shipped studies below studies/, and lists of overrides.
 #pragma once
 
 #include <algorithm>
@@ -23,6 +23,22 @@ inline std::vector<std::string> shipped_studies() {
     }
     std::sort(names.begin(), names.end());
     return names;
+}
+
+// Both lists; of two overrides of one key the later one takes precedence.
+inline std::vector<std::string> joined(std::vector<std::string> first,
+                                       const std::vector<std::string>& second) {
+    first.insert(first.end(), second.begin(), second.end());
+    return first;
+}
+
+// The overrides as options of the program.
+inline std::string set_options(const std::vector<std::string>& overrides) {
+    std::string text;
+    for (const std::string& one : overrides) {
+        text += " --set '" + one + "'";
+    }
+    return text;
 }
 
 }  // namespace gearpod::test

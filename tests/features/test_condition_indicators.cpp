@@ -1,10 +1,12 @@
 // Checks the condition indicators against closed forms.
+#include "features/feature.hpp"
 #include "features/healthy_comparison.hpp"
 #include "features/modulation_indicators.hpp"
 #include "features/residual_indicators.hpp"
 #include "features/statistics/signal_statistics.hpp"
 #include "features/tooth_windows.hpp"
 #include "features/vibration_statistics.hpp"
+#include "signals/spectra/order_spectrum.hpp"
 #include "tests/test.hpp"
 
 namespace gearpod::features::test_condition_indicators {
@@ -122,6 +124,97 @@ TEST_CASE("Statistics of tooth windows compare the largest value with the median
     CHECK(window_crest(ToothMoments<gears::Member::planet>{even, odd, even}) == 2.5);
     CHECK(window_m8a(ToothMoments<gears::Member::sun>{odd, odd, even}) == 1.0);
     CHECK(frms(FilteredSensor{0.25}) == 0.25);
+}
+
+ToothRms<gears::Member::planet> teeth(const std::vector<double>& rms) {
+    return {rms};
+}
+
+TEST_CASE("The median is the middle value, or the mean of the middle two") {
+    CHECK(median({3.0, 1.0, 2.0}) == 2.0);
+    CHECK(median({4.0, 1.0, 3.0, 2.0}) == 2.5);
+    CHECK(median({7.0}) == 7.0);
+    CHECK(std::isnan(median({})));
+}
+
+TEST_CASE("The window ratio of Liang's tooth RMS values of Fig. 5.8 is 76/39") {
+    std::vector<double> rms(31, 39.0);
+    rms[8] = 76.0;
+    CHECK(window_ratio(teeth(rms)) == Approx(76.0 / 39.0));
+    CHECK(window_ratio(teeth(std::vector<double>(31, 39.0))) == 1.0);
+}
+
+TEST_CASE("The window score compares the worst tooth with the spread of the others") {
+    // The others are 1..5: median 3, absolute deviations 2 1 0 1 2, MAD 1.
+    CHECK(window_z(teeth({1.0, 2.0, 10.0, 3.0, 4.0, 5.0})) == Approx(7.0 / 1.4826));
+    // The worst tooth does not enter the spread, however large it is.
+    CHECK(window_z(teeth({1.0, 2.0, 1e6, 3.0, 4.0, 5.0})) == Approx((1e6 - 3.0) / 1.4826));
+}
+
+TEST_CASE("The window score of normal teeth is in standard deviations") {
+    std::mt19937_64 engine(12);
+    std::normal_distribution<double> normal(100.0, 2.0);
+    std::vector<double> rms(100000);
+    for (double& value : rms) {
+        value = normal(engine);
+    }
+    rms[77] = 120.0;
+    CHECK(window_z(teeth(rms)) == Approx(10.0).epsilon(0.02));
+}
+
+TEST_CASE("Teeth equal to the last bit give a finite score") {
+    CHECK(window_z(teeth(std::vector<double>(31, 39.0))) == 0.0);
+    std::vector<double> rms(31, 39.0);
+    rms[3] = 39.0 * (1.0 + 1e-15);
+    CHECK(window_z(teeth(rms)) < 1e-8);
+    rms[3] = 39.0 * 1.5;
+    CHECK(window_z(teeth(rms)) == Approx(0.5e6 / 1.4826));
+    CHECK(std::isnan(window_z(teeth({}))));
+    CHECK(std::isnan(window_ratio(teeth({}))));
+}
+
+TEST_CASE("The sensor's rms is the root of its mean square") {
+    CHECK(sensor_rms({6.25}) == 2.5);
+}
+
+// Checks FM0 of known mesh lines.
+
+constexpr int kTeeth = 31, kPerMesh = 16, kPoints = kTeeth * kPerMesh;
+
+// Averaged turn x(angle), angle from 0 to 2 pi, with the parts that features use.
+struct Turn {
+    template <class Function>
+    explicit Turn(const Function& x) {
+        for (int i = 0; i < kPoints; ++i) {
+            samples.push_back(x(2.0 * std::numbers::pi * i / kPoints));
+        }
+        parts.load(samples);
+        sensor.turn = samples;
+        sensor.amplitude = parts.amplitude();
+        sensor.mesh_order = kTeeth;
+    }
+    std::vector<double> samples;
+    signals::MeshSeparation parts{kPoints, kTeeth};
+    SensorTurn sensor;
+};
+
+TEST_CASE("FM0 of one mesh line is 2, and a shock of 3 amplitudes at its peak adds 3") {
+    const auto mesh = [](double t) { return 0.4 * std::cos(kTeeth * t); };
+    CHECK(fm0(Turn(mesh).sensor) == Approx(2.0));
+    // The shock raises every mesh line by up to 2/n of itself.
+    const Turn shock([&](double t) { return mesh(t) + (t == 0.0 ? 1.2 : 0.0); });
+    const double lines = 0.4 + 7.0 * 2.0 / kPoints * 1.2;
+    CHECK(fm0(shock.sensor) == Approx(2.0 / lines));
+}
+
+TEST_CASE("Signals without mesh lines have no FM0") {
+    const Turn other([](double t) { return 7.0 + std::cos(5.0 * t); });
+    const Turn zero([](double) { return 0.0; });
+    for (const SensorTurn* turn : {&other.sensor, &zero.sensor}) {
+        CHECK(std::isnan(fm0(*turn)));
+    }
+    CHECK(find_feature("fm0")->from_sensor);
+    CHECK(!find_feature("fm0")->basic());
 }
 
 }  // namespace gearpod::features::test_condition_indicators

@@ -1,4 +1,7 @@
+#include "features/feature.hpp"
+#include "features/speed_features.hpp"
 #include "features/te_features.hpp"
+#include "signals/spectra/order_spectrum.hpp"
 #include "tests/test.hpp"
 
 namespace gearpod::features::test_te_features {
@@ -72,6 +75,95 @@ TEST_CASE("Features of an exactly constant signal have no value") {
     CHECK(std::isnan(te_fc(te_input(zero, none))));
     CHECK(std::isnan(te_fm0(te_input(zero, none))));
     CHECK(te_rms(te_input(zero)) == 0.0);
+}
+
+// Checks features of the speed error against closed forms of sines and modulated sines.
+
+constexpr int kTeeth = 31, kPerMesh = 8, kPoints = kTeeth * kPerMesh;
+
+// Averaged transmission error: te(angle) over a turn.
+struct Turn {
+    template <class Function>
+    explicit Turn(const Function& te) : amplitude(kPoints / 2 + 1) {
+        for (int i = 0; i < kPoints; ++i) {
+            turn.push_back(1e-5 * te(2.0 * std::numbers::pi * i / kPoints));
+        }
+        signals::OrderSpectrum spectrum(kPoints);
+        spectrum.load(turn);
+        spectrum.amplitudes(0.0, amplitude);
+    }
+    TeParts te() const {
+        TeParts parts;
+        parts.turn = turn;
+        parts.amplitude = amplitude;
+        parts.mesh_order = kTeeth;
+        return parts;
+    }
+    std::vector<double> turn, amplitude;
+};
+
+const Turn kConstant([](double) { return 0.0; });
+
+TEST_CASE("The speed error of one sine has the kurtosis 3/2, that of two equal ones 9/4") {
+    const Turn one([](double t) { return std::sin(31.0 * t); });
+    const Turn two([](double t) { return std::sin(31.0 * t) / 31.0 + std::cos(7.0 * t) / 7.0; });
+    CHECK(te_speed_kurtosis(one.te()) == Approx(1.5));
+    CHECK(te_speed_kurtosis(two.te()) == Approx(2.25));
+    CHECK(std::isnan(te_speed_kurtosis(kConstant.te())));
+}
+
+TEST_CASE("Lines of the fault order count with their speed, relative to the strongest mesh line") {
+    // Speeds: 1 at the orders 1, 2 and 5, 7 at order 6, 10 at 31 and 20 at 62.
+    const Turn turn([](double t) {
+        return std::sin(t) + std::cos(2.0 * t) / 2.0 + std::sin(5.0 * t) / 5.0 +
+               7.0 / 6.0 * std::cos(6.0 * t) + 10.0 / 31.0 * std::sin(31.0 * t) +
+               20.0 / 62.0 * std::cos(62.0 * t);
+    });
+    CHECK(te_speed_fault_order(turn.te()) == Approx(3.0 / 20.0));
+    CHECK(std::isnan(te_speed_fault_order(kConstant.te())));
+}
+
+TEST_CASE("A train of five teeth has the lines below half its mesh order only") {
+    TeParts te = kConstant.te();
+    const std::vector<double> amplitude{0.0, 1.0, 1.0, 100.0, 100.0, 1.0, 0.0,
+                                        0.0, 0.0, 0.0, 0.0,   0.0,   0.0};
+    te.amplitude = amplitude;
+    te.turn = te.turn.first(24);
+    te.mesh_order = 5;
+    CHECK(te_speed_fault_order(te) == Approx(3.0 / 5.0));
+}
+
+TEST_CASE("Windows of the speed error follow the amplitude modulation of the mesh") {
+    // The RMS over a mesh period is 1 + m cos t: largest 1 + m, median 1. The speed of the
+    // modulation itself and the length of the period add terms of the size of (m / Z)^2.
+    for (const double m : {0.0, 0.2, 0.8}) {
+        const Turn turn([m](double t) { return (1.0 + m * std::cos(t)) * std::sin(31.0 * t); });
+        CHECK(te_speed_window_ratio(turn.te()) == Approx(1.0 + m).epsilon(3e-3));
+    }
+    CHECK(std::isnan(te_speed_window_ratio(kConstant.te())));
+}
+
+TEST_CASE("A step of the speed in one mesh period raises its window") {
+    // Mesh line of speed 1, RMS 1/2^(1/2), and two pulses of +-8 a quarter of a mesh period wide.
+    const Turn turn([](double t) {
+        const double at = 31.0 * t / (2.0 * std::numbers::pi) - 12.0;
+        const double pulse = std::exp(-0.5 * std::pow((at - 0.5) / 0.2, 2));
+        return std::sin(31.0 * t) / 31.0 + 8.0 / 31.0 * pulse;
+    });
+    // The derivative of the pulse alone has an RMS over its mesh period of
+    // 8 / (2 pi) (pi^(1/2) / (2 s))^(1/2), s = 0.2; the mesh line is not correlated with it.
+    const double pulse_power =
+        std::pow(8.0 / (2.0 * std::numbers::pi), 2) * std::sqrt(std::numbers::pi) / (2.0 * 0.2);
+    CHECK(te_speed_window_ratio(turn.te()) ==
+          Approx(std::sqrt((pulse_power + 0.5) / 0.5)).epsilon(0.1));
+}
+
+TEST_CASE("Features of the speed need no sensor and are not default features") {
+    for (const char* name :
+         {"te_speed_kurtosis", "te_speed_fault_order", "te_speed_window_ratio"}) {
+        CHECK(!find_feature(name)->from_sensor);
+        CHECK(!find_feature(name)->basic());
+    }
 }
 
 }  // namespace gearpod::features::test_te_features

@@ -55,10 +55,9 @@ void check_same(const machine::AlignedVector& a, const machine::AlignedVector& b
 TEST_CASE(
     "From a tenth of a millimetre away, Liang's train converges to the tile's periodic orbit") {
     const auto& train = test::LiangTrain::instance();
-    IntegrationPlan plan = train.plan(24, 1200, dynamics::Motion::translational_torsional);
-    plan.integrator = GENERATE(Integrator::rk4, Integrator::central_difference);
-    plan.grid.stage_nodes = stage_nodes(plan.integrator);
-    plan.nodes = tabulate(train.pairs, plan.grid, dynamics::mesh_damping(plan.layout));
+    const IntegrationPlan plan =
+        train.plan(24, 1200, dynamics::Motion::translational_torsional,
+                   GENERATE(Integrator::rk4, Integrator::central_difference));
     const std::vector<dynamics::GearboxInputs> inputs{train.inputs(10.0)};
     const PeriodicSolution solution{.with_motion = true};
     const TileResult tile = run_tile<1>(plan, inputs, train.no_fault(1), solution);

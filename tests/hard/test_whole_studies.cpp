@@ -16,27 +16,18 @@ using Overrides = std::vector<std::string>;
 
 // Liang's train at high speed, so that a mesh period is short, and few gearboxes.
 Overrides fast_train(const Overrides& more = {}) {
-    Overrides all{"operation.carrier_speed_rpm=60",   "sensor.sampling_Hz=20000",
-                  "sensor.encoder_sampling_Hz=20000", "ensemble.instances=7",
-                  "ensemble.threshold_instances=9",   "numerics.threads=1"};
-    all.insert(all.end(), more.begin(), more.end());
-    return all;
+    return test::joined({"operation.carrier_speed_rpm=60", "sensor.sampling_Hz=20000",
+                         "sensor.encoder_sampling_Hz=20000", "ensemble.instances=7",
+                         "ensemble.threshold_instances=9", "numerics.threads=1"},
+                        more);
 }
 
 mc::Results results(const Overrides& overrides) {
     return test::run(test::shipped_study("planet-crack-ideal.toml", overrides));
 }
 
-std::string on_command_line(const Overrides& overrides) {
-    std::string text;
-    for (const std::string& one : overrides) {
-        text += " --set '" + one + "'";
-    }
-    return text;
-}
-
 Outcome run_program(const std::string& study, const Folder& folder, const Overrides& overrides) {
-    return program("run " + study + on_command_line(overrides) + " --force --out " +
+    return program("run " + study + test::set_options(overrides) + " --force --out " +
                    folder.file("r.h5"));
 }
 
@@ -155,7 +146,7 @@ TEST_CASE("A gearbox above a critical speed is reported as such") {
     CHECK(outcome.mentions("16 of 16 gearboxes failed"));
     CHECK(outcome.mentions("16 of them: each is unstable: above a critical speed"));
     const Outcome one = program("simulate " + test::study("planet-crack-ideal.toml") +
-                                on_command_line(overrides) + " --instance 12");
+                                test::set_options(overrides) + " --instance 12");
     INFO(one.output);
     CHECK(one.code == 3);
     CHECK(one.mentions("critical speed of the carrier"));

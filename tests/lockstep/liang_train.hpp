@@ -3,6 +3,9 @@
 
 #include "gears/mesh_geometry.hpp"
 #include "gears/planetary.hpp"
+#include "lockstep/integrators/facts.hpp"
+#include "lockstep/integrators/sensor_filter.hpp"
+#include "lockstep/plan/tooth_pairs.hpp"
 #include "lockstep/strategies/solution.hpp"
 #include "stiffness/additive_mesh.hpp"
 #include "stiffness/faults/tooth_crack.hpp"
@@ -26,6 +29,16 @@ inline std::vector<double> lane_of(const machine::AlignedVector& values, std::si
         result.push_back(values[i]);
     }
     return result;
+}
+
+// A state at rest at these displacements, for one lane.
+inline lockstep::TileState state_at(const lockstep::IntegrationPlan& plan,
+                                    const Eigen::VectorXd& q) {
+    lockstep::TileState state;
+    state.q.assign(q.begin(), q.end());
+    state.v.assign(state.q.size(), 0.0);
+    state.filter.assign(static_cast<std::size_t>(plan.channels() * lockstep::kFilterStates), 0.0);
+    return state;
 }
 
 struct LiangTrain {
@@ -82,6 +95,39 @@ struct LiangTrain {
         p.te_weight[u(dynamics::carrier)] = -100.0 / 19 / layout.carrier_radius_m;
         p.te_weight[u(dynamics::sun)] = 1.0 / sun.base_radius();
         return p;
+    }
+
+    // The same for another integrator.
+    lockstep::IntegrationPlan plan(int samples, int steps, dynamics::Motion motion,
+                                   lockstep::Integrator integrator, bool inertial = true) const {
+        lockstep::IntegrationPlan p = plan(samples, steps, motion, inertial);
+        p.integrator = integrator;
+        p.grid.stage_nodes = lockstep::stage_nodes(integrator);
+        p.nodes = lockstep::tabulate(pairs, p.grid, dynamics::mesh_damping(p.layout));
+        return p;
+    }
+
+    // Errors of all flanks: sun, ring and both sides of each planet. error(gear, i) gives value i
+    // of a gear, [tooth][lane]; slope(gear, i), if there are slopes, is called after its errors.
+    template <class Error, class Slope = std::nullptr_t>
+    static lockstep::ToothErrors tooth_errors(const lockstep::PairSet& pairs, std::size_t lanes,
+                                              Error error, Slope slope = nullptr) {
+        lockstep::ToothErrors errors{
+            {}, lockstep::planetary_teeth(pairs, {19, 31, 81, 4}, gears::PlanetSense::clockwise)};
+        for (const int teeth : {19, 81, 31, 31, 31, 31, 31, 31, 31, 31}) {
+            const std::size_t g = errors.gears.size(),
+                              count = static_cast<std::size_t>(teeth) * lanes;
+            lockstep::GearErrors& gear = errors.gears.emplace_back(teeth);
+            for (std::size_t i = 0; i < count; ++i) {
+                gear.error_m.push_back(error(g, i));
+            }
+            if constexpr (!std::is_null_pointer_v<Slope>) {
+                for (std::size_t i = 0; i < count; ++i) {
+                    gear.slope_m.push_back(slope(g, i));
+                }
+            }
+        }
+        return errors;
     }
 
     // Inputs for a carrier at 8.87 rpm times `speedup` and 429 N m on the sun.

@@ -1,6 +1,7 @@
 // Runs the built program as a user does, and collects its output.
 #pragma once
 
+#include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -103,6 +104,14 @@ inline Outcome program(const std::string& arguments) {
     const bool measures = describes && arguments.find("--seconds") == std::string::npos;
     return shell(std::string(GEARPOD_PROGRAM) + " " + arguments + (describes ? " --full" : "") +
                  (measures ? " --seconds 1" : ""));
+}
+
+// Processor time of all child processes that have ended.
+inline double children_s() {
+    rusage used{};
+    getrusage(RUSAGE_CHILDREN, &used);
+    return static_cast<double>(used.ru_utime.tv_sec + used.ru_stime.tv_sec) +
+           1e-6 * static_cast<double>(used.ru_utime.tv_usec + used.ru_stime.tv_usec);
 }
 
 inline void check_mentions(const Outcome& outcome, const std::vector<std::string>& words) {

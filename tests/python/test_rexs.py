@@ -62,9 +62,9 @@ class Rexs(unittest.TestCase):
             study["gearbox"] |= {f"{member}_{key}": value for key, value in study["gearbox"][member].items()}
         return done.stdout, study, done.stderr
 
-    def refused(self, model, *options, expect=()):
+    def refused(self, model, *options, expect=(), **environment):
         """Lines of the refusal, which must hold these texts."""
-        done = run("new", "--rexs", self.file(model), *options)
+        done = run("new", "--rexs", self.file(model), *options, **environment)
         self.assertEqual((done.returncode, done.stdout), (2, ""), done.stderr)
         for text in [expect] if isinstance(expect, str) else expect:
             self.assertIn(text, done.stderr)
@@ -147,18 +147,16 @@ class Rexs(unittest.TestCase):
         for pair in (31, 32, 33, 41, 42, 43):
             model.set(pair, "center_distance", "mm", 48.04)
         self.refused(model, expect="cylindrical_stage 41: center_distance: is 48.04 mm, but 28 and 76 teeth")
+        for component, key, unit, value, words in (
+                (52, "rotational_speed", "1 / min", 400, "400 rpm contradict 1500 rpm of shaft 50"),  # 1500 * 20 / 96 = 312.5
+                (1, "number_of_planets", "none", 4, "is 4, but the model has 3 planet gears"),
+                (51, "rotational_speed", "1 / min", 12, "the ring is not the fixed member: its shaft 51 turns at 12 rpm")):
+            model = planetary()
+            model.set(component, key, unit, value)
+            self.refused(model, expect=words)
         model = planetary()
-        model.set(52, "rotational_speed", "1 / min", 400)  # 1500 * 20 / 96 = 312.5 rpm
-        self.refused(model, expect="400 rpm contradict 1500 rpm of shaft 50")
         model.set(52, "rotational_speed", "1 / min", -312.5)
         self.made(model)
-        model = planetary()
-        model.set(1, "number_of_planets", "none", 4)
-        self.refused(model, expect="is 4, but the model has 3 planet gears")
-        model = planetary()
-        model.set(51, "rotational_speed", "1 / min", 12)
-        self.refused(model, expect="the ring is not the fixed member: its shaft 51 turns at 12 rpm")
-        model = planetary()
         model.set(10, SHIFTS, "none", 0.4)
         model.set(10, "addendum_modification", "mm", 0.5)
         self.refused(model, expect="0.5 mm are 0.25 modules, but the coefficient is 0.4")
@@ -326,15 +324,12 @@ class Rexs(unittest.TestCase):
         self.assertIn("--sun", run("new", "planetary", *numbers[2:]).stderr)
 
     def test_a_missing_interpreter_or_library_is_named(self):
-        done = run("new", "--rexs", self.file(planetary()), GEARPOD_PYTHON="/nowhere/python3")
-        self.assertEqual(done.returncode, 2)
-        self.assertIn("install python3, or name another Python 3 in GEARPOD_PYTHON", done.stderr)
+        self.refused(planetary(), GEARPOD_PYTHON="/nowhere/python3",
+                     expect="install python3, or name another Python 3 in GEARPOD_PYTHON")
         python = self.folder / "python"
         python.write_text(f"#!/bin/sh\nexec {sys.executable} -S \"$@\"\n")  # without Debian's packages
         python.chmod(0o755)
-        done = run("new", "--rexs", self.file(planetary()), GEARPOD_PYTHON=python)
-        self.assertEqual(done.returncode, 2)
-        self.assertIn("No module named 'lxml'; install python3-lxml", done.stderr)
+        self.refused(planetary(), GEARPOD_PYTHON=python, expect="No module named 'lxml'; install python3-lxml")
 
 
 if __name__ == "__main__":

@@ -26,10 +26,6 @@ def case_page(name):
     return build_page.page_html(case(name))
 
 
-def page(data):
-    return PageHtml(build_page.page_html(data))
-
-
 def page_text(name):
     """All words of a case's page."""
     return PageHtml(case_page(name)).text()
@@ -234,15 +230,21 @@ class Program(unittest.TestCase):
     def html(self):
         return os.path.join(self.folder.name, "r.html")
 
+    def page(self, *arguments):
+        """Text of the page that a command writes, and its standard output."""
+        done = self.gearpod(*arguments, "--html", self.html())
+        self.assertEqual(done.returncode, 0, done.stderr)
+        text = pathlib.Path(self.html()).read_text()
+        os.remove(self.html())
+        self.assertNotIn("nan", re.findall(r"<td>(.*?)</td>", text))
+        return text, done.stdout
+
     def test_page_and_json_agree(self):
-        both = self.gearpod("report", self.results, "--html", self.html(), "--json", "-")
-        self.assertEqual(both.returncode, 0, both.stderr)
-        written = pathlib.Path(self.html()).read_text()
-        self.assertEqual(written, build_page.page_html(json.loads(both.stdout)))
+        written, stored = self.page("report", self.results, "--json", "-")
+        self.assertEqual(written, build_page.page_html(json.loads(stored)))
         words_ = PageHtml(written).text()
         self.assertIn("The gearbox is quasi-static", words_)
         self.assertIn("have the same bits", words_)
-        os.remove(self.html())
 
     def test_missing_tools_are_named_and_no_files_are_left(self):
         with tempfile.TemporaryDirectory() as fake:
@@ -290,15 +292,10 @@ class Program(unittest.TestCase):
                  ("90 % of flaws of 2.593", "hits and misses", "likelihood ratio, chi-squared 3.841")),
                 ("inspections_responses.csv", ("--response", "A", "--threshold", "6", "--left", "3"),
                  ("Responses", "threshold", "Wald, 1.645 standard errors"))):
-            made = self.gearpod("pod", str(tables / table), *options, "--convention", "handbook",
-                                "--html", self.html())
-            self.assertEqual(made.returncode, 0, made.stderr)
-            html = pathlib.Path(self.html()).read_text()
+            html, _ = self.page("pod", str(tables / table), *options, "--convention", "handbook")
             shown_text = PageHtml(html).text().replace("\u00a0", " ")
             for words_ in expected:
                 self.assertIn(words_, shown_text)
-            self.assertNotIn("nan", re.findall(r"<td>(.*?)</td>", html))
-            os.remove(self.html())
 
     def test_comparisons_have_a_page(self):
         def run(name, *options):
@@ -310,17 +307,13 @@ class Program(unittest.TestCase):
 
         a = run("a.h5")
         files = a, run("b.h5", "--set", "sensor.noise_m_s2=3"), run("c.h5", "--seed", "8")
-        both = self.gearpod("compare", *files, "--html", self.html(), "--json", "-")
-        self.assertEqual(both.returncode, 0, both.stderr)
-        html = pathlib.Path(self.html()).read_text()
-        self.assertEqual(html, build_page.page_html(json.loads(both.stdout)))
+        html, stored = self.page("compare", *files, "--json", "-")
+        self.assertEqual(html, build_page.page_html(json.loads(stored)))
         shown_text = PageHtml(html).text()
         for words_ in ("B against A", "On 350 test gearboxes that are the same in both",
                        "Different gearboxes (seed 2 and 8)", "Difference of a90 at noise",
                        "minus A"):
             self.assertIn(words_, shown_text)
-        self.assertNotIn("nan", re.findall(r"<td>(.*?)</td>", html))
-        os.remove(self.html())
         shown = self.gearpod("compare", a, a).stdout
         self.assertIn("The same in every gearbox: te_rms", shown)
         self.assertLessEqual(max(map(len, shown.splitlines())), 120)
@@ -334,11 +327,9 @@ class Program(unittest.TestCase):
                 "features.use": '["window_ratio","change_window_ratio"]',
                 "ensemble.instances": 8, "ensemble.threshold_instances": 8}
         options = [text for key, value in life.items() for text in ("--set", f"{key}={value}")]
-        outcome = self.gearpod("lives", SOURCES / "studies" / "planet-crack-ideal.toml", "--quiet",
-                            *options, "--out", results, "--html", self.html(), "--json", "-")
-        self.assertEqual(outcome.returncode, 0, outcome.stderr)
-        html = pathlib.Path(self.html()).read_text()
-        data = json.loads(outcome.stdout)
+        html, stored = self.page("lives", SOURCES / "studies" / "planet-crack-ideal.toml", "--quiet",
+                                 *options, "--out", results, "--json", "-")
+        data = json.loads(stored)
         self.assertEqual(html, build_page.page_html(data))
         parsed = PageHtml(html)
         self.assertEqual(parsed.problems, [])
@@ -352,12 +343,7 @@ class Program(unittest.TestCase):
         for words_ in (findings["holds"], words.typeset(findings["headline"]),
                        "Depth at detection against", "each of the 31 teeth with all 81 mating teeth"):
             self.assertIn(words_, parsed.text())
-        self.assertNotIn("nan", re.findall(r"<td>(.*?)</td>", html))
-        os.remove(self.html())
-        again = self.gearpod("report", results, "--html", self.html(), "--json", "-")
-        self.assertEqual(again.stdout, outcome.stdout)
-        self.assertEqual(pathlib.Path(self.html()).read_text(), html)
-        os.remove(self.html())
+        self.assertEqual(self.page("report", results, "--json", "-"), (html, stored))
 
     def test_a_tooth_that_breaks_is_drawn_as_deep_as_it_was(self):
         lives = campaign_data.CampaignData({"findings": [], "lives": [], "first_depth_m": 1e-3, "last_depth_m": 4e-3,

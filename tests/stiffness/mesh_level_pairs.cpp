@@ -172,6 +172,15 @@ std::vector<LevelPair> all_pairs() {
     return pairs;
 }
 
+const LevelPair& pair_of_case(const std::string& name) {
+    static const std::vector<LevelPair> pairs = all_pairs();
+    const auto pair = std::ranges::find_if(pairs, [&](const LevelPair& p) {
+        return !p.elements.empty() && name.starts_with(p.elements);
+    });
+    REQUIRE(pair != pairs.end());
+    return *pair;
+}
+
 std::unique_ptr<const MeshStiffness> model(const LevelPair& pair, FoundationModel foundation,
                                            Contact contact) {
     return std::make_unique<CoupledMesh>(

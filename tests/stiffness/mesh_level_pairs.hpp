@@ -29,6 +29,9 @@ struct LevelPair {
 // of tests/peers/fem-gear-pairs without a crack.
 std::vector<LevelPair> all_pairs();
 
+// The healthy pair of a case of tests/peers/fem-gear-pairs.
+const LevelPair& pair_of_case(const std::string& name);
+
 std::unique_ptr<const gearpod::stiffness::MeshStiffness> model(
     const LevelPair& pair, gearpod::stiffness::FoundationModel foundation,
     gearpod::stiffness::Contact contact);

@@ -8,6 +8,7 @@
 #include "stiffness/teeth/tooth_compliance.hpp"
 #include "tests/stiffness/finite_element_tables.hpp"
 #include "tests/stiffness/gear_pairs.hpp"
+#include "tests/stiffness/mesh_level_pairs.hpp"
 #include "tests/test.hpp"
 
 namespace gearpod::stiffness::test_cracked_gears {
@@ -23,29 +24,12 @@ struct Gears {
     double held_1_m, held_2_m;
 };
 
-gears::Gear shifted(int teeth, bool internal, double shift, double shortening) {
-    gears::Gear gear{teeth, internal, test_pairs::kModule, test_pairs::kPressureAngle};
-    gear.profile_shift = shift;
-    gear.tip_shortening = shortening;
-    return gear;
-}
-
-// Sun and planet of the Bell 206B, studies/bell-206b.toml.
-Gears bell(int cracked) {
-    const gears::Gear ring = shifted(99, true, 0, 0);
-    const auto set = gears::working_shifts(shifted(27, false, 0, 0), shifted(35, false, 0, 0),
-                                           &ring, {0.3, {}, {}, 0.1000125});
-    return {{shifted(27, false, set.first, set.tip_shortening),
-             shifted(35, false, set.second, set.tip_shortening), set.centre_distance_m},
-            cracked,
-            0.024,
-            0.0315};
-}
-
 // Gears by the table's name of the cracked tooth.
 Gears gears_of(const std::string& tooth) {
-    if (tooth.starts_with("bell"))
-        return bell(tooth == "bell-sun" ? 1 : 2);
+    if (tooth.starts_with("bell")) {  // studies/bell-206b.toml
+        const mesh_level::LevelPair& bell = mesh_level::pair_of_case("bell-sun");
+        return {bell.geometry, tooth == "bell-sun" ? 1 : 2, bell.held_1_m, bell.held_2_m};
+    }
     const gears::Gear planet = test_pairs::external(31);
     if (tooth == "sun" || tooth == "planet-sun")
         return {{test_pairs::external(19), planet}, tooth == "sun" ? 1 : 2, 0.013, 0.020};
@@ -294,35 +278,6 @@ TEST_CASE("a spatial crack of one depth equals the plane crack by fracture mecha
             CHECK(higher[i] > whole[i]);
         }
     }
-}
-
-TEST_CASE("loss of mesh stiffness by a crack, over the finite elements'", "[.fem]") {
-    std::puts("| tooth | profile | share | at | elements % | fracture mechanics % | ratio |");
-    for (const Row& row : finite_elements::table("cracks")) {
-        const CrackedPair pair(row.text("tooth"), profile_named(row.text("profile")));
-        const double elements = loss_of(row),
-                     loss = pair.loss(1e-3 * row.number("depth_mm"), position(row));
-        std::printf("| %s | %s | %g | %.3f of %d | %.2f | %.2f | %.3f |%s\n",
-                    row.text("tooth").c_str(), row.text("profile").c_str(), row.number("share"),
-                    position(row), row.count("pairs"), 100 * elements, 100 * loss, loss / elements,
-                    std::abs(loss - elements) > margin_of(elements) ? " off" : "");
-    }
-}
-
-TEST_CASE("loss of mesh stiffness by a spatial crack, over the solid finite elements'", "[.fem]") {
-    std::puts(
-        "| tooth | shape | share | at | solids % | even load % | program % | ratio | mean % | load "
-        "share: solids | program |");
-    for_spatial_rows([](const Row& row, const SpatialCase& one) {
-        const double elements = loss_of(row), loss = one.loss(row);
-        std::printf(
-            "| %s | %s | %g | %.3f of %d | %.2f | %.2f | %.2f | %.3f | %.2f | %.3f | %.3f |%s\n",
-            row.text("tooth").c_str(), row.text("shape").c_str(), row.number("share"),
-            position(row), row.count("pairs"), 100 * elements,
-            100 * (1 - row.number("even_cracked_N_m") / row.number("even_healthy_N_m")), 100 * loss,
-            loss / elements, 100 * one.mean_plane_loss(row), row.number("load_share"),
-            one.load_share(row), std::abs(loss - elements) > margin_of(elements) ? " off" : "");
-    });
 }
 
 TEST_CASE("largest loss of the ring mesh in planet-crack.toml by law and profile", "[.fem]") {

@@ -15,50 +15,9 @@
 namespace gearpod::stiffness::test_finite_element_gears {
 
 using finite_elements::Row;
-
-gears::Gear shifted(int teeth, bool internal, double shift, double shortening = 0) {
-    gears::Gear gear{teeth, internal, test_pairs::kModule, test_pairs::kPressureAngle};
-    gear.profile_shift = shift;
-    gear.tip_shortening = shortening;
-    return gear;
-}
-
-struct Case {
-    gears::MeshGeometry geometry;
-    Profile profile;
-    double held_1, held_2;  // m
-};
-
-// Teeth 27/35/99 of studies/bell-206b.toml, with fillets; 31/81 of
-// studies/published/liang-fig-3-16.toml.
-Case case_named(const std::string& name) {
-    if (name.starts_with("liang"))
-        return {{test_pairs::external(31), test_pairs::internal(81)},
-                Profile::root_circle,
-                0.020,
-                0.155};
-    const gears::Gear ring = shifted(99, true, 0);
-    const auto set = gears::working_shifts(shifted(27, false, 0), shifted(35, false, 0), &ring,
-                                           {0.3, {}, {}, 0.1000125});
-    const gears::Gear planet = shifted(35, false, set.second, set.tip_shortening);
-    if (name == "bell-ring")
-        return {{planet, shifted(99, true, set.ring), set.centre_distance_m},
-                Profile::fillet,
-                0.0315,
-                0.1775};
-    return {{shifted(27, false, set.first, set.tip_shortening), planet, set.centre_distance_m},
-            Profile::fillet,
-            0.024,
-            0.0315};
-}
-
-// A case's mesh by one of the program's models.
-std::unique_ptr<const MeshStiffness> model(const Case& c, FoundationModel foundation,
-                                           Contact contact = Contact::linear, double force_N = 0) {
-    return std::make_unique<CoupledMesh>(
-        c.geometry, test_pairs::kLiangSteel, c.profile,
-        CoupledMeshOptions{foundation, contact, c.held_1, c.held_2, force_N});
-}
+using mesh_level::LevelPair;
+using mesh_level::model;
+using mesh_level::pair_of_case;
 
 std::vector<Row> rows_of(const std::string& file, const std::string& name) {
     std::vector<Row> rows;
@@ -69,10 +28,6 @@ std::vector<Row> rows_of(const std::string& file, const std::string& name) {
     return rows;
 }
 
-double force_of(const std::string& name) {
-    return rows_of("cases", name).front().number("force_N");
-}
-
 // The least and the largest of a ratio.
 struct Range {
     double least = INFINITY, largest = -INFINITY;
@@ -80,16 +35,19 @@ struct Range {
         least = std::min(least, value);
         largest = std::max(largest, value);
     }
-    bool within(double low, double high) const { return least > low && largest < high; }
 };
 
+void check_within(const Range& range, double low, double high) {
+    CHECK(range.least > low);
+    CHECK(range.largest < high);
+}
+
 // The program's stiffness over that of the finite elements, where that many pairs are in contact.
-Range over_elements(const MeshStiffness& mesh, const std::string& name, int pairs,
-                    const std::string& column = "flank_N_m") {
+Range over_elements(const MeshStiffness& mesh, const std::string& name, int pairs) {
     Range range;
     for (const Row& row : rows_of("mesh", name))
         if (row.count("pairs") == pairs)
-            range.add(total_at(mesh, row.number("phase")) / row.number(column));
+            range.add(total_at(mesh, row.number("phase")) / row.number("flank_N_m"));
     return range;
 }
 
@@ -101,12 +59,12 @@ struct ToothRatios {
 };
 
 ToothRatios tooth_ratios(const std::string& name, int which) {
-    const Case c = case_named(name);
-    const Material& material = test_pairs::kLiangSteel;
+    const LevelPair& c = pair_of_case(name);
+    const Material& material = c.material;
     const ToothProfile tooth(c.geometry.gear(which), c.profile);
     const auto body =
         make_foundation(c.geometry.gear(which), material, c.profile, FoundationModel::elastic_ring,
-                        which == 1 ? c.held_1 : c.held_2);
+                        which == 1 ? c.held_1_m : c.held_2_m);
     const double contact = 0.5 / hertz_stiffness(material);
     ToothRatios ratios;
     for (const Row& row : rows_of("teeth", name)) {
@@ -132,12 +90,12 @@ struct Cracked {
 };
 
 std::vector<Cracked> cracked_rows(const std::string& name) {
-    const Case c = case_named(name);
+    const LevelPair& c = pair_of_case(name);
     const ToothCrack cracks(c.geometry, test_pairs::kLiangSteel, c.profile, 1,
                             test_pairs::kCrackAngle);
     const auto crack = cracks.at(1e-3 * rows_of("cases", name).front().number("crack_mm"));
-    const auto ring = model(c, FoundationModel::elastic_ring);
-    const auto rigid = model(c, FoundationModel::none);
+    const auto ring = model(c, FoundationModel::elastic_ring, Contact::linear);
+    const auto rigid = model(c, FoundationModel::none, Contact::linear);
     const auto cracked_ring = ring->with_fault(*crack), cracked_rigid = rigid->with_fault(*crack);
     std::map<double, double> healthy;
     for (const Row& row : rows_of("mesh", "liang-ring"))
@@ -188,13 +146,9 @@ Helical helical_named(const std::string& name) {
 }
 
 TEST_CASE("the finite elements' outlines are in contact where the program's gears are") {
-    const std::vector<mesh_level::LevelPair> levels = mesh_level::all_pairs();
     for (const Row& row : finite_elements::table("cases")) {
         const std::string& name = row.text("case");
-        const auto level = std::find_if(levels.begin(), levels.end(),
-                                        [&](const auto& pair) { return pair.elements == name; });
-        const gears::MeshGeometry mesh =
-            level != levels.end() ? level->geometry : case_named(name).geometry;
+        const gears::MeshGeometry& mesh = pair_of_case(name).geometry;
         INFO(name);
         CHECK(mesh.contact_ratio() == Approx(row.number("contact_ratio")).epsilon(1e-6));
         CHECK(1e3 * mesh.gear(1).tip_radius() == Approx(row.number("tip_1_mm")).epsilon(1e-7));
@@ -203,38 +157,38 @@ TEST_CASE("the finite elements' outlines are in contact where the program's gear
 }
 
 TEST_CASE("with elastic bodies shifted and internal pairs are as stiff as finite elements") {
-    const std::string sun = "bell-sun", ring = "bell-ring", liang = "liang-ring";
-    const auto by = [](const std::string& name) {
-        return model(case_named(name), FoundationModel::elastic_ring);
+    const auto check = [](const std::string& name, int pairs, double low, double high) {
+        INFO(name << ", pairs in contact: " << pairs);
+        const auto mesh = model(pair_of_case(name), FoundationModel::elastic_ring, Contact::linear);
+        check_within(over_elements(*mesh, name, pairs), low, high);
     };
-    CHECK(over_elements(*by(sun), sun, 2).within(1.035, 1.06));
-    CHECK(over_elements(*by(sun), sun, 1).within(1.045, 1.07));
-    CHECK(over_elements(*by(ring), ring, 2).within(0.97, 1.01));
-    CHECK(over_elements(*by(ring), ring, 1).within(0.955, 0.98));
-    CHECK(over_elements(*by(liang), liang, 2).within(0.975, 1.04));
-    CHECK(over_elements(*by(liang), liang, 1).within(0.985, 1.005));
+    check("bell-sun", 2, 1.035, 1.06);
+    check("bell-sun", 1, 1.045, 1.07);
+    check("bell-ring", 2, 0.97, 1.01);
+    check("bell-ring", 1, 0.955, 0.98);
+    check("liang-ring", 2, 0.975, 1.04);
+    check("liang-ring", 1, 0.985, 1.005);
 }
 
 TEST_CASE("other models of the bodies and the contact differ from finite elements by their parts") {
     for (const std::string name : {"bell-sun", "bell-ring", "liang-ring"}) {
         INFO(name);
-        const Case c = case_named(name);
+        const LevelPair& c = pair_of_case(name);
         // Rigid bodies: at least twice as stiff.
-        const auto rigid = model(c, FoundationModel::none);
-        CHECK(over_elements(*rigid, name, 2).within(2.1, 2.7));
-        CHECK(over_elements(*rigid, name, 1).within(2.0, 2.45));
+        const auto rigid = model(c, FoundationModel::none, Contact::linear);
+        check_within(over_elements(*rigid, name, 2), 2.1, 2.7);
+        check_within(over_elements(*rigid, name, 1), 2.0, 2.45);
         // Right contact on teeth and bodies that are too soft.
-        const auto loaded =
-            model(c, FoundationModel::elastic_ring, Contact::load_dependent, force_of(name));
-        CHECK(over_elements(*loaded, name, 2).within(0.81, 0.90));
-        CHECK(over_elements(*loaded, name, 1).within(0.78, 0.88));
+        const auto loaded = model(c, FoundationModel::elastic_ring, Contact::load_dependent);
+        check_within(over_elements(*loaded, name, 2), 0.81, 0.90);
+        check_within(over_elements(*loaded, name, 1), 0.78, 0.88);
     }
     // Sainsot's model has no coupling and no internal gears.
-    const auto sun = model(case_named("bell-sun"), FoundationModel::sainsot);
-    CHECK(over_elements(*sun, "bell-sun", 2).within(1.19, 1.22));
-    CHECK(over_elements(*sun, "bell-sun", 1).within(1.03, 1.06));
-    const auto ring = model(case_named("bell-ring"), FoundationModel::sainsot);
-    CHECK(over_elements(*ring, "bell-ring", 1).within(1.27, 1.34));
+    const auto sun = model(pair_of_case("bell-sun"), FoundationModel::sainsot, Contact::linear);
+    check_within(over_elements(*sun, "bell-sun", 2), 1.19, 1.22);
+    check_within(over_elements(*sun, "bell-sun", 1), 1.03, 1.06);
+    const auto ring = model(pair_of_case("bell-ring"), FoundationModel::sainsot, Contact::linear);
+    check_within(over_elements(*ring, "bell-ring", 1), 1.27, 1.34);
 }
 
 TEST_CASE("two errors cancel for each tooth: soft teeth and bodies, stiff contacts") {
@@ -242,9 +196,9 @@ TEST_CASE("two errors cancel for each tooth: soft teeth and bodies, stiff contac
         for (const int which : {1, 2}) {
             INFO(name << ", gear " << which);
             const ToothRatios ratios = tooth_ratios(name, which);
-            CHECK(ratios.tooth_and_body.within(1.15, 1.50));
-            CHECK(ratios.contact.within(0.16, 0.38));
-            CHECK(ratios.whole.within(0.72, 1.20));
+            check_within(ratios.tooth_and_body, 1.15, 1.50);
+            check_within(ratios.contact, 0.16, 0.38);
+            check_within(ratios.whole, 0.72, 1.20);
         }
 }
 
@@ -269,7 +223,7 @@ TEST_CASE("the drop of the ring-planet mesh by a root circle below the base circ
     // and 13.4 % (test_additive_mesh.cpp). Finite-element teeth with his simplifications (fixed
     // along their chords, displacement of their centre lines, his contact) drop by 16.4 and 16.6 %;
     // with real contacts by 10.8 and 10.2 %.
-    const Case c = case_named("liang-ring");
+    const LevelPair& c = pair_of_case("liang-ring");
     const AdditiveMesh root(c.geometry, test_pairs::kLiangSteel, Profile::root_circle),
         base(c.geometry, test_pairs::kLiangSteel, Profile::base_circle);
     struct Drop {
@@ -324,62 +278,6 @@ TEST_CASE(
         CHECK(solid / slices == Approx(as.solid_over_slices).margin(0.006));
         CHECK(helical / spur == Approx(as.factors).margin(0.002));
         CHECK(helical / solid == Approx(as.helical_over_solid).margin(0.01));
-    }
-}
-
-TEST_CASE("mesh stiffness over the finite elements'", "[.fem]") {
-    std::puts("| pair | pairs | ring | ring, load-dependent | Sainsot | rigid |");
-    for (const std::string name : {"bell-sun", "bell-ring", "liang-ring"})
-        for (const int pairs : {2, 1}) {
-            const Case c = case_named(name);
-            std::printf("| %s | %d |", name.c_str(), pairs);
-            for (const auto& mesh :
-                 {model(c, FoundationModel::elastic_ring),
-                  model(c, FoundationModel::elastic_ring, Contact::load_dependent, force_of(name)),
-                  model(c, FoundationModel::sainsot), model(c, FoundationModel::none)}) {
-                const Range flank = over_elements(*mesh, name, pairs),
-                            centre = over_elements(*mesh, name, pairs, "centre_N_m");
-                std::printf(" %.3f-%.3f (%.3f-%.3f) |", flank.least, flank.largest, centre.least,
-                            centre.largest);
-            }
-            std::puts("");
-        }
-}
-
-TEST_CASE("tooth compliance over the finite elements'", "[.fem]") {
-    std::puts("| pair | gear | whole | tooth and body | contact |");
-    for (const std::string name : {"bell-sun", "bell-ring", "liang-ring"})
-        for (const int which : {1, 2}) {
-            const ToothRatios r = tooth_ratios(name, which);
-            std::printf("| %s | %d | %.2f-%.2f | %.2f-%.2f | %.2f-%.2f |\n", name.c_str(), which,
-                        r.whole.least, r.whole.largest, r.tooth_and_body.least,
-                        r.tooth_and_body.largest, r.contact.least, r.contact.largest);
-        }
-}
-
-TEST_CASE("remaining mesh stiffness of cracked gears", "[.fem]") {
-    std::puts("| crack | phase | cracked | elements | ring | rigid | ring over elements |");
-    for (const std::string name : {"liang-ring-2.15", "liang-ring-4.28"})
-        for (const Cracked& at : cracked_rows(name))
-            std::printf("| %s | %.3f | %d of %d | %.4f | %.4f | %.4f | %.3f |\n", name.c_str(),
-                        at.phase, at.tooth, at.pairs, at.elements_left, at.ring_left, at.rigid_left,
-                        at.ring_over_elements);
-}
-
-TEST_CASE("helical mesh stiffness over the solids'", "[.fem]") {
-    std::puts("| case | phase | helical/solid | spur/slices | solid/slices | factors |");
-    for (const Row& row : finite_elements::table("helical")) {
-        if (row.text("what") != "mesh")
-            continue;
-        const Helical h = helical_named(row.text("case"));
-        const double at = row.number("tau"), helical = total_at(*h.helical, at),
-                     spur = total_at(*h.spur, at);
-        std::printf("| %s | %.1f | %.3f (%.3f) | %.3f (%.3f) | %.3f (%.3f) | %.3f |\n",
-                    row.text("case").c_str(), at, helical / row.number("solid_weber_N_m"),
-                    helical / row.number("solid_N_m"), spur / row.number("slices_weber_N_m"),
-                    spur / row.number("slices_N_m"),
-                    row.number("solid_weber_N_m") / row.number("slices_weber_N_m"),
-                    row.number("solid_N_m") / row.number("slices_N_m"), helical / spur);
     }
 }
 

@@ -73,35 +73,22 @@ TEST_CASE(
 }
 
 TEST_CASE("mesh stiffness by every model of the bodies", "[.level]") {
-    std::vector<std::pair<std::string, Level>> all;
-    for (const LevelPair& p : mesh_level::all_pairs())
-        all.emplace_back(p.name, level_of(p));
-    std::puts(
-        "| pair | ISO | elements | rigid | rigid, load | Sainsot | Sainsot, load | ring | ring, "
-        "load |");
-    for (const auto& [name, l] : all)
-        std::printf("| %s | %.2f | %.2f | %.2f | %.2f | %.2f | %.2f | %.2f | %.2f |\n",
-                    name.c_str(), l.iso, l.elements, l.rigid, l.rigid_load, l.sainsot,
-                    l.sainsot_load, l.ring, l.ring_load);
-    std::puts(
-        "| pair | over elements: ISO | rigid | rigid, load | Sainsot | Sainsot, load | ring | "
-        "ring, load "
-        "|");
-    for (const auto& [name, l] : all)
-        if (l.elements > 0)
-            std::printf("| %s | %.2f | %.2f | %.2f | %.2f | %.2f | %.2f | %.2f |\n", name.c_str(),
-                        l.iso / l.elements, l.rigid / l.elements, l.rigid_load / l.elements,
-                        l.sainsot / l.elements, l.sainsot_load / l.elements, l.ring / l.elements,
-                        l.ring_load / l.elements);
-    std::puts(
-        "| pair | over ISO: elements | elements without twist | rigid | Sainsot | Sainsot, load | "
-        "ring | "
-        "ring without twist |");
-    for (const auto& [name, l] : all)
-        std::printf("| %s | %.2f | %.2f | %.2f | %.2f | %.2f | %.2f | %.2f |\n", name.c_str(),
-                    l.elements / l.iso, l.untwisted_elements / l.iso, l.rigid / l.iso,
-                    l.sainsot / l.iso, l.sainsot_load / l.iso, l.ring / l.iso,
-                    l.untwisted_ring / l.iso);
+    for (const std::string unit : {"N/(mm um)", "over elements", "over ISO"}) {
+        std::printf(
+            "| %s | ISO | elements | without twist | rigid | rigid, load | Sainsot | Sainsot, load "
+            "| ring | ring, load | ring without twist |\n",
+            unit.c_str());
+        for (const LevelPair& p : mesh_level::all_pairs()) {
+            const Level l = level_of(p);
+            const double by = unit == "over elements" ? l.elements : unit == "over ISO" ? l.iso : 1;
+            std::printf("| %s |", p.name.c_str());
+            for (const double level :
+                 {l.iso, l.elements, l.untwisted_elements, l.rigid, l.rigid_load, l.sainsot,
+                  l.sainsot_load, l.ring, l.ring_load, l.untwisted_ring})
+                std::printf(" %.2f |", level / by);
+            std::puts("");
+        }
+    }
 }
 
 }  // namespace gearpod::stiffness::test_mesh_stiffness_level

@@ -17,22 +17,18 @@ constexpr double kLowPass_rad_s = 2.0 * std::numbers::pi * 2000.0;
 
 IntegrationPlan plan_with(Integrator integrator, bool bearings) {
     const auto& train = LiangTrain::instance();
-    IntegrationPlan plan = train.plan(kSamples, kSteps, dynamics::Motion::translational_torsional);
+    IntegrationPlan plan =
+        train.plan(kSamples, kSteps, dynamics::Motion::translational_torsional, integrator);
     std::get<dynamics::PlanetaryLayout>(plan.layout).bearing_sources = bearings;
     plan.low_pass_rad_s = kLowPass_rad_s;
-    plan.integrator = integrator;
-    plan.grid.stage_nodes = stage_nodes(integrator);
-    plan.nodes = tabulate(train.pairs, plan.grid, dynamics::mesh_damping(plan.layout));
     return plan;
 }
 
 // Last of several mesh periods; after kMeshes the motion repeats.
 MeshRecord last_mesh(const IntegrationPlan& plan, int meshes = kMeshes) {
     const dynamics::GearboxInputs inputs = LiangTrain::instance().inputs(kSpeedup);
-    TileState state;
-    state.q.assign(static_cast<std::size_t>(dynamics::degrees_of_freedom(plan.layout)), 0.0);
-    state.v = state.q;
-    state.filter.assign(static_cast<std::size_t>(plan.channels() * kFilterStates), 0.0);
+    TileState state =
+        test::state_at(plan, Eigen::VectorXd::Zero(dynamics::degrees_of_freedom(plan.layout)));
     MeshRecord record = make_record(plan, 1, true);
     const auto integrate = make_mesh_integrator<1>(plan, std::span(&inputs, 1));
     for (int k = 0; k < meshes; ++k) {

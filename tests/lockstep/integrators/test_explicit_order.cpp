@@ -40,13 +40,13 @@ double slope(const std::vector<double>& steps, const std::vector<double>& errors
 // transitions.
 IntegrationPlan liang_plan(int steps, Integrator integrator, bool nodes_on_transitions) {
     const auto& train = LiangTrain::instance();
-    IntegrationPlan plan = train.plan(24, steps, dynamics::Motion::translational_torsional);
-    plan.integrator = integrator;
+    IntegrationPlan plan =
+        train.plan(24, steps, dynamics::Motion::translational_torsional, integrator);
     if (!nodes_on_transitions) {
         plan.grid = make_phase_grid(24, steps, {});
+        plan.grid.stage_nodes = stage_nodes(integrator);
+        plan.nodes = tabulate(train.pairs, plan.grid, dynamics::MeshDamping::ratio);
     }
-    plan.grid.stage_nodes = stage_nodes(integrator);
-    plan.nodes = tabulate(train.pairs, plan.grid, dynamics::MeshDamping::ratio);
     return plan;
 }
 

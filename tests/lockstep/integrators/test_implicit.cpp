@@ -2,11 +2,13 @@
 // energy and each other's bits.
 #include "dynamics/gearbox_matrices.hpp"
 #include "lockstep/integrators/facts.hpp"
+#include "lockstep/integrators/implicit_lanes.hpp"
 #include "lockstep/integrators/sensor_filter.hpp"
 #include "lockstep/tile/tile_integrators.hpp"
 #include "tests/lockstep/integrators/order.hpp"
 #include "tests/lockstep/liang_train.hpp"
 #include "tests/numbers.hpp"
+#include "tests/test.hpp"
 
 namespace gearpod::lockstep::test_implicit {
 
@@ -15,25 +17,13 @@ using test::Integrated;
 using test::lane_of;
 using test::largest_difference;
 using test::LiangTrain;
+using test::state_at;
 using test::TianGearbox;
 
 const std::vector<Integrator> kImplicitOnes = test::integrators(false);
 
 IntegrationPlan liang_plan(int steps, dynamics::Motion motion, Integrator integrator) {
-    const auto& train = LiangTrain::instance();
-    IntegrationPlan plan = train.plan(24, steps, motion);
-    plan.integrator = integrator;
-    plan.grid.stage_nodes = stage_nodes(integrator);
-    plan.nodes = tabulate(train.pairs, plan.grid, dynamics::mesh_damping(plan.layout));
-    return plan;
-}
-
-TileState state_at(const IntegrationPlan& plan, const Eigen::VectorXd& q) {
-    TileState state;
-    state.q.assign(q.begin(), q.end());
-    state.v.assign(state.q.size(), 0.0);
-    state.filter.assign(static_cast<std::size_t>(plan.channels() * kFilterStates), 0.0);
-    return state;
+    return LiangTrain::instance().plan(24, steps, motion, integrator);
 }
 
 // The record of a tile of eight, recomputed from tiles of W.
@@ -324,6 +314,63 @@ TEST_CASE("Implicit and explicit integration of separating meshes agree") {
         check_lanes<4>(plan, lanes, healthy, solution, 2, wide);
         check_lanes<1>(plan, lanes, healthy, solution, 2, wide);
     }
+}
+
+// Checks sparse factors against the dense solver of Eigen.
+
+// Arrow matrix: `spokes` blocks of two that couple only with the last three rows; not symmetric.
+Eigen::MatrixXd arrow(int spokes, std::mt19937& engine) {
+    std::uniform_real_distribution<double> uniform(-1.0, 1.0);
+    const int n = 2 * spokes + 3;
+    Eigen::MatrixXd m = Eigen::MatrixXd::Zero(n, n);
+    for (int i = 0; i < n; ++i) {
+        for (int j = 0; j < n; ++j) {
+            const bool hub = i >= 2 * spokes || j >= 2 * spokes;
+            if (hub || i / 2 == j / 2) {
+                m(i, j) = uniform(engine) + (i == j ? 2.0 * n : 0.0);
+            }
+        }
+    }
+    return m;
+}
+
+// Solves A x = g with the algorithm of the lockstep stage.
+Eigen::VectorXd solve(const SparseLu& lu, const Eigen::MatrixXd& f, Eigen::VectorXd x) {
+    const auto substitute = [&](const SparseEntries& entries) {
+        for (std::size_t e = 0; e < entries.to.size(); ++e) {
+            x(entries.to[e]) -= f(entries.to[e], entries.from[e]) * x(entries.from[e]);
+        }
+    };
+    substitute(lu.lower);
+    x.array() /= f.diagonal().array();
+    substitute(lu.upper);
+    return x;
+}
+
+TEST_CASE("Sparse factors give the dense solution for any order of the rows") {
+    std::mt19937 engine(1);
+    for (const int spokes : {1, 4, 8}) {
+        const Eigen::MatrixXd tidy = arrow(spokes, engine);
+        Eigen::PermutationMatrix<Eigen::Dynamic> mix(tidy.rows());
+        mix.setIdentity();
+        std::shuffle(mix.indices().begin(), mix.indices().end(), engine);
+        const Eigen::MatrixXd m = mix * tidy * mix.transpose();
+        const SparseLu lu = eliminate(m);
+        const Eigen::VectorXd g = Eigen::VectorXd::LinSpaced(m.rows(), -1.0, 2.0);
+        const Eigen::VectorXd exact = m.partialPivLu().solve(g);
+        CHECK((solve(lu, factors(lu, m), g) - exact).norm() < 1e-13 * exact.norm());
+        // Elimination of an arrow from its spokes causes no fill-in: the factors have its entries.
+        const int entries = static_cast<int>((m.array() != 0.0).count());
+        CHECK(lu.lower.size() + lu.upper.size() + m.rows() == entries);
+    }
+}
+
+TEST_CASE("Entries are the nonzero elements, column by column") {
+    Eigen::MatrixXd m(2, 2);
+    m << 1.0, 0.0, 3.0, -4.0;
+    const SparseEntries entries = nonzero_entries(m);
+    CHECK(entries.to == std::vector<int>{0, 1, 1});
+    CHECK(entries.from == std::vector<int>{0, 0, 1});
 }
 
 }  // namespace gearpod::lockstep::test_implicit

@@ -188,10 +188,7 @@ TEST_CASE("A loaded train that never separates keeps the linear integration's bi
     const auto& train = LiangTrain::instance();
     for (const auto motion :
          {dynamics::Motion::translational_torsional, dynamics::Motion::torsional}) {
-        IntegrationPlan plan = train.plan(24, 1200, motion);
-        plan.integrator = integrator;
-        plan.grid.stage_nodes = stage_nodes(integrator);
-        plan.nodes = tabulate(train.pairs, plan.grid, dynamics::mesh_damping(plan.layout));
+        IntegrationPlan plan = train.plan(24, 1200, motion, integrator);
         const std::vector<double> depths{0.0, 0.5e-3, 1e-3, 2e-3, 3e-3, 3.5e-3, 4e-3, 4.28e-3};
         const auto faults = train.ring_side_cracks(depths);
         const auto cracks_of_four = train.ring_side_cracks({depths.begin() + 4, depths.end()});

@@ -14,16 +14,12 @@ namespace gearpod::lockstep::test_unilateral_contact {
 using dynamics::MeshLaw;
 using test::LiangTrain;
 
-const gears::PlanetaryTrain kLiang{19, 31, 81, 4};
 const std::vector<double> kDepths{0.0, 0.5e-3, 1e-3, 2e-3, 3e-3, 3.5e-3, 4e-3, 4.28e-3};
 
 IntegrationPlan plan_for(Integrator integrator, MeshLaw law, int steps, dynamics::Motion motion) {
     const auto& train = LiangTrain::instance();
-    IntegrationPlan plan = train.plan(24, steps, motion);
-    plan.integrator = integrator;
-    plan.grid.stage_nodes = stage_nodes(integrator);
+    IntegrationPlan plan = train.plan(24, steps, motion, integrator);
     plan.mesh_law = law;
-    plan.nodes = tabulate(train.pairs, plan.grid, dynamics::mesh_damping(plan.layout));
     if (law == MeshLaw::unilateral) {
         add_tooth_pairs(train.pairs, plan.grid, plan.nodes);
     }
@@ -45,23 +41,11 @@ std::vector<dynamics::GearboxInputs> light_trains(double load, double speedup) {
 
 // Normal errors of every flank, one set for each of eight lanes.
 ToothErrors random_errors(const PairSet& pairs, double rms_m, bool with_slopes) {
-    ToothErrors errors{{}, planetary_teeth(pairs, kLiang, gears::PlanetSense::clockwise)};
     std::mt19937 engine(7);
     std::normal_distribution<double> normal(0.0, rms_m);
-    for (const int teeth : {19, 81, 31, 31, 31, 31, 31, 31, 31, 31}) {
-        GearErrors gear{teeth, machine::AlignedVector(static_cast<std::size_t>(8 * teeth))};
-        for (double& e : gear.error_m) {
-            e = normal(engine);
-        }
-        if (with_slopes) {
-            gear.slope_m.resize(gear.error_m.size());
-            for (double& slope : gear.slope_m) {
-                slope = normal(engine);
-            }
-        }
-        errors.gears.push_back(std::move(gear));
-    }
-    return errors;
+    const auto draw = [&](std::size_t, std::size_t) { return normal(engine); };
+    return with_slopes ? LiangTrain::tooth_errors(pairs, 8, draw, draw)
+                       : LiangTrain::tooth_errors(pairs, 8, draw);
 }
 
 // One lane of the train with separate teeth: M q'' = f - (C + G) q' - (K + K_c) q - sum of R_p F_p.

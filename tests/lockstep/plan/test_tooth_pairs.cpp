@@ -145,16 +145,9 @@ namespace gearpod::lockstep::test_tooth_errors {
 
 using test::LiangTrain;
 
-const gears::PlanetaryTrain kLiang{19, 31, 81, 4};
-
 // All gears of the train without errors: sun, ring, and both sides of each planet.
 ToothErrors no_errors(const PairSet& pairs, std::size_t lanes) {
-    ToothErrors errors{{}, planetary_teeth(pairs, kLiang, gears::PlanetSense::clockwise)};
-    for (const int teeth : {19, 81, 31, 31, 31, 31, 31, 31, 31, 31}) {
-        const auto size = static_cast<std::size_t>(teeth) * lanes;
-        errors.gears.push_back({teeth, machine::AlignedVector(size, 0.0)});
-    }
-    return errors;
+    return LiangTrain::tooth_errors(pairs, lanes, [](std::size_t, std::size_t) { return 0.0; });
 }
 
 IntegrationPlan error_plan(int samples, int steps, dynamics::Motion motion) {

@@ -177,10 +177,8 @@ TEST_CASE(
     for (const auto integrator : test::integrators(false)) {
         const double steps = implicit_steps(integrator, matrices, train.inputs(10.0).mesh_period_s,
                                             fine.low_pass_rad_s);
-        IntegrationPlan plan = train.plan(24, static_cast<int>(std::ceil(steps)), full);
-        plan.integrator = integrator;
-        plan.grid.stage_nodes = stage_nodes(integrator);
-        plan.nodes = tabulate(train.pairs, plan.grid, dynamics::mesh_damping(plan.layout));
+        const IntegrationPlan plan =
+            train.plan(24, static_cast<int>(std::ceil(steps)), full, integrator);
         const auto ours =
             run_tile<1>(plan, planetary, train.no_fault(1), PeriodicSolution{}).records[0];
         const auto [acceleration, te] = errors(ours, exact);

@@ -62,10 +62,8 @@ TEST_CASE("in time integration, too, the bearings of a train carry its weight",
     const auto& train = test::LiangTrain::instance();
     const auto [integrator, steps] =
         GENERATE(std::pair(Integrator::rk4, 450), std::pair(Integrator::sdirk3, 200));
-    IntegrationPlan plan = train.plan(50, steps, dynamics::Motion::translational_torsional, false);
-    plan.integrator = integrator;
-    plan.grid.stage_nodes = stage_nodes(integrator);
-    plan.nodes = tabulate(train.pairs, plan.grid, dynamics::MeshDamping::ratio);
+    IntegrationPlan plan =
+        train.plan(50, steps, dynamics::Motion::translational_torsional, integrator, false);
     auto in = train.inputs(12.0);
     for (double& damping : in.bearing_damping_N_s_m) {
         damping = 5e3;

@@ -64,18 +64,13 @@ struct WornTrain {
 };
 
 ToothErrors small_errors(const PairSet& pairs, std::size_t lanes, std::size_t first) {
-    const gears::PlanetaryTrain liang{19, 31, 81, 4};
-    ToothErrors errors{{}, planetary_teeth(pairs, liang, gears::PlanetSense::clockwise)};
-    for (const int teeth : {19, 81, 31, 31, 31, 31, 31, 31, 31, 31}) {
-        GearErrors gear{teeth, {}};
-        for (std::size_t i = 0; i < static_cast<std::size_t>(teeth) * lanes; ++i) {
-            const std::size_t as_of_eight = i / lanes * 8 + first + i % lanes;
-            gear.error_m.push_back(1e-6 * std::sin(static_cast<double>(7 * as_of_eight)));
-            gear.slope_m.push_back(1e-6 * std::cos(static_cast<double>(5 * as_of_eight)));
-        }
-        errors.gears.push_back(std::move(gear));
-    }
-    return errors;
+    const auto of_eight = [=](std::size_t i) {
+        return static_cast<double>(i / lanes * 8 + first + i % lanes);
+    };
+    return LiangTrain::tooth_errors(
+        pairs, lanes,
+        [=](std::size_t, std::size_t i) { return 1e-6 * std::sin(7.0 * of_eight(i)); },
+        [=](std::size_t, std::size_t i) { return 1e-6 * std::cos(5.0 * of_eight(i)); });
 }
 
 constexpr int kMeshes = 2;

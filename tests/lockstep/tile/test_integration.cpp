@@ -14,13 +14,8 @@ using test::LiangTrain;
 
 TileState rest(const IntegrationPlan& plan, const dynamics::PlanetaryInputs& in) {
     const std::vector<double> k(plan.nodes.stiffness.begin(), plan.nodes.stiffness.begin() + 8);
-    const auto matrices = dynamics::assemble(plan.layout, in, k);
-    const Eigen::VectorXd q = dynamics::static_equilibrium(matrices);
-    TileState state;
-    state.q.assign(q.begin(), q.end());
-    state.v.assign(state.q.size(), 0.0);
-    state.filter.assign(static_cast<std::size_t>(plan.channels() * kFilterStates), 0.0);
-    return state;
+    return test::state_at(plan,
+                          dynamics::static_equilibrium(dynamics::assemble(plan.layout, in, k)));
 }
 
 TileState integrate_mesh_period(const IntegrationPlan& plan, const dynamics::PlanetaryInputs& in,
@@ -107,10 +102,7 @@ TEST_CASE("Central differences with selective mass scaling agree with the heavie
     const auto in = train.inputs(20.0);
     const auto motion = dynamics::Motion::translational_torsional;
     const auto errors_with = [&](int steps) {
-        IntegrationPlan plan = train.plan(24, steps, motion);
-        plan.integrator = Integrator::central_difference;
-        plan.grid.stage_nodes = stage_nodes(plan.integrator);
-        plan.nodes = tabulate(train.pairs, plan.grid, dynamics::mesh_damping(plan.layout));
+        IntegrationPlan plan = train.plan(24, steps, motion, Integrator::central_difference);
         const std::vector<double> k(plan.nodes.stiffness.begin(), plan.nodes.stiffness.begin() + 8);
         plan.mode_inertia =
             mode_inertia(dynamics::assemble(plan.layout, in, k), 2.0 * std::numbers::pi * 3000.0);

@@ -1,9 +1,11 @@
 // Checks contact of single tooth pairs at the steps of a mesh period: bounds that hold between
 // samples, and the share of time out of contact.
+#include "dynamics/gearbox.hpp"
 #include "dynamics/gearbox_matrices.hpp"
 #include "lockstep/integrators/facts.hpp"
 #include "lockstep/plan/tooth_pairs.hpp"
 #include "lockstep/strategies/solution.hpp"
+#include "lockstep/tile/mesh_forces.hpp"
 #include "lockstep/tile/rigid_rotation.hpp"
 #include "lockstep/tile/tile_integrators.hpp"
 #include "lockstep/tile/tooth_contact.hpp"
@@ -20,29 +22,19 @@ constexpr double kSpeedup = 10.0;
 
 IntegrationPlan unilateral_plan(Integrator integrator, int samples, int steps) {
     const LiangTrain& train = LiangTrain::instance();
-    IntegrationPlan plan = train.plan(samples, steps, dynamics::Motion::translational_torsional);
-    plan.integrator = integrator;
+    IntegrationPlan plan =
+        train.plan(samples, steps, dynamics::Motion::translational_torsional, integrator);
     plan.mesh_law = dynamics::MeshLaw::unilateral;
-    plan.grid.stage_nodes = stage_nodes(integrator);
-    plan.nodes = tabulate(train.pairs, plan.grid, dynamics::MeshDamping::ratio);
     add_tooth_pairs(train.pairs, plan.grid, plan.nodes);
     return plan;
 }
 
 // Gaps of up to 0.8 um, different in each lane.
 ToothErrors wavy_errors(std::size_t lanes) {
-    const gears::PlanetaryTrain liang{19, 31, 81, 4};
-    ToothErrors errors{
-        {}, planetary_teeth(LiangTrain::instance().pairs, liang, gears::PlanetSense::clockwise)};
-    for (const int teeth : {19, 81, 31, 31, 31, 31, 31, 31, 31, 31}) {
-        machine::AlignedVector gap;
-        for (std::size_t i = 0; i < static_cast<std::size_t>(teeth) * lanes; ++i) {
-            gap.push_back(4e-7 *
-                          (1.0 + std::sin(static_cast<double>(7 * i + errors.gears.size()))));
-        }
-        errors.gears.push_back({teeth, std::move(gap)});
-    }
-    return errors;
+    return LiangTrain::tooth_errors(
+        LiangTrain::instance().pairs, lanes, [](std::size_t gear, std::size_t i) {
+            return 4e-7 * (1.0 + std::sin(static_cast<double>(7 * i + gear)));
+        });
 }
 
 struct IntegratedMesh {
@@ -240,6 +232,37 @@ TEST_CASE("The share of time out of contact keeps its bits for any lanes and is 
         LiangTrain::instance().plan(24, 1200, dynamics::Motion::translational_torsional);
     CHECK(run_tile<8>(linear, inputs, LiangTrain::instance().no_fault(8), PeriodicSolution{})
               .contact_loss.empty());
+}
+
+// Checks the mesh damping of the integrated gearbox: that of its law at the stiffness of the phase.
+
+TEST_CASE("The mesh's damping force is the rate of its deflection times the law's damping") {
+    const auto& gearbox = test::TianGearbox::instance();
+    const std::pair<dynamics::MeshDamping, double> laws[] = {
+        {dynamics::MeshDamping::ratio, 0.05}, {dynamics::MeshDamping::proportional, 4e-6}};
+    for (const auto& [law, parameter] : laws) {
+        IntegrationPlan plan = gearbox.plan(60, 60, Integrator::rk4);
+        plan.nodes = tabulate(gearbox.pairs, plan.grid, law);
+        dynamics::FixedShaftLayout layout = gearbox.layout();
+        layout.mesh_damping = law;
+        plan.layout = layout;
+        dynamics::FixedShaftInputs in = gearbox.inputs();
+        in.mesh_damping = parameter;
+        const dynamics::GearboxInputs inputs = in;
+        const MeshForces<1> forces(plan, std::span(&inputs, 1));
+        const auto nodes = plan.grid.stage_nodes.size();
+        const std::vector<double> q(dynamics::fixed_shaft_motions, 0.0);
+        std::vector<double> v(q);
+        v[dynamics::u_1] = 0.25;
+        for (std::size_t step = 0; step < plan.grid.steps.size(); ++step) {
+            double force = 0.0;
+            forces.at(static_cast<int>(step), {}, q, v, &force);
+            const double k = plan.nodes.stiffness[step * nodes];
+            CHECK(force ==
+                  Approx(0.25 * mesh_damping_N_s_m(
+                                    law, mesh_damping_factor(plan.layout, inputs, PairId{0}), k)));
+        }
+    }
 }
 
 }  // namespace gearpod::lockstep::test_tooth_contact

@@ -1,4 +1,5 @@
-// Checks that the commands that compute gearboxes print the same for any number of lanes.
+// Checks that the commands that compute gearboxes print the same for any number of lanes, and the
+// messages of a program that lacks the kernels that a study requires.
 // tests/mc/ensemble and tests/mc/lives check every shipped study, in tiles of any filling.
 #include "tests/mc/compared_program.hpp"
 #include "tests/mc/program.hpp"
@@ -54,6 +55,44 @@ TEST_CASE("misses, rare and sweep give the same numbers for any lanes") {
     for (const char* lanes : {"8", "1"}) {
         INFO(lanes);
         CHECK((outputs_with(lanes, folder) == reference));
+    }
+}
+
+TEST_CASE("Lanes without a kernel in this build are bad input, reported with the available ones") {
+    for (const int lanes : {1, 4}) {
+        const std::string change = " --set numerics.lanes=" + std::to_string(lanes);
+        const std::string command = "describe " + study("planet-crack-ideal.toml") + change;
+        if (GEARPOD_PORTABLE) {
+            require_success(command);
+        } else {
+            check_refused(
+                command, {"numerics.lanes: this build has no kernels for " + std::to_string(lanes) +
+                              " lanes",
+                          "built: 8 lanes in double precision, 16 in single precision, for "});
+        }
+    }
+}
+
+TEST_CASE("Results contain the kernels of the program") {
+    const Folder folder;
+    const std::string out = folder.file("r.h5");
+    require_success("run " + study("planet-crack-ideal.toml") +
+                    " --quiet --instances 8 --set ensemble.threshold_instances=8 --out " + out);
+    const std::string kernels = mc::read_frame(out).provenance_value("kernels");
+    CHECK(program("--version").mentions("kernels: " + kernels + "\n"));
+}
+
+TEST_CASE("Single-precision gearboxes that do not converge are counted with sixteen lanes") {
+    const Folder folder;
+    for (const std::string integrator : {"rk4", "central-difference"}) {
+        const Outcome run = program(
+            "run " + study("planet-crack-ideal.toml") + " --set numerics.precision='\"single\"'" +
+            " --set numerics.integrator='\"" + integrator + "\"' --set numerics.max_meshes=2" +
+            " --set numerics.settle_tolerance=1e-5 --instances 8" +
+            " --set ensemble.threshold_instances=8 --out " + folder.file(integrator + ".h5"));
+        INFO(run.output);
+        CHECK(run.code == 3);
+        CHECK(run.mentions(" of 16 gearboxes failed: 0 diverged, "));
     }
 }
 

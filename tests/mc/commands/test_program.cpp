@@ -1,4 +1,7 @@
 // Checks the program from a user's view: exit codes, output and files.
+#include "mc/library/stiffness_modes.hpp"
+#include "tests/mc/lives/life_example.hpp"
+#include "tests/mc/program.hpp"
 #include "tests/mc/program_json.hpp"
 
 namespace gearpod::test_program {
@@ -6,19 +9,13 @@ namespace gearpod::test_program {
 using namespace test;
 namespace fs = std::filesystem;
 
-bool mentions(const Outcome& outcome, const std::string& text) {
-    return outcome.mentions(text);
-}
-
 TEST_CASE("A run ends with the table and a file from which report prints the same numbers") {
     const Folder folder;
     const std::string out = folder.file("r.h5");
     const Outcome run =
         require_success("run " + study("planet-crack-ideal.toml") +
                         " --instances 14 --set ensemble.threshold_instances=40 --out " + out);
-    CHECK(mentions(run, "window_ratio"));
-    CHECK(mentions(run, "Time: "));
-    CHECK(mentions(run, out));
+    check_mentions(run, {"window_ratio", "Time: ", out});
     const Outcome text = require_success("report " + out);
     CHECK(contains(run.output, text.output));
     CHECK(std::ranges::count(text.output, '\n') <= 40);
@@ -29,10 +26,10 @@ TEST_CASE("A run ends with the table and a file from which report prints the sam
     CHECK(parsed["detection"]["features"].size() == 7);
     CHECK(parsed["provenance"]["seed"] == "2");
     CHECK(parsed["reliability"]["features"].size() == 7);
-    CHECK(mentions(require_success("report " + out + " --full"), "against fault depth at noise"));
+    CHECK(require_success("report " + out + " --full").mentions("against fault depth at noise"));
     const Outcome pod = require_success("report " + out + " --section pod");
-    CHECK(mentions(pod, "against fault depth at noise"));
-    CHECK(!mentions(pod, "Alarm thresholds"));
+    CHECK(pod.mentions("against fault depth at noise"));
+    CHECK(!pod.mentions("Alarm thresholds"));
     check_refused("report --section fault_sizes " + out, {"fault_sizes", "pod, ranking"});
     check_refused("report --by gearbox_colour " + out, {"torque_N_m"});
 }
@@ -69,29 +66,27 @@ TEST_CASE("A fixed-shaft gearbox has its own columns, frequencies and descriptio
         }));
     }
     const Outcome described = require_success("describe " + chip);
-    CHECK(mentions(described, "torques out of balance"));
-    CHECK(mentions(described, "sdirk3"));
-    check_refused("run " + chip + " --set numerics.integrator=rk4",
-                  {"the damper of the motor coupling"});
+    CHECK(described.mentions("torques out of balance"));
+    CHECK(described.mentions("sdirk3"));
 }
 
 TEST_CASE("The keys of study files are described without a study") {
     const Outcome keys = require_success("describe --keys");
-    CHECK(mentions(keys, "growth_depth_mm"));
+    CHECK(keys.mentions("growth_depth_mm"));
     check_refused("describe");
     const Outcome some = require_success("describe --keys growth_depth");
-    CHECK(mentions(some, "growth_depth_mm"));
-    CHECK(!mentions(some, "noise_levels"));
-    CHECK(mentions(program("chek"), "chek: unknown command; did you mean check?"));
+    CHECK(some.mentions("growth_depth_mm"));
+    CHECK(!some.mentions("noise_levels"));
+    CHECK(program("chek").mentions("chek: unknown command; did you mean check?"));
     const Outcome fault = program("describe --keys fault");  // not every "default"
-    CHECK(mentions(fault, "\n  depth_mm\n"));
-    CHECK_FALSE(mentions(fault, "planet_positions_deg"));
+    CHECK(fault.mentions("\n  depth_mm\n"));
+    CHECK_FALSE(fault.mentions("planet_positions_deg"));
     check_mentions(program("describe --keys weibull"),
                    {"distribution = \"weibull\"", "with scale (number > 0), shape (number"});
-    CHECK(mentions(program("describe --keys empirical"), "column"));
+    CHECK(program("describe --keys empirical").mentions("column"));
     const Outcome none = check_refused("describe --keys nonsense");
     CHECK(
-        mentions(none, "--keys nonsense: no word of a section, key or explanation begins with it"));
+        none.mentions("--keys nonsense: no word of a section, key or explanation begins with it"));
 }
 
 TEST_CASE("Results under the name of another file type are refused with the right name") {
@@ -151,7 +146,7 @@ TEST_CASE("Gearboxes that fail are counted; the run exits with 3 and keeps its f
                                     " --set numerics.max_meshes=1 --out " +
                                     folder.file("r.h5"));
     CHECK(outcome.code == 3);
-    CHECK(mentions(outcome, "27 of 27 gearboxes failed: 0 diverged, 27 did not converge"));
+    CHECK(outcome.mentions("27 of 27 gearboxes failed: 0 diverged, 27 did not converge"));
     CHECK(fs::exists(folder.file("r.h5")));
 }
 
@@ -195,6 +190,88 @@ TEST_CASE("The C library's choice of elementary functions has no effect on the r
             "h5diff " + folder.file("a.h5") + " " + folder.file("b.h5") + " " + group + " " + group;
         CHECK(std::system(command.c_str()) == 0);
     }
+}
+
+TEST_CASE("check reports the problems of every study and simulates none") {
+    const Folder folder;
+    const std::string wrong = folder.file("wrong.toml"), unmeshed = folder.file("unmeshed.toml");
+    std::ofstream(wrong) << "[gearbox]\nsun.teeth = -3\nplanets = \"four\"\n";
+    std::ofstream(unmeshed) << "[gearbox]\nsun.teeth = 19\nplanet.teeth = 31\nring.teeth = 80\n";
+    const std::string sound = study("planet-crack.toml");
+    const Outcome all =
+        check_refused("check " + wrong + " " + sound + " " + unmeshed,
+                      {wrong + ":2: gearbox.sun.teeth", wrong + ":3: gearbox.planets",
+                       sound + ": can be simulated", unmeshed + ":"});
+    CHECK_FALSE(all.mentions(wrong + ": can be simulated"));
+    CHECK_FALSE(all.mentions(unmeshed + ": can be simulated"));
+    CHECK(folder.files() == 2);
+}
+
+TEST_CASE("check of sound studies ends with code 0, unless a changed key is wrong") {
+    const std::string files = study("planet-crack.toml") + " " + study("bell-206b.toml");
+    require_success("check " + files);
+    check_refused("check " + files + " --set sensor.noise_m_s2=-1", {"sensor.noise_m_s2"});
+}
+
+TEST_CASE("check and describe take a study with [life] as one for lives") {
+    const std::string life = study("planet-crack-ideal.toml") + life_arguments();
+    const std::string refused =
+        " --set life.record_s=10 --set 'features.use=[\"te_kurtosis\"]'"
+        " --set 'sensor.noise_levels=[1,2]'";
+    CHECK(require_success("check " + life).mentions("can be simulated by `lives`"));
+    check_refused("check " + life + refused, {"\"te_kurtosis\" averages the transmission error",
+                                              "a life has one noise level"});
+    check_mentions(require_success("describe " + life + " --seconds 0.1"),
+                   {"forecast of lives", "records of a crack"});
+    CHECK(program("describe " + life + refused).mentions("refused by `lives`"));
+}
+
+TEST_CASE("Critical speeds lie where a mesh harmonic crosses a natural frequency") {
+    // Mesh frequency 10 Hz per rad/s; one mode at 50 Hz, two that rise from 20 to 40 Hz.
+    std::vector<mc::SpeedFrequencies> speeds;
+    for (int i = 0; i <= 10; ++i) {
+        const double rising = 20.0 + 2.0 * i;
+        speeds.push_back({static_cast<double>(i), 10.0 * i, {rising, rising, 50.0}});
+    }
+    const auto found = critical_speeds(speeds, 2);
+    REQUIRE(found.size() == 4);
+    // Second harmonic: 20 s = 20 + 2 s, then 20 s = 50. First: 10 s = 20 + 2 s and 10 s = 50.
+    const double expected[][4] = {
+        {20.0 / 18.0, 200.0 / 9.0, 2, 2}, {2.5, 25.0, 1, 2}, {2.5, 50.0, 2, 1}, {5.0, 50.0, 1, 1}};
+    for (std::size_t i = 0; i < found.size(); ++i) {
+        INFO(i);
+        CHECK(found[i].speed_rad_s == Approx(expected[i][0]));
+        CHECK(found[i].frequency_Hz == Approx(expected[i][1]));
+        CHECK(found[i].harmonic == expected[i][2]);
+        CHECK(found[i].modes == expected[i][3]);
+    }
+}
+
+TEST_CASE("modes writes a Campbell diagram, and prints the critical speeds") {
+    const Folder folder;
+    const std::string html = folder.file("m.html");
+    check_mentions(require_success("modes " + study("bell-206b.toml") + " --html " + html +
+                                   " --json " + folder.file("m.json")),
+                   {"speeds of the carrier at which mesh harmonics 1 to 5"});
+    const auto json = json_of_file(folder.file("m.json"));
+    const auto& campbell = json["campbell"];
+    CHECK(campbell["nominal_rpm"].get<double>() == Approx(343.8));
+    const auto at_rest = campbell["speeds"][0]["frequencies_Hz"];
+    for (std::size_t i = 0; i < at_rest.size(); ++i) {
+        CHECK(at_rest[i].get<double>() ==
+              Approx(json["frequencies_Hz"][i].get<double>()).epsilon(1e-5).margin(1e-2));
+    }
+    for (const auto& one : campbell["critical_speeds"]) {
+        // The mesh frequency is proportional to the speed.
+        const auto& last = campbell["speeds"].back();
+        const double mesh_Hz =
+            last["mesh_Hz"].get<double>() * one["rpm"].get<double>() / last["rpm"].get<double>();
+        CHECK(one["harmonic"].get<int>() * mesh_Hz ==
+              Approx(one["frequency_Hz"].get<double>()).epsilon(1e-9));
+    }
+    CHECK(contains(bytes_of(html), "Campbell diagram"));
+    // A study without tooth numbers has no mesh frequency, and an existing file is kept.
+    check_refused("modes " + study("bell-206b.toml") + " --html " + folder.file("m.json"));
 }
 
 }  // namespace gearpod::test_program

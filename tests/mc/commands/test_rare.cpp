@@ -1,5 +1,5 @@
-// Checks rare: thresholds and misses at rates determined by gearbox-to-gearbox variation, against
-// counted ones, and the same bits for any threads and ranks.
+// Checks rare and misses: thresholds and misses at rates determined by gearbox-to-gearbox
+// variation, against counted ones, and the same bits for any threads and ranks.
 #include "mc/results/results_file.hpp"
 #include "tests/mc/program_json.hpp"
 
@@ -85,15 +85,6 @@ TEST_CASE("Misses due to gearbox variation agree with counted ones") {
     CHECK(result["upper"].get<double>() * all > misses - 3.0 * std::sqrt(misses));
 }
 
-TEST_CASE("Rare false alarms have the same bits for any number of threads and ranks") {
-    const std::string command = std::string(GEARPOD_PROGRAM) + " rare " + few_results() +
-                                " --feature window_ratio --rate 0.05 --gearboxes 40 --quiet "
-                                "--json -";
-    const Outcome one = require_success(shell("OMP_NUM_THREADS=1 " + command));
-    CHECK(shell("OMP_NUM_THREADS=3 " + command).output == one.output);
-    CHECK(shell(mpirun(2) + command).output == one.output);
-}
-
 TEST_CASE("rare reports the number of gearboxes it simulated and what is unknown") {
     const std::string results = few_results();
     check_mentions(
@@ -127,6 +118,87 @@ TEST_CASE("Invalid requests to rare are refused, every problem at once") {
     CHECK(refused("--feature window_ratio --size 900").starts_with("--size: "));
     CHECK(program("rare " + results + " --feature window_ratio --size 1 --rate 0.01").code != 0);
     check_refused("rare " + folder.file("none.h5") + " --feature fm4 --rate 0.01");
+}
+
+// Results of a small study, computed once. Thresholds are set by 100 healthy gearboxes.
+const std::string& small_results() {
+    static const Folder folder;
+    static const std::string results = [] {
+        require_success("run " + test::study("planet-crack-ideal.toml") + " --quiet --out " +
+                        folder.file("ideal.h5") +
+                        " --instances 40 --set ensemble.threshold_instances=100 --set "
+                        "'sensor.noise_levels=[0,2]' --set "
+                        "'features.use=[\"te_rms\",\"window_ratio\"]'");
+        return folder.file("ideal.h5");
+    }();
+    return results;
+}
+
+const std::string kRequest = " --feature window_ratio --size 1 --quiet --json -";
+
+TEST_CASE("Rates of misses agree with counted ones") {
+    const Folder folder;
+    const std::string& results = small_results();
+    const auto result = json_of("misses " + results + " --gearboxes 60 --records 32" + kRequest);
+    CHECK(result["noise_level"] == 2.0);
+    REQUIRE(result["miss_rate"].is_number());
+    // Other gearboxes of the same study, with one plain record each, against the same threshold.
+    const double threshold = result["threshold"];
+    const std::string counted = folder.file("counted.h5");
+    require_success("run " + test::study("planet-crack-ideal.toml") + " --quiet --out " + counted +
+                    " --instances 500 --seed 77 --set ensemble.threshold_instances=8 --set "
+                    "'sensor.noise_levels=[0,2]' --set 'features.use=[\"window_ratio\"]' --set "
+                    "'random.fault.depth_mm={distribution=\"levels\",values=[1]}'");
+    const auto [found, all] = count_above(counted, 1, threshold, "window_ratio");
+    const double rate = 1.0 - found / all, error = std::sqrt(rate * (1.0 - rate) / all);
+    INFO(rate << " counted");
+    CHECK(result["lower"].get<double>() < rate + 3.0 * error);
+    CHECK(result["upper"].get<double>() > rate - 3.0 * error);
+}
+
+TEST_CASE("The miss rate of faults that are nearly always missed is at most 1") {
+    const std::string request = "misses " + small_results() +
+                                " --feature window_ratio --size 0.01 --gearboxes 60 --records 16 "
+                                "--quiet";
+    check_mentions(require_success(request), {"misses are not rare enough for this method"});
+    const auto result = json_of(request + " --json -");
+    CHECK(result["miss_rate"] <= 1.0);
+    CHECK(result["miss_rate"] > 0.9);
+    CHECK(result["upper"] <= 1.0);
+    CHECK((result["counted_records"].is_null() || result["counted_records"] > 0.0));
+}
+
+TEST_CASE("Rare false alarms and misses have the same bits for any number of threads and ranks") {
+    for (const std::string& arguments :
+         {" rare " + few_results() +
+              " --feature window_ratio --rate 0.05 --gearboxes 40 --quiet --json -",
+          " misses " + small_results() + " --gearboxes 40 --records 8" + kRequest}) {
+        const std::string command = GEARPOD_PROGRAM + arguments;
+        const Outcome one = require_success(shell("OMP_NUM_THREADS=1 " + command));
+        CHECK(shell("OMP_NUM_THREADS=3 " + command).output == one.output);
+        CHECK(shell(mpirun(2) + command).output == one.output);
+    }
+}
+
+TEST_CASE("Invalid requests to misses are refused, every problem at once") {
+    const std::string& results = small_results();
+    check_refused("misses " + results + " --feature te_rms --size 0 --noise-level 3 --records 6",
+                  {"--feature: \"te_rms\" does not use the acceleration signal",
+                   "--size: must be > 0 and finite, but is 0",
+                   "--noise-level: 3 is not a noise level of the file; choose from 0, 2",
+                   "--records: must be a multiple of 4 up to 10000, but is 6"});
+    const Outcome many = check_refused("misses " + results +
+                                       " --feature window_ratio --size 1 --records 40000 "
+                                       "--gearboxes 1");
+    CHECK(many.output ==
+          "--records: must be a multiple of 4 up to 10000, but is 40000\n"
+          "--gearboxes: must be between 2 and 10000, but is 1\n");
+    check_refused("misses " + results + " --feature nothing --size 1",
+                  {"its features are te_rms, window_ratio"});
+    const Outcome deep = check_refused("misses " + results + " --feature window_ratio --size 900");
+    CHECK(deep.output.starts_with("--size: "));
+    CHECK(std::count(deep.output.begin(), deep.output.end(), '\n') == 1);
+    check_refused("misses /none/none.h5 --feature fm4 --size 1");
 }
 
 }  // namespace gearpod::test_rare

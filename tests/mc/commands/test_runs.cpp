@@ -1,7 +1,5 @@
 // Checks runs that are split, killed, stopped, resumed and extended: always the same gearboxes, bit
 // by bit.
-#include <sys/resource.h>
-
 #include <chrono>
 #include <csignal>
 #include <set>
@@ -261,14 +259,6 @@ TEST_CASE("Signals and the time limit end a run cleanly, save its state and exit
                    {"\"finished\":false", "stopped by the time limit", "continue with --resume"});
     CHECK(program(run_of(out, 5000)).mentions("--resume"));
     check_refused(run_of(out, 5000) + " --resume --time-limit 2h");
-}
-
-// Processor time of all child processes that have ended.
-double children_s() {
-    rusage used{};
-    getrusage(RUSAGE_CHILDREN, &used);
-    return static_cast<double>(used.ru_utime.tv_sec) +
-           1e-6 * static_cast<double>(used.ru_utime.tv_usec);
 }
 
 // Every batch of this study takes a minute of processor time.

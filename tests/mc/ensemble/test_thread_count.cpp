@@ -1,7 +1,10 @@
 // Checks the number of a run's threads and their placement: OMP_NUM_THREADS, OMP_THREAD_LIMIT and
 // numerics.threads, ranks on the same machine, OMP_PROC_BIND and OMP_PLACES.
+#include <atomic>
+
 #include "machine/team.hpp"
 #include "tests/mc/program.hpp"
+#include "tests/test.hpp"
 
 namespace gearpod::test_thread_count {
 
@@ -106,6 +109,50 @@ TEST_CASE("Only the team is bound to places: one per thread, none for the main t
     CHECK(places[0].find_first_of("-,") == std::string::npos);
     CHECK(places[1].find_first_of("-,") == std::string::npos);
     CHECK_FALSE(run.mentions("of 3"));
+}
+
+// Checks OpenMP teams: every task runs once on as many threads as OpenMP grants, and exceptions are
+// not lost.
+
+TEST_CASE("Every index is processed once, for any team size") {
+    for (const int threads : {1, 2, 3, 7}) {
+        for (const std::size_t count : {0, 1, 2, 100}) {
+            std::vector<std::atomic<int>> times(count);
+            machine::for_each_index(count, threads, [&](std::size_t i) { ++times[i]; });
+            for (const auto& each : times) {
+                REQUIRE(each == 1);
+            }
+        }
+    }
+}
+
+TEST_CASE("Every thread of a team receives the team's size") {
+    for (const int threads : {1, 2, 5}) {
+        std::atomic<int> calls{0};
+        std::atomic<bool> same{true};
+        machine::run_team(threads, [&](int granted) {
+            ++calls;
+            same = same && granted == threads;
+        });
+        CHECK(calls == threads);
+        CHECK(same);
+    }
+}
+
+TEST_CASE("An exception in a team is rethrown after the others have finished") {
+    std::atomic<int> calls{0};
+    const auto work = [&](std::size_t i) {
+        ++calls;
+        if (i == 3) {
+            throw std::runtime_error("the fourth");
+        }
+    };
+    CHECK_THROWS_WITH(machine::for_each_index(50, 2, work), "the fourth");
+    CHECK(calls == 50);
+    std::atomic<int> threads{0};
+    CHECK_THROWS_WITH(machine::run_team(3, [&](int) { work(static_cast<std::size_t>(++threads)); }),
+                      "the fourth");
+    CHECK(threads == 3);
 }
 
 }  // namespace gearpod::test_thread_count

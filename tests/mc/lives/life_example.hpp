@@ -22,16 +22,11 @@ inline const std::vector<std::string> kLife{
 
 // The same as options of the program.
 inline std::string life_arguments() {
-    std::string arguments;
-    for (const std::string& one : kLife) {
-        arguments += " --set '" + one + "'";
-    }
-    return arguments;
+    return set_options(kLife);
 }
 
-inline mc::Study life_study(std::vector<std::string> more = {}) {
-    more.insert(more.begin(), kLife.begin(), kLife.end());
-    return shipped_study("planet-crack-ideal.toml", more);
+inline mc::Study life_study(const std::vector<std::string>& more = {}) {
+    return shipped_study("planet-crack-ideal.toml", joined(kLife, more));
 }
 
 }  // namespace gearpod::test

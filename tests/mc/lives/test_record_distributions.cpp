@@ -116,11 +116,9 @@ TEST_CASE("Keys of inputs per record are read, written and refused by name") {
     CHECK(*mc::read_study_text(mc::resolved_text(study), "again").study == study);
 
     const auto refused = [&](const std::vector<std::string>& more) {
-        std::vector<std::string> all = kLife;
-        all.insert(all.end(), more.begin(), more.end());
         std::string text;
         for (const auto& problem :
-             mc::read_study(test::study("planet-crack-ideal.toml"), all).problems) {
+             mc::read_study(test::study("planet-crack-ideal.toml"), joined(kLife, more)).problems) {
             text += mc::format(problem) + "\n";
         }
         return text;

@@ -24,11 +24,6 @@ std::vector<std::uint64_t> bits(const machine::AlignedVector& values, int lanes,
     return all;
 }
 
-std::vector<std::string> with(std::vector<std::string> list, const std::vector<std::string>& more) {
-    list.insert(list.end(), more.begin(), more.end());
-    return list;
-}
-
 struct BadStudy {
     const std::string& study;
     std::vector<std::string> overrides;
@@ -123,8 +118,9 @@ TEST_CASE("Invalid fluctuations and a weight without effect are refused with key
                                                       "operation.torque_noise_band_Hz=1e7"})),
         Catch::Contains("too few for the fastest fluctuation"));
     for (const BadScene& bad : kBadScenes) {
-        test::check_scene_refused(test::study_of_text(kExampleStudy, with(kFast, bad.overrides)),
-                                  bad.key, {bad.words});
+        test::check_scene_refused(
+            test::study_of_text(kExampleStudy, test::joined(kFast, bad.overrides)), bad.key,
+            {bad.words});
     }
 }
 
@@ -181,9 +177,9 @@ TEST_CASE("Simulated samples lie at the times of their phases") {
     // One sun turn takes 15.39 meshes. The speed varies once per mesh period, which then takes T
     // times the mean of 1 / (1 + A sin), 1 / sqrt(1 - A^2).
     const Study study = test::study_of_text(
-        kExampleStudy,
-        with(kFast, {"operation.speed_fluctuation=0.2", "operation.speed_fluctuation_order=15.39",
-                     "features.use=[\"te_rms\"]", "fault.kind=none"}));
+        kExampleStudy, test::joined(kFast, {"operation.speed_fluctuation=0.2",
+                                            "operation.speed_fluctuation_order=15.39",
+                                            "features.use=[\"te_rms\"]", "fault.kind=none"}));
     const Scene scene(study);
     const Simulation out = simulate(scene.tile(), {Group::test, 0}, 12);
     const auto samples = static_cast<std::size_t>(scene.record().samples);
@@ -202,10 +198,10 @@ TEST_CASE("Simulated samples lie at the times of their phases") {
 TEST_CASE("Fluctuations and weight give the same bits in 1, 4 and 8 lanes, with any neighbours") {
     const Study study = test::study_of_text(
         kExampleStudy,
-        with(kFast, {"operation.torque_noise=0.1", "operation.torque_noise_band_Hz=20",
-                     "operation.speed_noise=0.01", "operation.speed_noise_band_Hz=10",
-                     "effects.gravity=true", "features.use=[\"te_rms\"]",
-                     "effects.separation=one-sided"}));
+        test::joined(kFast, {"operation.torque_noise=0.1", "operation.torque_noise_band_Hz=20",
+                             "operation.speed_noise=0.01", "operation.speed_noise_band_Hz=10",
+                             "effects.gravity=true", "features.use=[\"te_rms\"]",
+                             "effects.separation=one-sided"}));
     const Scene scene(study);
     std::vector<GearboxId> ids;
     for (std::uint64_t i = 0; i < 8; ++i) {

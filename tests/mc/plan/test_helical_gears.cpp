@@ -25,12 +25,11 @@ double relative_range(const mc::SceneMesh& mesh) {
 }
 
 TEST_CASE("A helix angle of zero gives the bits of an omitted one") {
-    std::vector<std::string> few = tests::kFast;
-    few.insert(few.end(), {"ensemble.instances=4", "ensemble.threshold_instances=1"});
+    const auto few =
+        joined(tests::kFast, {"ensemble.instances=4", "ensemble.threshold_instances=1"});
     const auto reference = feature_bits(study_of_text(tests::kExampleStudy, few));
-    std::vector<std::string> all = few;
-    all.push_back("gearbox.helix_angle_deg=0");
-    CHECK(feature_bits(study_of_text(tests::kExampleStudy, all)) == reference);
+    CHECK(feature_bits(study_of_text(tests::kExampleStudy,
+                                     joined(few, {"gearbox.helix_angle_deg=0"}))) == reference);
 }
 
 TEST_CASE("Helical gears are the gears of their normal module in the transverse plane") {
@@ -67,12 +66,12 @@ TEST_CASE("The stiffness of a helical set with an overlap of about one is nearly
 // A crack's passage covers contact ratio and overlap, equally in recorded meshes that are reused
 // and in meshes that are integrated one by one.
 TEST_CASE("Reused and integrated meshes of a cracked helical gearbox agree") {
-    const auto features = [](std::vector<std::string> overrides) {
-        overrides.insert(overrides.end(),
-                         {"gearbox.helix_angle_deg=12", "operation.carrier_speed_rpm=60",
-                          "sensor.sampling_Hz=20000", "sensor.encoder_sampling_Hz=20000",
-                          "sensor.noise_levels=[0]"});
-        Study study = shipped_study("planet-crack-ideal.toml", overrides);
+    const auto features = [](const std::vector<std::string>& overrides) {
+        Study study = shipped_study(
+            "planet-crack-ideal.toml",
+            joined(overrides, {"gearbox.helix_angle_deg=12", "operation.carrier_speed_rpm=60",
+                               "sensor.sampling_Hz=20000", "sensor.encoder_sampling_Hz=20000",
+                               "sensor.noise_levels=[0]"}));
         study.ensemble.threshold_instances = 1;
         study.ensemble.instances = 7;
         return run(study);
@@ -103,10 +102,9 @@ TEST_CASE("A chip of helical teeth is at the end of the face that engages first"
               "fault.depth_mm = { distribution = \"levels\", values = [0, 1, 2, 3, 4.3] }\n"}) {
             text.erase(text.find(line), line.size());
         }
-        std::vector<std::string> all{"fault.kind='chip'", "fault.member='sun'", "fault.chip_mm=4",
-                                     helix};
-        all.insert(all.end(), more.begin(), more.end());
-        const Scene scene(study_of_text(text, all));
+        const Scene scene(study_of_text(
+            text,
+            joined({"fault.kind='chip'", "fault.member='sun'", "fault.chip_mm=4", helix}, more)));
         const auto mesh = scene.gearbox().fault().mesh(0, 4e-3);
         const auto& healthy = *scene.gearbox().stiffness->meshes()[0].stiffness;
         double lost = 0.0, moment = 0.0;

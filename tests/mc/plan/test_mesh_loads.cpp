@@ -1,6 +1,4 @@
 // Checks the nominal mesh loads of studies, and the warnings of torques that cannot be meant.
-#include <fmt/format.h>
-
 #include "mc/plan/mesh_loads.hpp"
 #include "tests/mc/program.hpp"
 #include "tests/mc/study_file.hpp"
@@ -83,18 +81,6 @@ TEST_CASE("describe prints tooth stresses, and describe and run warn of the torq
     CHECK(program("describe" + few + small).mentions("check the unit (N m, not kN m)"));
     check_mentions(program("run" + few + small + " --quiet --out " + folder.file("r.h5")),
                    {"operation.torque_N_m: 0.45 N m on the sun leaves the teeth"});
-}
-
-// Prints the table of the shipped studies' loads.
-TEST_CASE("loads of the shipped studies", "[.loads]") {
-    for (const std::string& name : studies_with_gears()) {
-        for (const mc::MeshLoad& load : mc::mesh_loads(shipped_study(name))) {
-            std::puts(fmt::format("| {} | {} | {} | errors {:.3g} um |", name,
-                                  mc::mesh_name(load.members), mc::load_text(load),
-                                  1e6 * load.error_m)
-                          .c_str());
-        }
-    }
 }
 
 }  // namespace gearpod::test_mesh_loads

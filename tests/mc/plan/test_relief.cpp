@@ -15,16 +15,11 @@ const std::vector<std::string> kRelief{
     "gearbox.planet.tip_relief_um=5", "gearbox.planet.tip_relief_length_mm=4"};
 
 mc::StudyReading reading_of(const std::vector<std::string>& more) {
-    std::vector<std::string> all = kRelief;
-    all.insert(all.end(), more.begin(), more.end());
-    return mc::read_study_text(tests::kExampleStudy, "study.toml", all);
+    return mc::read_study_text(tests::kExampleStudy, "study.toml", test::joined(kRelief, more));
 }
 
 mc::Study study_of(const std::vector<std::string>& more) {
-    const auto reading = reading_of(more);
-    INFO(mc::format(reading.problems));
-    REQUIRE(reading.study);
-    return *reading.study;
+    return test::valid_study(reading_of(more));
 }
 
 // Quasi-static equilibrium at the loaded approach: the springs of the integration together carry

@@ -1,10 +1,14 @@
-// Checks random numbers, distributions and gearboxes sampled from them.
+// Checks random numbers, distributions, and gearboxes and planets sampled from them.
 #include <boost/math/distributions/lognormal.hpp>
 #include <boost/math/distributions/normal.hpp>
+#include <cstring>
+#include <variant>
 
 #include "mc/files/input/document.hpp"
 #include "mc/plan/ensemble_plan.hpp"
 #include "mc/plan/sampling.hpp"
+#include "mc/study/gears.hpp"
+#include "mc/study/schema/schema.hpp"
 #include "signals/noise/normals.hpp"
 #include "tests/mc/plan/random_samples.hpp"
 #include "tests/mc/scene_examples.hpp"
@@ -17,7 +21,7 @@ using namespace tests;
 using tests::samples_of;
 
 Study study_with(const std::vector<std::string>& overrides) {
-    return gearpod::test::valid_study(read_study_text(kExampleStudy, "study.toml", overrides));
+    return gearpod::test::study_of_text(kExampleStudy, overrides);
 }
 
 double mean_of(const std::vector<double>& values) {
@@ -102,31 +106,27 @@ TEST_CASE("Random values of each distribution follow its distribution function")
     const boost::math::normal normal;
     const auto phi = [&](double x) { return boost::math::cdf(normal, x); };
 
-    CHECK(kolmogorov_smirnov(samples_of("{distribution='uniform', low=-2, high=3}", kSamples),
-                             [](double x) { return (x + 2) / 5; }) < kKsLimit);
-    CHECK(kolmogorov_smirnov(samples_of("{distribution='normal', mean=5, sd=2}", kSamples),
-                             [&](double x) { return phi((x - 5) / 2); }) < kKsLimit);
-    const boost::math::lognormal lognormal(std::log(3.0), std::sqrt(std::log(1 + 0.4 * 0.4)));
-    CHECK(kolmogorov_smirnov(samples_of("{distribution='lognormal', median=3, cv=0.4}", kSamples),
-                             [&](double x) { return boost::math::cdf(lognormal, x); }) < kKsLimit);
-    const auto triangular = [](double x) {
-        return x <= 1 ? x * x / 4 : 1 - (4 - x) * (4 - x) / 12;
+    const auto check = [](const std::string& law, const std::function<double(double)>& cdf) {
+        INFO(law);
+        CHECK(kolmogorov_smirnov(samples_of("{distribution=" + law + "}", kSamples), cdf) <
+              kKsLimit);
     };
-    CHECK(kolmogorov_smirnov(
-              samples_of("{distribution='triangular', low=0, mode=1, high=4}", kSamples),
-              triangular) < kKsLimit);
+    check("'uniform', low=-2, high=3", [](double x) { return (x + 2) / 5; });
+    check("'normal', mean=5, sd=2", [&](double x) { return phi((x - 5) / 2); });
+    const boost::math::lognormal lognormal(std::log(3.0), std::sqrt(std::log(1 + 0.4 * 0.4)));
+    check("'lognormal', median=3, cv=0.4",
+          [&](double x) { return boost::math::cdf(lognormal, x); });
+    check("'triangular', low=0, mode=1, high=4",
+          [](double x) { return x <= 1 ? x * x / 4 : 1 - (4 - x) * (4 - x) / 12; });
     // Truncation around the mean, in the upper tail, in the lower tail.
     const double bounds[][2] = {{-1, 0.5}, {4, 5}, {-9, -6}};
     for (const auto& [low, high] : bounds) {
-        const std::string text =
-            "{distribution='truncated-normal', mean=0, sd=1, low=" + std::to_string(low) +
-            ", high=" + std::to_string(high) + "}";
         // Differences of small tails, not of values near one.
         const double sign = low >= 0 ? -1.0 : 1.0;
         const double below = phi(sign * low), above = phi(sign * high);
-        CHECK(kolmogorov_smirnov(samples_of(text, kSamples), [&, a = below, b = above](double x) {
-                  return (phi(sign * x) - a) / (b - a);
-              }) < kKsLimit);
+        check("'truncated-normal', mean=0, sd=1, low=" + std::to_string(low) +
+                  ", high=" + std::to_string(high),
+              [&, a = below, b = above](double x) { return (phi(sign * x) - a) / (b - a); });
     }
 }
 
@@ -237,9 +237,8 @@ TEST_CASE("An instance does not depend on what was sampled before and how often"
         CHECK(same(backward.draw({Group::test, i}).inputs, first[i]));
     }
     CHECK_FALSE(same(forward.draw({Group::threshold, 5}).inputs, first[5]));
-    CHECK_FALSE(
-        same(Sampler(DrawPlan{study_with({"ensemble.seed=8"})}).draw({Group::test, 5}).inputs,
-             first[5]));
+    const Sampler reseeded(DrawPlan{study_with({"ensemble.seed=8"})});
+    CHECK_FALSE(same(reseeded.draw({Group::test, 5}).inputs, first[5]));
 }
 
 TEST_CASE("A new random input leaves the random values of the others unchanged") {
@@ -283,24 +282,25 @@ TEST_CASE("Inertias come from J / r^2, J, or a solid disc on the pitch radius") 
     CHECK(given.bodies[Member::sun].inertia_over_r2_kg == 0.39);
 }
 
+void check_columns(const EnsemblePlan& plan, const std::vector<std::string>& names) {
+    std::vector<std::string> found;
+    for (const auto& column : plan.inputs) {
+        found.push_back(column.name + " [" + column.unit + "]");
+    }
+    CHECK(found == names);
+}
+
 TEST_CASE("A fixed-shaft gearbox's inputs are sampled like any other's") {
     const std::vector<std::string> overrides{
         "random.gearbox.motor_coupling_stiffness_N_m_rad={distribution='lognormal', median=4.4e4, "
         "cv=0.2}",
         "random.operation.load_torque_N_m={distribution='uniform', low=28, high=31}",
         "random.fault.chip_mm={distribution='levels', values=[0, 4, 8]}"};
-    const Study study = [&] {
-        return gearpod::test::valid_study(
-            read_study_text(kFixedShaftStudy, "study.toml", overrides));
-    }();
+    const Study study = gearpod::test::study_of_text(kFixedShaftStudy, overrides);
     const Sampler sampler(DrawPlan{study});
     CHECK(speed_member(study) == Member::pinion);
-    const EnsemblePlan plan(study);
-    const auto& columns = plan.inputs;
-    REQUIRE(columns.size() == 3);
-    CHECK(columns[0].name == "motor_coupling_stiffness_N_m_rad");
-    CHECK(columns[0].unit == "N m/rad");
-    CHECK(columns[2].name == "fault_chip_m");
+    check_columns(EnsemblePlan(study), {"motor_coupling_stiffness_N_m_rad [N m/rad]",
+                                        "load_torque_N_m [N m]", "fault_chip_m [m]"});
     std::set<double> stiffnesses;
     for (std::uint64_t i = 0; i < 6; ++i) {
         const Realization drawn = sampler.draw({Group::test, i});
@@ -319,11 +319,12 @@ TEST_CASE("A fixed-shaft gearbox's inputs are sampled like any other's") {
 
 TEST_CASE("A fixed-shaft gearbox's discs and balanced load follow from its gears") {
     // Source: Tian (2004), Table 4.1; the inertias are discs of the pitch radii.
-    std::string text = replaced(kFixedShaftStudy, "pinion.inertia_kg_m2 = 4.3659e-4\n", "");
-    text = replaced(replaced(text, "gear.inertia_kg_m2 = 8.3602e-3\n", ""),
-                    "load_torque_N_m = 48.8\n", "");
-    const Study reading = gearpod::test::valid_study(read_study_text(text, "study.toml"));
-    const InstanceInputs inputs = nominal_inputs(reading);
+    std::string text = kFixedShaftStudy;
+    for (const char* line : {"pinion.inertia_kg_m2 = 4.3659e-4\n",
+                             "gear.inertia_kg_m2 = 8.3602e-3\n", "load_torque_N_m = 48.8\n"}) {
+        text = replaced(text, line, "");
+    }
+    const InstanceInputs inputs = nominal_inputs(gearpod::test::study_of_text(text));
     CHECK(inputs.bodies[Member::pinion].inertia_kg_m2 == Approx(4.3659e-4).epsilon(5e-4));
     CHECK(inputs.bodies[Member::gear].inertia_kg_m2 == Approx(8.3602e-3).epsilon(5e-4));
     CHECK(inputs.fixed_shaft.load_torque_N_m == Approx(11.9 * 48 / 19));
@@ -334,15 +335,8 @@ TEST_CASE("Rows of the results hold the sampled values in SI under their names")
         study_with({"random.operation.carrier_speed_rpm={distribution='uniform', low=8, high=9}"});
     const Sampler sampler(DrawPlan{study});
     const EnsemblePlan plan(study);
-    const auto& columns = plan.inputs;
-    REQUIRE(columns.size() == 4);
-    CHECK(columns[0].name == "planet_bearing_stiffness_N_m");
-    CHECK(columns[0].unit == "N/m");
-    CHECK(columns[1].name == "carrier_speed_rad_s");
-    CHECK(columns[1].unit == "rad/s");
-    CHECK(columns[2].name == "path_exponent");
-    CHECK(columns[2].unit == "1");
-    CHECK(columns[3].name == "fault_depth_m");
+    check_columns(plan, {"planet_bearing_stiffness_N_m [N/m]", "carrier_speed_rad_s [rad/s]",
+                         "path_exponent [1]", "fault_depth_m [m]"});
     CHECK(speed_member(study) == Member::carrier);
     for (const Group group : {Group::test, Group::threshold}) {
         const Realization drawn = sampler.draw({group, 3});
@@ -350,6 +344,103 @@ TEST_CASE("Rows of the results hold the sampled values in SI under their names")
         plan.append_inputs(drawn.random_values, 1.0, row);
         CHECK(row == std::vector<double>{drawn.inputs.bodies[Member::planet].bearing_stiffness_N_m,
                                          drawn.inputs.speed_rad_s, drawn.inputs.path_exponent});
+    }
+}
+
+TEST_CASE("Planets differ by given and by random deviations, independently in each gearbox") {
+    const Study given = study_with(
+        {"gearbox.pin_tangential_um=[10, 0, 0, 0]", "gearbox.pin_radial_um=[0, 5, 0, 0]"});
+    const Planets listed = nominal_inputs(given).planets;
+    // Planet 1 lies on the x axis and moves towards y, planet 2 on the y axis.
+    CHECK(listed[0].pin_x_m == Approx(0.0).margin(1e-20));
+    CHECK(listed[0].pin_y_m == Approx(10e-6));
+    CHECK(listed[1].pin_x_m == Approx(0.0).margin(1e-20));
+    CHECK(listed[1].pin_y_m == Approx(5e-6));
+
+    const std::vector<std::string> scatter{"gearbox.pin_tangential_rms_um=8",
+                                           "gearbox.pin_radial_rms_um=3"};
+    const Sampler sampler(DrawPlan{study_with(scatter)});
+    double tangential = 0.0, radial = 0.0;
+    constexpr int kGearboxes = 2000;
+    for (std::uint64_t i = 0; i < kGearboxes; ++i) {
+        const Planets planets = sampler.draw({Group::test, i}).inputs.planets;
+        for (int n = 0; n < 4; ++n) {
+            const double psi = 0.5 * std::numbers::pi * n;
+            const auto& p = planets[static_cast<std::size_t>(n)];
+            const double along = p.pin_y_m * std::cos(psi) - p.pin_x_m * std::sin(psi);
+            const double out = p.pin_x_m * std::cos(psi) + p.pin_y_m * std::sin(psi);
+            tangential += along * along / (4 * kGearboxes);
+            radial += out * out / (4 * kGearboxes);
+        }
+        CHECK(planets[4].pin_x_m == 0.0);  // there is no fifth planet
+    }
+    CHECK(std::sqrt(tangential) == Approx(8e-6).epsilon(0.04));
+    CHECK(std::sqrt(radial) == Approx(3e-6).epsilon(0.04));
+    // A random scatter scales the deviations of its gearbox.
+    const std::vector<std::string> twice{"gearbox.pin_tangential_rms_um=16",
+                                         "gearbox.pin_radial_rms_um=6"};
+    const Planets once = sampler.draw({Group::test, 7}).inputs.planets;
+    const Planets twice_as_far =
+        Sampler(DrawPlan{study_with(twice)}).draw({Group::test, 7}).inputs.planets;
+    CHECK(twice_as_far[2].pin_x_m == Approx(2.0 * once[2].pin_x_m));
+}
+
+TEST_CASE("Different planets repeat every mesh: reused records equal integration of all meshes") {
+    const auto features = [](const std::vector<std::string>& overrides) {
+        Study study = gearpod::test::shipped_study(
+            "planet-crack-ideal.toml",
+            gearpod::test::joined(overrides,
+                                  {"operation.carrier_speed_rpm=60", "sensor.sampling_Hz=20000",
+                                   "sensor.encoder_sampling_Hz=20000", "sensor.noise_levels=[0]"}));
+        study.ensemble.threshold_instances = 1;
+        study.ensemble.instances = 7;
+        const Results results = gearpod::test::run(study);
+        std::vector<double> values;
+        for (const auto& feature : results.features) {
+            values.insert(values.end(), feature.values.begin(), feature.values.end());
+        }
+        return values;
+    };
+    const std::vector<std::string> unlike{"gearbox.pin_tangential_rms_um=20",
+                                          "gearbox.pin_radial_rms_um=20"};
+    const auto reused = features(unlike), alike = features({}),
+               full_horizon = features(gearpod::test::joined(unlike, {"numerics.horizon=full"}));
+    REQUIRE(reused.size() == full_horizon.size());
+    double moved = 0.0;
+    for (std::size_t i = 0; i < reused.size(); ++i) {
+        INFO(i);
+        CHECK(reused[i] == Approx(full_horizon[i]).epsilon(1e-6).margin(1e-6));
+        moved = std::max(moved, std::abs(reused[i] / alike[i] - 1.0));
+    }
+    CHECK(moved > 0.02);
+}
+
+bool equal_inputs(const InstanceInputs& a, const InstanceInputs& b) {
+    return std::memcmp(&a, &b, sizeof a) == 0;
+}
+
+TEST_CASE("A drawn value of any input gives the gearbox of a study with this nominal value") {
+    for (const std::string& text : {tests::kExampleStudy, tests::kFixedShaftStudy}) {
+        Study study = gearpod::test::study_of_text(text);
+        study.random.clear();
+        REQUIRE_FALSE(has_random_planets(study));
+        const Sampler sampler(DrawPlan{study});
+        int effective = 0;
+        for (const Key& key : schema()) {
+            if (!key.may_be_random()) {
+                continue;
+            }
+            INFO(key.path());
+            const auto& access = std::get<NumberAccess>(key.access);
+            const double value = 1.25 * access.get(study).value_or(2.0) + 0.125;
+            Study other = study;
+            access.set(other, value);
+            const std::vector<GivenInput> given{{input_id(key.path()), value}};
+            const InstanceInputs inputs = sampler.draw({Group::test, 0}, given).inputs;
+            CHECK(equal_inputs(inputs, nominal_inputs(other)));
+            effective += equal_inputs(inputs, nominal_inputs(study)) ? 0 : 1;
+        }
+        CHECK(effective > 20);
     }
 }
 

@@ -225,18 +225,16 @@ TEST_CASE(
     for (const auto& change : changes) {
         const auto eight = test::feature_bits(test::study_of_text(kFixedShaftStudy, change));
         for (const char* lanes : {"numerics.lanes=4", "numerics.lanes=1"}) {
-            auto narrow = change;
-            narrow.push_back(lanes);
-            CHECK(test::feature_bits(test::study_of_text(kFixedShaftStudy, narrow)) == eight);
+            CHECK(test::feature_bits(test::study_of_text(kFixedShaftStudy,
+                                                         test::joined(change, {lanes}))) == eight);
         }
     }
     const std::vector<std::string> pitch{"numerics.horizon=full", "gearbox.pitch_error_um=3"};
     const auto perfect = test::feature_bits(test::study_of_text(kQuasiStaticStudy));
     const auto eight = test::feature_bits(test::study_of_text(kQuasiStaticStudy, pitch));
     for (const char* lanes : {"numerics.lanes=4", "numerics.lanes=1"}) {
-        auto narrow = pitch;
-        narrow.push_back(lanes);
-        CHECK(test::feature_bits(test::study_of_text(kQuasiStaticStudy, narrow)) == eight);
+        CHECK(test::feature_bits(
+                  test::study_of_text(kQuasiStaticStudy, test::joined(pitch, {lanes}))) == eight);
         CHECK(test::feature_bits(test::study_of_text(kQuasiStaticStudy, {lanes})) == perfect);
     }
     CHECK(eight != perfect);

@@ -1,4 +1,4 @@
-// Checks studies of gears with profile shift.
+// Checks studies of gears with profile shift, and of gears with rims and webs.
 #include "mc/study/gears.hpp"
 #include "tests/mc/study_example.hpp"
 #include "tests/mc/study_file.hpp"
@@ -27,24 +27,16 @@ const std::vector<std::string> kBell{"gearbox.sun.teeth=27", "gearbox.planet.tee
                                      "gearbox.ring.teeth=99", "gearbox.sun.shift=0.3",
                                      "gearbox.centre_distance_mm=100.0125"};
 
-std::vector<std::string> bell_with(const std::vector<std::string>& more) {
-    std::vector<std::string> all = kBell;
-    all.insert(all.end(), more.begin(), more.end());
-    return all;
-}
-
 TEST_CASE("Shifts of zero and the standard centre distance give the bits of omitted ones") {
-    std::vector<std::string> few = tests::kFast;
-    few.insert(few.end(), {"ensemble.instances=6", "ensemble.threshold_instances=1"});
+    const auto few =
+        joined(tests::kFast, {"ensemble.instances=6", "ensemble.threshold_instances=1"});
     const auto reference = feature_bits(study_of_text(tests::kExampleStudy, few));
     for (const std::vector<std::string>& given :
          {std::vector<std::string>{"gearbox.sun.shift=0", "gearbox.planet.shift=0",
                                    "gearbox.ring.shift=0"},
           {"gearbox.planet.shift=0.0", "gearbox.centre_distance_mm=79.375"},
           {"gearbox.centre_distance_mm=79.375"}}) {
-        std::vector<std::string> all = few;
-        all.insert(all.end(), given.begin(), given.end());
-        CHECK(feature_bits(study_of_text(tests::kExampleStudy, all)) == reference);
+        CHECK(feature_bits(study_of_text(tests::kExampleStudy, joined(few, given))) == reference);
     }
 }
 
@@ -103,7 +95,7 @@ TEST_CASE("Faults of shifted teeth weaken them, up to a size that follows their 
         for (const std::string where :
              {"member='sun'", "member='ring'", "member='planet'\nfault.side='sun'",
               "member='planet'\nfault.side='ring'"}) {
-            auto changes = bell_with({"gearbox.tooth_profile='" + profile + "'"});
+            auto changes = joined(kBell, {"gearbox.tooth_profile='" + profile + "'"});
             const auto side = where.find('\n');
             changes.push_back("fault." + where.substr(0, side));
             std::string text = tests::kExampleStudy;
@@ -129,9 +121,10 @@ TEST_CASE("Faults of shifted teeth weaken them, up to a size that follows their 
     }
     // A thicker tooth breaks at a deeper crack.
     const auto largest = [](const std::vector<std::string>& shifts) {
-        std::vector<std::string> all{"fault.side='sun'"};
-        all.insert(all.end(), shifts.begin(), shifts.end());
-        return Scene(study_of_text(tests::kExampleStudy, all)).gearbox().fault().largest_size();
+        return Scene(study_of_text(tests::kExampleStudy, joined({"fault.side='sun'"}, shifts)))
+            .gearbox()
+            .fault()
+            .largest_size();
     };
     CHECK(largest({"gearbox.planet.shift=0.2", "gearbox.sun.shift=-0.2"}) > 1.02 * largest({}));
 }
@@ -152,8 +145,8 @@ TEST_CASE("Impossible shifted gears are refused with the relevant numbers") {
                 "lies inside the base circle, 56.6"));
     CHECK(names(problems_of({"gearbox.sun.tip_mm=51"}), "gearbox.sun.teeth",
                 "does not lie outside the root circle"));
-    CHECK(names(problems_of(bell_with({"gearbox.planets=6"})), "gearbox.planets", "touch"));
-    CHECK(names(problems_of(bell_with({"gearbox.planet_positions_deg=[0, 40, 180, 220]"})),
+    CHECK(names(problems_of(joined(kBell, {"gearbox.planets=6"})), "gearbox.planets", "touch"));
+    CHECK(names(problems_of(joined(kBell, {"gearbox.planet_positions_deg=[0, 40, 180, 220]"})),
                 "gearbox.planet_positions_deg", "of planets 1 and 2 touch"));
     CHECK(names(problems_of({"gearbox.pinion.shift=0.1"}), "gearbox.pinion.shift",
                 "only for gearbox.kind = \"fixed-shaft\""));
@@ -188,10 +181,11 @@ TEST_CASE("A ring's shift that leaves backlash is refused with the value that le
     CHECK(names(loose, three, "of backlash between planets and ring"));
     CHECK(names(loose, three, "(a shift of 0.24"));
     // An explicit distance with the planet's shift makes the ring's shift intentional.
-    CHECK(mc::read_study_text(tests::kExampleStudy, "study.toml",
-                              bell_with({"gearbox.planet.shift=0.2286", "gearbox.ring.shift=0.1"}))
+    CHECK(mc::read_study_text(
+              tests::kExampleStudy, "study.toml",
+              joined(kBell, {"gearbox.planet.shift=0.2286", "gearbox.ring.shift=0.1"}))
               .study);
-    CHECK(names(problems_of(bell_with({"gearbox.ring.shift=0.1"})), three, "of backlash"));
+    CHECK(names(problems_of(joined(kBell, {"gearbox.ring.shift=0.1"})), three, "of backlash"));
 }
 
 TEST_CASE("Real sets that standard teeth cannot form run with their windows on every gear") {
@@ -212,6 +206,65 @@ TEST_CASE("Real sets that standard teeth cannot form run with their windows on e
         }
         CHECK(windows >= 3);
     }
+}
+
+const std::vector<std::string> kBodies{"effects.foundation='elastic-ring'",
+                                       "gearbox.sun.bore_mm=26", "gearbox.planet.bore_mm=40",
+                                       "gearbox.ring.outer_mm=310"};
+
+Scene scene_with(const std::vector<std::string>& more) {
+    return Scene(study_of_text(tests::kExampleStudy, joined(kBodies, more)));
+}
+
+double mean(const Scene& scene, std::size_t mesh) {
+    return mean_total(*scene.gearbox().stiffness->meshes()[mesh].stiffness);
+}
+
+// Source: ISO 6336-1, 1 + ln(b_s / b) / (5 exp(s_R / (5 m_n))).
+TEST_CASE("The meshes of planets with rims and webs have their blank factor") {
+    const Scene discs = scene_with({});
+    const mc::Gearbox gearbox = test::study_of_text(tests::kExampleStudy, kBodies).gearbox;
+    const double face_mm = 1e3 * *gearbox.face_width_m, module_mm = 1e3 * *gearbox.module_m;
+    const auto factor = [&](double web_mm, double rim_mm) {
+        return 1.0 + std::log(web_mm / face_mm) / (5.0 * std::exp(rim_mm / (5.0 * module_mm)));
+    };
+    const Scene planets = scene_with({"gearbox.planet.rim_mm=8", "gearbox.planet.web_mm=10"});
+    CHECK(mean(planets, 0) == Approx(factor(10, 8) * mean(discs, 0)).epsilon(1e-9));
+    CHECK(mean(planets, 1) == Approx(factor(10, 8) * mean(discs, 1)).epsilon(1e-9));
+}
+
+TEST_CASE("A web as wide as the face changes no bit") {
+    const Scene discs = scene_with({});
+    const Scene webs = scene_with({"gearbox.planet.rim_mm=8", "gearbox.planet.web_mm=38.1"});
+    CHECK(mean(webs, 0) == mean(discs, 0));
+    CHECK(mean(webs, 1) == mean(discs, 1));
+}
+
+TEST_CASE("A crack reduces a mesh by the same fraction for any blanks") {
+    const Scene discs = scene_with({});
+    const Scene webs = scene_with({"gearbox.planet.rim_mm=8", "gearbox.planet.web_mm=10"});
+    const double kept = mean(webs, 1) / mean(discs, 1);
+    const auto faulty = [](const Scene& scene, double phase) {
+        const auto mesh = scene.gearbox().fault().mesh(0, 2e-3);
+        return total_at(*mesh, scene.gearbox().stiffness->meshes()[1].stiffness->transitions(),
+                        phase);
+    };
+    for (const double phase : {0.1, 0.5, 0.9, 1.3})
+        CHECK(faulty(webs, phase) == Approx(kept * faulty(discs, phase)).epsilon(1e-7));
+}
+
+TEST_CASE("Every gear has its own bore, and the ring its rim") {
+    const Scene discs = scene_with({});
+    const double sun = mean(discs, 0), ring = mean(discs, 1);
+    const Scene thin_sun = scene_with({"gearbox.sun.bore_mm=40"}),
+                thick_ring = scene_with({"gearbox.ring.outer_mm=330"}),
+                thin_planets = scene_with({"gearbox.planet.bore_mm=60"});
+    CHECK(mean(thin_sun, 1) == ring);
+    CHECK(mean(thin_sun, 0) != Approx(sun).epsilon(1e-3));
+    CHECK(mean(thick_ring, 0) == sun);
+    CHECK(mean(thick_ring, 1) != Approx(ring).epsilon(1e-3));
+    CHECK(mean(thin_planets, 0) != Approx(sun).epsilon(1e-3));
+    CHECK(mean(thin_planets, 1) != Approx(ring).epsilon(1e-3));
 }
 
 }  // namespace gearpod::test_shifted_gears

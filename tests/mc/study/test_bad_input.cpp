@@ -1,5 +1,7 @@
 // Checks that every kind of error in a study file is reported with file, line, key and remedy.
+#include "mc/files/input/document.hpp"
 #include "mc/study/study.hpp"
+#include "tests/mc/program.hpp"
 #include "tests/mc/study_example.hpp"
 #include "tests/mc/study_problems.hpp"
 #include "tests/test.hpp"
@@ -102,6 +104,7 @@ const BadSettings kBadSettings[] = {
     // Impossible gears and cracks.
     {"gearbox.ring.teeth = 77", "cannot be assembled: the ring has 77 teeth"},
     {"gearbox.planets = 5", "cannot be assembled"},
+    {"gearbox.centre_distance_mm = 70", "the other keys give 79.375 mm"},  // (19 + 31) 3.175 mm / 2
     {"fault.planet = 5", "is 5, but there are 4 planets"},
     {"fault.depth_mm = 20", "20 mm is longer than the tooth"},
     {"random.fault.depth_mm = { distribution = \"levels\", values = [0, 20] }",
@@ -353,6 +356,140 @@ TEST_CASE("No damage to a study file leads to an exception") {
             CHECK_NOTHROW(read_study_text(damaged, "damaged.toml"));
         }
     }
+}
+
+TEST_CASE("All gears that do not mesh are named, on the line of the angle or the smaller gear") {
+    // Lengths in modules, tip circles one module from the pitch circles. True if the mate's contact
+    // reaches below the base circle of the gear of z1 teeth: the length of the line of action up to
+    // there is (r1 +- r2) sin a.
+    const auto undercuts = [](int z1, int z2, bool internal, double angle_deg) {
+        const double a = angle_deg * M_PI / 180.0, side = internal ? -1.0 : 1.0;
+        const double r1 = 0.5 * z1, r2 = 0.5 * z2, tip = r2 + side, base = r2 * std::cos(a);
+        const double reach = std::sqrt(tip * tip - base * base),
+                     room = (r2 + side * r1) * std::sin(a);
+        return side * reach > side * room;
+    };
+    struct Train {
+        int planets, sun, planet, ring;
+        const char *angle_deg, *marker, *key;
+    };
+    const Train trains[] = {
+        {4, 19, 31, 81, "14.5", "pressure_angle", "gearbox.pressure_angle_deg"},
+        {6, 20, 10, 40, "20", "planet.teeth", "gearbox.planet.teeth"},
+        {6, 20, 10, 40, "20.5", "planet.teeth", "gearbox.planet.teeth"},
+    };
+    for (const Train& train : trains) {
+        std::string text = example_with("pressure_angle_deg = 20",
+                                        "pressure_angle_deg = " + std::string(train.angle_deg));
+        const auto set = [&](const std::string& from, const std::string& key, int value) {
+            text.replace(text.find(from), from.size(), key + " = " + std::to_string(value));
+        };
+        set("planets = 4", "planets", train.planets);
+        set("sun.teeth = 19", "sun.teeth", train.sun);
+        set("planet.teeth = 31", "planet.teeth", train.planet);
+        set("ring.teeth = 81", "ring.teeth", train.ring);
+        const double angle_deg = std::stod(train.angle_deg);
+        REQUIRE(undercuts(std::min(train.sun, train.planet), std::max(train.sun, train.planet),
+                          false, angle_deg));
+        REQUIRE(undercuts(train.planet, train.ring, true, angle_deg));
+        const auto problems = read_study_text(text, "bad.toml").problems;
+        INFO(format(problems));
+        REQUIRE(problems.size() == 2);
+        for (const Problem& problem : problems) {
+            CHECK(problem.line == line_of(text, train.marker));
+            CHECK(problem.key == train.key);
+        }
+        CHECK(mentions(problems[0], "sun and planet do not mesh (the tips of " +
+                                        std::to_string(std::max(train.sun, train.planet)) +
+                                        " teeth reach below the base circle"));
+        CHECK(mentions(problems[1], "planet and ring do not mesh (the tips of " +
+                                        std::to_string(train.ring) + " teeth"));
+    }
+}
+
+TEST_CASE("Gears without tooth contact at some phase are refused") {
+    const auto problems =
+        read_study_text(example_with("planets = 4", "planets = 4\naddendum_coefficient = 0.2"),
+                        "bad.toml")
+            .problems;
+    REQUIRE(problems.size() == 2);
+    CHECK(problems[0].key == "gearbox.sun.teeth");
+    CHECK(mentions(problems[0], "sun and planet do not mesh (the contact ratio of 19 against 31"));
+    CHECK(problems[1].key == "gearbox.planet.teeth");
+    CHECK(mentions(problems[1], "planet and ring do not mesh (the contact ratio of 31 against 81"));
+}
+
+std::string repeated(int count, const std::string& part) {
+    std::string all;
+    for (int i = 0; i < count; ++i) {
+        all += part;
+    }
+    return all;
+}
+
+TEST_CASE("A study nested too deeply is refused before a parser recurses into it") {
+    constexpr int kDeep = 60000;
+    const std::string dotted = "a" + repeated(kDeep, ".a");
+    const std::string quoted = "\"a\"" + repeated(kDeep, " . 'a'");
+    const std::string texts[] = {
+        "[" + dotted + "]\n",
+        "[[" + dotted + "]]\nx = 1\n",
+        dotted + " = 1\n",
+        quoted + " = 1\n",
+        "gearbox.sun." + dotted + " = 1\n",
+        "x = { " + dotted + " = 1 }\n",
+        "x = " + repeated(kDeep, "[") + repeated(kDeep, "]") + "\n",
+        "x = " + repeated(kDeep, "{ a = ") + "1" + repeated(kDeep, " }") + "\n",
+        repeated(kDeep, "["),
+    };
+    for (const std::string& text : texts) {
+        INFO(text.substr(0, 30));
+        const auto reading = read_study_text("# one\n" + text, "deep.toml");
+        REQUIRE(reading.problems.size() == 1);
+        CHECK(reading.problems[0].line == 2);
+        CHECK(reading.problems[0].what == "nested deeper than 32 levels");
+    }
+    for (const std::string& set :
+         {dotted + "=1", "fault.side={" + dotted + "=1}", "fault.side=" + repeated(kDeep, "[")}) {
+        INFO(set.substr(0, 30));
+        const auto reading = read_study_text(kExampleStudy, "study.toml", {set});
+        REQUIRE(reading.problems.size() == 1);
+        CHECK(reading.problems[0].file == "--set");
+    }
+}
+
+TEST_CASE(
+    "Text that only resembles nesting is accepted: strings, comments, lists of numbers, many "
+    "lines") {
+    using gearpod::mc::line_nested_too_deep;
+    CHECK(line_nested_too_deep("# " + repeated(100, ".a") + "\n") == 0);
+    CHECK(line_nested_too_deep("x = \"" + repeated(100, "\\\".a[{") + "\"\ny = 1") == 0);
+    CHECK(line_nested_too_deep("x = '" + repeated(100, ".a[{") + "'\n") == 0);
+    CHECK(line_nested_too_deep("x = \"\"\"\n" + repeated(100, "\".a[\n") + "\"\"\"\n") == 0);
+    CHECK(line_nested_too_deep("x = [" + repeated(100, "0.1, [1.5], ") + "]\n") == 0);
+    CHECK(line_nested_too_deep(repeated(100, "[a]\nb.c = 1.25\n")) == 0);
+    CHECK(line_nested_too_deep("a" + repeated(31, ".b") + " = 1\n") == 0);
+    CHECK(line_nested_too_deep("\n\na" + repeated(32, ".b") + " = 1\n") == 3);
+}
+
+TEST_CASE("Numbers whose products would overflow are refused in every key") {
+    for (const char* set :
+         {"operation.torque_N_m=1e300", "sensor.noise_m_s2=1e300", "sensor.noise_levels=[0,1e300]",
+          "gearbox.planet.mass_kg=1e-300", "detection.confidence=1e-300",
+          "detection.false_alarm_rate=1e-300", "detection.confidence=0.9999999999999999",
+          "random.operation.torque_N_m={distribution='uniform',low=1,high=1e200}",
+          "random.operation.torque_N_m={distribution='lognormal',median=1e300,cv=1}"}) {
+        const auto reading = read_study_text(kExampleStudy, "study.toml", {set});
+        INFO(set << "\n" << format(reading.problems));
+        CHECK_FALSE(reading.study);
+        CHECK(reading.problems.size() == 1);
+    }
+}
+
+TEST_CASE("A long file that makes toml++ fail is refused immediately, with its line") {
+    const auto reading = read_study_text(repeated(20000, "# comment\n") + "[[[\n", "long.toml");
+    REQUIRE(reading.problems.size() == 1);
+    CHECK(reading.problems[0].line == 20001);
 }
 
 }  // namespace gearpod::test_bad_input

@@ -8,6 +8,7 @@
 #include "tests/mc/scene_examples.hpp"
 #include "tests/mc/study/find_fault.hpp"
 #include "tests/mc/study_example.hpp"
+#include "tests/mc/study_file.hpp"
 #include "tests/shipped_studies.hpp"
 #include "tests/test.hpp"
 
@@ -16,53 +17,18 @@ namespace gearpod::mc::test_study {
 using namespace tests;
 
 Study study_of(const std::string& text, const std::vector<std::string>& overrides = {}) {
-    StudyReading reading = read_study_text(text, "study.toml", overrides);
-    INFO(format(reading.problems));
-    REQUIRE(reading.study);
-    return *reading.study;
+    return test::study_of_text(text, overrides);
 }
 
-// Natural frequencies are defined without teeth.
-const char* const kConstantStudy = R"(
-[gearbox]
-kind = "planetary"
-planets = 3
-pressure_angle_deg = 24.6
-tooth_profile = "constant"
-sun_planet.stiffness_N_m = 5e8
-ring_planet.stiffness_N_m = 5e8
-sun.mass_kg = 0.4
-planet.mass_kg = 0.66
-ring.mass_kg = 2.35
-carrier.mass_kg = 5.43
-sun.inertia_over_r2_kg = 0.39
-planet.inertia_over_r2_kg = 0.61
-ring.inertia_over_r2_kg = 3.0
-carrier.inertia_over_r2_kg = 6.29
-sun.bearing_stiffness_N_m = 1e8
-planet.bearing_stiffness_N_m = 1e8
-ring.bearing_stiffness_N_m = 1e8
-carrier.bearing_stiffness_N_m = 1e8
-support_stiffness_N_m = 1e9
-mesh_damping_time_s = 3.99e-6
-[effects]
-mesh_damping = "proportional"
-inertial_terms = false
-[operation]
-torque_N_m = 0.1
-sun_speed_rpm = 1234.567891234567
-[fault]
-kind = "none"
-[sensor]
-sampling_Hz = 20000
-low_pass_Hz = 0.3
-encoder_sampling_Hz = 333.3333333333333
-encoder_noise_arcsec = 0.7
-[ensemble]
-instances = 1
-threshold_instances = 1
-seed = 9223372036854775807
-)";
+// A gearbox without teeth, with numbers that need all their digits.
+Study constant_study() {
+    return test::shipped_study(
+        "published/lin-parker-n3.toml",
+        {"operation.torque_N_m=0.1", "operation.carrier_speed_rpm=1234.567891234567",
+         "effects.inertial_terms=false", "sensor.low_pass_Hz=0.3",
+         "sensor.encoder_sampling_Hz=333.3333333333333", "sensor.encoder_noise_arcsec=0.7",
+         "ensemble.seed=9223372036854775807"});
+}
 
 TEST_CASE("Values of a study file are in SI units and radians") {
     const Study study = study_of(kExampleStudy);
@@ -181,13 +147,17 @@ TEST_CASE("An override disables tones and pitch errors of the file") {
     CHECK(study_of(kQuasiStaticStudy, smooth).errors.pitch_error_m == 0.0);
 }
 
-TEST_CASE("Spellings of earlier versions are accepted with a notice") {
-    const auto former = read_study_text(kExampleStudy, "s.toml", {"numerics.horizon=march"});
-    REQUIRE(former.study);
-    CHECK(*former.study == study_of(kExampleStudy, {"numerics.horizon=full"}));
-    REQUIRE(former.notices.size() == 1);
-    CHECK(former.notices[0].key == "numerics.horizon");
-    CHECK(former.notices[0].remedy == "write \"full\"");
+TEST_CASE("Spellings of earlier versions are accepted, and their keys ignored, with a notice") {
+    const auto [former, equal, remedy] =
+        GENERATE(table<std::string, std::vector<std::string>, std::string>(
+            {{"numerics.horizon=march", {"numerics.horizon=full"}, "write \"full\""},
+             {"numerics.step_tolerance=1e-5", {}, "remove it"}}));
+    const auto reading = read_study_text(kExampleStudy, "s.toml", {former});
+    REQUIRE(reading.study);
+    CHECK(*reading.study == study_of(kExampleStudy, equal));
+    REQUIRE(reading.notices.size() == 1);
+    CHECK(reading.notices[0].key == former.substr(0, former.find('=')));
+    CHECK(reading.notices[0].remedy == remedy);
     CHECK(read_study_text(kExampleStudy, "s.toml", {}).notices.empty());
 }
 
@@ -264,17 +234,8 @@ TEST_CASE("A removed key is refused with a remedy, and ignored where it has no e
     }
 }
 
-TEST_CASE("Keys of earlier versions are ignored with a notice") {
-    const auto former = read_study_text(kExampleStudy, "s.toml", {"numerics.step_tolerance=1e-5"});
-    REQUIRE(former.study);
-    CHECK(*former.study == study_of(kExampleStudy));
-    REQUIRE(former.notices.size() == 1);
-    CHECK(former.notices[0].key == "numerics.step_tolerance");
-    CHECK(former.notices[0].remedy == "remove it");
-}
-
 TEST_CASE("The resolved text gives the same study, bit for bit") {
-    std::vector<Study> studies{study_of(kExampleStudy), study_of(kConstantStudy)};
+    std::vector<Study> studies{study_of(kExampleStudy), constant_study()};
     for (const std::string& text : {kFixedShaftStudy, kQuasiStaticStudy, kSpatialCrackStudy}) {
         studies.push_back(study_of(text));
     }
@@ -342,7 +303,7 @@ TEST_CASE("The resolved text contains every key that may be given") {
 }
 
 TEST_CASE("A gearbox of constant stiffness may have teeth or none") {
-    CHECK_FALSE(study_of(kConstantStudy).gearbox.has_teeth());
+    CHECK_FALSE(constant_study().gearbox.has_teeth());
     const Study study = study_of(
         kExampleStudy, {"gearbox.tooth_profile='constant'", "gearbox.sun_planet.stiffness_N_m=1e8",
                         "gearbox.ring_planet.stiffness_N_m=1e8", "fault.kind='none'"});
@@ -456,6 +417,35 @@ TEST_CASE("The help lists every key of the schema with its section") {
     CHECK(sensor.find("\n  teeth\n") == std::string::npos);
     CHECK(sensor.size() < help.size() / 3);
     CHECK(schema_help("no such word") == "");
+}
+
+// Checks that a study gives the parameter of its law of mesh damping, and of no other.
+
+template <class Law>
+void check_law(MeshDamping kind) {
+    Study study = study_of(kExampleStudy);
+    const Key* const key = find_key("gearbox", Law::kParameter.key);
+    REQUIRE(key != nullptr);
+    INFO(key->path());
+    CHECK((key->unit.suffix.empty() || key->name.ends_with(key->unit.suffix)));
+    CHECK(key->unit.to_si == 1.0);
+    CHECK(key->may_be_random());
+    for (const ChoiceName& other :
+         std::get<ChoiceAccess>(find_key("effects", "mesh_damping")->access).names) {
+        study.effects.mesh_damping = static_cast<MeshDamping>(other.value);
+        const bool own = study.effects.mesh_damping == kind;
+        CHECK(key->presence(study).need == (own ? Need::required : Need::forbidden));
+    }
+    std::get<NumberAccess>(key->access).set(study, 0.5);
+    CHECK(study.gearbox.mesh_damping[kind] == 0.5);
+    study.effects.motion = Motion::quasi_static;
+    CHECK(key->presence(study).need == Need::optional);
+}
+
+TEST_CASE("The parameter of a law of mesh damping belongs to that law only") {
+#define GEARPOD_MESH_DAMPING(NAME, LAW) check_law<dynamics::LAW>(MeshDamping::NAME);
+#include "dynamics/effects/mesh_dampings.def"
+#undef GEARPOD_MESH_DAMPING
 }
 
 }  // namespace gearpod::mc::test_study

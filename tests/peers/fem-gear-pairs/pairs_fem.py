@@ -20,16 +20,21 @@ MODULE = 3.175
 CRACK_ANGLE = math.radians(45)
 
 
+def stage_gears(teeth, module, distance, sun_shift):
+    """Sun, planet and ring without backlash at a distance; sun and planet with the usual tip shortening."""
+    both = shifts_for(*teeth[:2], module, distance)
+    planet_shift = both - sun_shift
+    ring_shift = shifts_for(*teeth[1:], module, distance, True) - planet_shift
+    shortening = max(0.0, both - (distance / module - sum(teeth[:2]) / 2))
+    return (Gear(teeth[0], module, sun_shift, shortening=shortening),
+            Gear(teeth[1], module, planet_shift, shortening=shortening), Gear(teeth[2], module, ring_shift, internal=True))
+
+
 def bell(which):
     """Stage of studies/bell-206b.toml: 27/35 (sun) or 35/99 (ring), with fillets."""
-    distance, sun_shift = 100.0125, 0.3
-    both = shifts_for(27, 35, MODULE, distance)
-    planet_shift = both - sun_shift
-    ring_shift = shifts_for(35, 99, MODULE, distance, True) - planet_shift
-    shortening = max(0.0, both - (distance / MODULE - 31))
-    sun = Gear(27, MODULE, sun_shift, shortening=shortening, held=24.0)
-    planet = Gear(35, MODULE, planet_shift, shortening=shortening, held=31.5)
-    ring = Gear(99, MODULE, ring_shift, internal=True, held=177.5)
+    distance = 100.0125
+    sun, planet, ring = stage_gears((27, 35, 99), MODULE, distance, 0.3)
+    sun.held, planet.held, ring.held = 24.0, 31.5, 177.5
     force = 1405e3 / 4 / sun.base
     return Pair(*((sun, planet) if which == "sun" else (planet, ring)), distance, STEEL, force)
 
@@ -63,14 +68,8 @@ def steel_discs(teeth, shifts, bore=1 / 3):
 def wind_turbine(which):
     """Second stage of the NREL 5 MW reference gearbox: 18/36 (sun) or 36/93 (ring), m = 21 mm. Bores of
     half the root circles; the ring's rim is three tooth heights."""
-    module, distance, sun_shift, material = 21.0, 584.0, 0.389, (2.06e5, 0.3, 550.0)
-    both = shifts_for(18, 36, module, distance)
-    planet_shift = both - sun_shift
-    ring_shift = shifts_for(36, 93, module, distance, True) - planet_shift
-    shortening = max(0.0, both - (distance / module - 27))
-    sun = Gear(18, module, sun_shift, shortening=shortening)
-    planet = Gear(36, module, planet_shift, shortening=shortening)
-    ring = Gear(93, module, ring_shift, internal=True)
+    distance, material = 584.0, (2.06e5, 0.3, 550.0)
+    sun, planet, ring = stage_gears((18, 36, 93), 21.0, distance, 0.389)
     sun.held, planet.held = sun.root / 2, planet.root / 2
     ring.held = ring.root + 3 * (ring.root - ring.tip)
     return Pair(*((sun, planet) if which == "sun" else (planet, ring)), distance, material,

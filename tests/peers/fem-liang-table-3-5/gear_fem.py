@@ -13,6 +13,7 @@ import tempfile
 import numpy as np
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent / "fem-gear-pairs"))
+from pairs_fem import linear_hertz, stiffness
 from plane_fem import Geometry, Mesh, compliance, edge_loads, solve, table_file
 from teeth import Gear, Pair, turned
 
@@ -23,7 +24,6 @@ TEETH, MODULE = 23, 6.0
 GEAR = Gear(TEETH, MODULE, held=25.0, profile="root-circle")  # the thesis gives no bore
 PAIR = Pair(GEAR, GEAR, TEETH * MODULE, MATERIAL, TORQUE / GEAR.base)
 LOW = GEAR.foot()[0][-1]  # end of the loaded side at the root circle
-LINEAR_HERTZ = 4 * (1 - POISSON**2) / (math.pi * YOUNG * WIDTH)  # mm/N
 
 
 def tooth_outline(geo, turn, contact, cracked):
@@ -110,20 +110,15 @@ def tooth_compliance(size, taus, which):
     return compliance(tooth_geometry(size, contact), [contact], [contact.point, contact.beneath()], MATERIAL)[:, 0]
 
 
-def mesh_stiffness(matrix):
-    """Stiffness with equal approach of all pairs, N/m."""
-    return 1e3 * float(np.linalg.inv(matrix).sum())
-
-
 def row(size, taus):
     """The mesh with pairs at taus: one, or two a mesh period apart."""
     mates = [PAIR.contact_ratio - tau for tau in reversed(taus)]  # gear 2, its low contact first
     mate = gear_compliance(size, mates)[::-1, ::-1]
-    values = [mesh_stiffness(gear_compliance(size, taus) + mate)]
-    cracked = [mesh_stiffness(gear_compliance(size, taus, i) + mate) for i in range(len(taus))]
+    values = [stiffness(gear_compliance(size, taus) + mate)]
+    cracked = [stiffness(gear_compliance(size, taus, i) + mate) for i in range(len(taus))]
     both = [tooth_compliance(size, taus, i) + tooth_compliance(size, mates[::-1], i) for i in range(len(taus))]
     teeth = sum(1e3 / flank for flank, _ in both)
-    beams = sum(1e3 / (centre + LINEAR_HERTZ) for _, centre in both)
+    beams = sum(1e3 / (centre + linear_hertz(MATERIAL)) for _, centre in both)
     return values + cracked + [float("nan")] * (2 - len(taus)) + [teeth, beams]
 
 

@@ -1,9 +1,6 @@
-#!/usr/bin/env python3
 """Planetary gearbox with one unilateral spring for each tooth pair (README.md): 9 + 3 N degrees of freedom, index
-errors, tip relief and corner contact. Usage: planetary.py CASE.json [--onset abrupt|extended] [--out FILE.npz]"""
-import argparse
+errors, tip relief and corner contact; compare.py runs it."""
 import ctypes
-import json
 import math
 import pathlib
 import subprocess
@@ -228,47 +225,3 @@ class Planetary:
         held = self.mass * self.rigid
         k += 1e8 * np.outer(held, held) / (held @ held)
         return self.without_rotation(np.linalg.solve(k, self.force)[None, :])[0]
-
-
-def planet_acceleration(result, gearbox, low_pass_Hz):
-    """Root mean square of planet 1's acceleration along y of the carrier frame below a frequency, m/s2."""
-    a = result["a"][:-1, 10]
-    spectrum = np.fft.rfft(a) / len(a)
-    frequency = np.fft.rfftfreq(len(a), (result["phase"][1] - result["phase"][0]) * gearbox.period)
-    chosen = (frequency > 0) & (frequency < low_pass_Hz)
-    return math.sqrt(2 * np.sum(np.abs(spectrum[chosen])**2))
-
-
-def main():
-    options = argparse.ArgumentParser()
-    options.add_argument("case")
-    options.add_argument("--onset", default="extended", choices=("abrupt", "extended"))
-    options.add_argument("--run-in", type=int, default=0)
-    options.add_argument("--meshes", type=int, default=0)
-    options.add_argument("--steps", type=int, default=0)
-    options.add_argument("--no-relief", action="store_true")
-    options.add_argument("--no-errors", action="store_true")
-    options.add_argument("--out")
-    given = options.parse_args()
-    case = json.loads(pathlib.Path(given.case).read_text())
-    if given.no_relief:
-        case["tip_relief_um"] = [0, 0, 0]
-    if given.no_errors:
-        for key in ("sun_index_um", "planet_index_um", "planet_ring_side_index_um", "ring_index_um"):
-            case[key] = (0 * np.array(case[key])).tolist()
-    gearbox = Planetary(case, given.onset)
-    result = gearbox.run(given.run_in or case["run_in"], given.meshes or case["meshes"], given.steps or case["steps"],
-                     case["samples_per_mesh"])
-    force, q = result["force"][:-1], result["q"][:-1]
-    print(f"{case['title']}: {given.onset} onset, mesh frequency {1 / gearbox.period:.4f} Hz, nominal mesh force "
-          f"{gearbox.force_nominal:.2f} N")
-    print(f"planet 1 acceleration below 800 Hz {planet_acceleration(result, gearbox, 800):.4f} m/s2 rms; out of contact: "
-          f"sun {result['out_of_contact'][0]:.4f}, ring {result['out_of_contact'][1]:.4f}")
-    print(f"mean mesh forces {force.mean(0).round(1)} N, rms deviation {force.std(0).round(1)} N")
-    print(f"motion about its mean, um rms: {(1e6 * q.std(0)).round(4)}")
-    if given.out:
-        np.savez(given.out, **result)
-
-
-if __name__ == "__main__":
-    main()

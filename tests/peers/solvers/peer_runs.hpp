@@ -46,10 +46,6 @@ struct PeerRun {
 // sensor's low-pass and leaves the records' accelerations zero. The first namespace has the options
 // of a release build, whose compiler vectorizes over one realization's states where it can; the
 // second disables this.
-
-// Classical Runge-Kutta on the steps of the task's grid. `motion_only`: without the sensor's
-// low-pass, which leaves the records' accelerations zero. Of a release build, whose compiler makes
-// vectors of one gearbox's states where it can; and without that.
 namespace vectorized {
 PeerRun odeint_rk4(const Task& task, const Extent& extent, int first, int last, bool motion_only);
 PeerRun odeint_wide_rk4(const Task& task, const Extent& extent, bool motion_only);

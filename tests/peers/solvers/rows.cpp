@@ -74,11 +74,6 @@ mc::PilotError error_of(const mc::Study& study, const std::vector<lockstep::Mesh
     return mc::pilot_error(some_of(all, first, last), some_of(reference, first, last));
 }
 
-std::string ratio_text(const Row& row, const Row& to, double scale) {
-    const std::vector<double> all = ratios(row, to, scale);
-    return fmt::format("{:>9.3g} ({:.3g}..{:.3g})", median(all), all.front(), all.back());
-}
-
 nlohmann::ordered_json ratio_json(const Row& row, const Row& to, double scale) {
     const std::vector<double> all = ratios(row, to, scale);
     return {{"median", median(all)},

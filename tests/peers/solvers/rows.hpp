@@ -48,7 +48,6 @@ mc::PilotError error_of(const mc::Study& study, const std::vector<lockstep::Mesh
                         int first, int last, const mc::PilotRecord& reference);
 
 // Median and range of a row's times over another's, round by round.
-std::string ratio_text(const Row& row, const Row& to, double scale = 1.0);
 nlohmann::ordered_json ratio_json(const Row& row, const Row& to, double scale = 1.0);
 
 // Ratio of a row to itself in a table.

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <fstream>
 
 #include "span_table.hpp"
@@ -11,6 +12,27 @@
 
 namespace gearpod::peers {
 namespace {
+
+// Ratios are printed as "median (low..high)".
+std::string text_of(const nlohmann::ordered_json& cell) {
+    if (cell.is_object()) {
+        return fmt::format("{:.3g} ({:.3g}..{:.3g})", cell["median"].get<double>(),
+                           cell["low"].get<double>(), cell["high"].get<double>());
+    }
+    return cell.is_string() ? cell.get<std::string>() : fmt::format("{:.3g}", cell.get<double>());
+}
+
+void print(const nlohmann::ordered_json& table) {
+    fmt::print("\n{}\n", table["title"].get<std::string>());
+    const auto print_row = [](const nlohmann::ordered_json& row) {
+        for (const auto& cell : row) {
+            fmt::print("| {:<26} ", text_of(cell));
+        }
+        fmt::print("|\n");
+    };
+    print_row(table["columns"]);
+    std::ranges::for_each(table["rows"], print_row);
+}
 
 void compare(const Options& options) {
     GearpodSolver own(options);
@@ -30,19 +52,19 @@ void compare(const Options& options) {
             span.round();
         }
     }
-    steps.print();
+    nlohmann::ordered_json part;
+    steps.add_to(part);
     if (!options.steps_only) {
-        span.print();
+        span.add_to(part);
     }
+    for (const auto& table : part["tables"]) {
+        print(table);
+    }
+    steps.print_limit();
     if (!options.csv.empty()) {
         span.write(options.csv);
     }
     if (!options.json.empty()) {
-        nlohmann::ordered_json part;
-        steps.add_to(part);
-        if (!options.steps_only) {
-            span.add_to(part);
-        }
         if (!(std::ofstream(options.json) << part.dump() << '\n').flush()) {
             throw std::runtime_error(options.json + ": cannot be written");
         }

@@ -152,31 +152,6 @@ void SpanTable::round() {
     }
 }
 
-std::string SpanTable::line(const Row& row) const {
-    const Row& own = rows_[0];
-    const auto number = [](double value) { return fmt::format("{:.1e}", value); };
-    const bool known = row.error.has_value();
-    return fmt::format("{:<44} {:>9} {:>10.0f} {:>10.3g} {:>26} {:>24} {:>10} {:>9} {:>9}\n",
-                       row.name, row.tolerance > 0.0 ? fmt::format("{:.0e}", row.tolerance) : "",
-                       row.steps, median(row.times), ratio_text(row, own),
-                       ratio_text(row, own, own.meshes / row.meshes),
-                       known ? number(row.error->largest_feature()) + (row.within ? "" : "!") : "",
-                       known ? number(row.error->sensor) : "", known ? number(row.error->te) : "");
-}
-
-void SpanTable::print() const {
-    fmt::print(
-        "\na gearbox over {} + {} mesh periods with the worst feature within {:g} (!: it is not), "
-        "one thread\n(others: from two measured mesh periods a round; errors over the fault's "
-        "pattern, {} mesh periods)\n{:<44} {:>9} {:>10} {:>10} {:>26} {:>24} {:>10} {:>9} {:>9}\n",
-        kRunIn, own_.scene().record().span.meshes(), options_.error,
-        kRunIn + own_.task().steps.meshes(), "", "tolerance", "steps/mesh", "s", "over gearpod",
-        "a mesh over gearpod's", "feature", "sensor", "TE");
-    for (const Row& row : rows_) {
-        fmt::print("{}", line(row));
-    }
-}
-
 void SpanTable::add_to(nlohmann::ordered_json& part) const {
     nlohmann::ordered_json rows;
     for (std::size_t i = 0; i < rows_.size(); ++i) {

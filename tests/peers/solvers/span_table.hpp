@@ -26,7 +26,6 @@ class SpanTable {
     // Finds the tolerances of all solvers and prints progress to stderr.
     void add_all();
     void round();
-    void print() const;
     // Adds its table and ratios to a part of performance.json (tests/bench/README.md).
     void add_to(nlohmann::ordered_json& part) const;
     // Writes the file that `gearpod accuracy --peers` reads.
@@ -37,7 +36,6 @@ class SpanTable {
     std::optional<Attempt> attempt(const std::string& name, const Way& way, double tolerance) const;
     void add_fixed(const std::string& name, Way way);
     void add_adaptive(const std::string& name, Way way);
-    std::string line(const Row& row) const;
 
     const Options& options_;
     GearpodSolver& own_;

@@ -82,22 +82,6 @@ double StepTable::share(std::size_t row) const {
     return work_[row].flop / median(rows_[row].times) / (2.0 * peak(work_[row].width));
 }
 
-void StepTable::print() const {
-    fmt::print(
-        "\na step of a gearbox, classical Runge-Kutta, {} steps a mesh period, doubles\n"
-        "{:<50} {:>8} {:>24} {:>14} {:>11} {:>14}\n",
-        own_.task().steps.grid().steps.size(), "", "ns", "over gearpod", "worst feature",
-        "operations", "share of peak");
-    for (std::size_t i = 0; i < rows_.size(); ++i) {
-        const Row& row = rows_[i];
-        fmt::print("{:<50} {:>8.1f} {:>24} {:>14} {:>11.0f} {:>12.0f} %\n", row.name,
-                   1e9 * median(row.times), ratio_text(row, rows_[0]),
-                   row.error ? fmt::format("{:.1e}", row.error->largest_feature()) : "",
-                   work_[i].flop, 100.0 * share(i));
-    }
-    print_limit();
-}
-
 void StepTable::add_to(nlohmann::ordered_json& part) const {
     nlohmann::ordered_json rows;
     for (std::size_t i = 0; i < rows_.size(); ++i) {

@@ -17,7 +17,8 @@ class StepTable {
 
     void measure_errors();
     void round();
-    void print() const;
+    // Prints the least time of a step at the peak.
+    void print_limit() const;
     // Adds its table and ratios to a part of performance.json (tests/bench/README.md).
     void add_to(nlohmann::ordered_json& part) const;
 
@@ -32,7 +33,6 @@ class StepTable {
     void add(const std::string& name, Work work, Way way);
     double peak(bench::Width width) const;  // fused multiply-adds per second
     double share(std::size_t row) const;    // of the peak
-    void print_limit() const;
 
     GearpodSolver& own_;
     const mc::Reference& reference_;

@@ -118,12 +118,9 @@ TEST_CASE("The mean of two sensors has the area under the ROC that theory gives"
         results.variants[0].features[0].values.push_back(3.0 + 0.2 * (unit(engine) + shift));
     }
     const auto found = sensor_detections(results, mc::ColumnRows(results));
-    REQUIRE(found.size() == 5);
-    CHECK(found[0].name == "first");
-    CHECK(found[1].name == "side");
-    CHECK(found[2].name == "mean of all");
-    CHECK(found[3].name == "largest of all");
-    CHECK(found[4].name == "learned sum of all");
+    const char* const names[] = {"first", "side", "mean of all", "largest of all",
+                                 "learned sum of all"};
+    REQUIRE(std::ranges::equal(found, names, {}, [](const auto& one) { return one.name; }));
     REQUIRE(found[2].change);
     const double alone = analysis::normal_cdf(kShift / std::sqrt(2.0)),
                  together = analysis::normal_cdf(kShift);

@@ -12,16 +12,13 @@
 namespace gearpod::mc::test_contact_loss {
 
 Study light_study(const std::vector<std::string>& more = {}) {
-    std::vector<std::string> all{
-        "operation.carrier_speed_rpm=20",
-        "numerics.horizon=full",
-        "effects.contact_onset=abrupt",
-        "sensor.noise_levels=[1]",
-        "ensemble.threshold_records=1",
-        "detection.false_alarm_rate=0.05",
-        "random.operation.torque_N_m={distribution=\"uniform\",low=300,high=600}"};
-    all.insert(all.end(), more.begin(), more.end());  // later ones take precedence
-    Study study = test::shipped_study("fleet-alarms.toml", all);
+    Study study = test::shipped_study(
+        "fleet-alarms.toml",
+        test::joined({"operation.carrier_speed_rpm=20", "numerics.horizon=full",
+                      "effects.contact_onset=abrupt", "sensor.noise_levels=[1]",
+                      "ensemble.threshold_records=1", "detection.false_alarm_rate=0.05",
+                      "random.operation.torque_N_m={distribution=\"uniform\",low=300,high=600}"},
+                     more));
     study.ensemble.threshold_instances = 8;
     study.ensemble.instances = 8;
     return study;

@@ -6,10 +6,11 @@ namespace gearpod::mc::test_integration_cache {
 
 // Liang's train at high speed, with only the random inputs in `kept`.
 Study study_with(const std::vector<std::string>& kept, const std::vector<std::string>& more = {}) {
-    std::vector<std::string> overrides{"operation.carrier_speed_rpm=60", "sensor.sampling_Hz=20000",
-                                       "sensor.encoder_sampling_Hz=20000", "numerics.threads=1"};
-    overrides.insert(overrides.end(), more.begin(), more.end());
-    Study study = test::shipped_study("planet-crack-ideal.toml", overrides);
+    Study study = test::shipped_study(
+        "planet-crack-ideal.toml",
+        test::joined({"operation.carrier_speed_rpm=60", "sensor.sampling_Hz=20000",
+                      "sensor.encoder_sampling_Hz=20000", "numerics.threads=1"},
+                     more));
     std::erase_if(study.random, [&](const RandomInput& input) {
         return std::find(kept.begin(), kept.end(), input.key) == kept.end();
     });

@@ -12,9 +12,8 @@ using namespace test;
 const std::string kChange =
     "features.use=[\"change_sensor_rms\",\"sensor_rms\",\"own_sensor_rms\"]";
 
-Study study_with(std::vector<std::string> overrides) {
-    overrides.insert(overrides.begin(), kChange);
-    return ideal_crack_study(overrides);
+Study study_with(const std::vector<std::string>& overrides) {
+    return ideal_crack_study(joined({kChange}, overrides));
 }
 
 GearboxId baseline(std::uint64_t number) {
@@ -70,9 +69,9 @@ TEST_CASE("Inputs of an assembly have their distribution in the baseline, whatev
 
 TEST_CASE("Redrawn teeth are the gearbox's own errors, shifted by whole teeth") {
     const auto errors_of = [](const std::vector<std::string>& more) {
-        std::vector<std::string> keys{kChange, "gearbox.tooth_quality=6", "numerics.horizon=full"};
-        keys.insert(keys.end(), more.begin(), more.end());
-        const Scene scene(test::shipped_study("planet-crack-ideal.toml", keys));
+        const Scene scene(shipped_study(
+            "planet-crack-ideal.toml",
+            joined({kChange, "gearbox.tooth_quality=6", "numerics.horizon=full"}, more)));
         const std::vector<Realization> both{
             scene.sampler().draw(kTest), scene.sampler().draw(baseline(0)),
             scene.sampler().draw(baseline(1)), scene.sampler().draw(baseline(0))};
@@ -107,9 +106,9 @@ TEST_CASE("Redrawn teeth are the gearbox's own errors, shifted by whole teeth") 
 
 TEST_CASE("Redrawn pins have other positions, the same in all baseline records") {
     const auto planets = [](const std::vector<std::string>& more, const GearboxId& id) {
-        std::vector<std::string> keys{"gearbox.pin_tangential_rms_um=20"};
-        keys.insert(keys.end(), more.begin(), more.end());
-        return Sampler(DrawPlan(study_with(keys))).draw(id).inputs.planets;
+        return Sampler(DrawPlan(study_with(joined({"gearbox.pin_tangential_rms_um=20"}, more))))
+            .draw(id)
+            .inputs.planets;
     };
     const auto pin = [](const auto& planet) { return std::pair(planet.pin_x_m, planet.pin_y_m); };
     const std::vector<std::string> redrawn{"features.baseline_redraws=[\"pins\"]"};

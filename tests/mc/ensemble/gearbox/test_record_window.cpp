@@ -103,13 +103,14 @@ TEST_CASE(
 }
 
 // Gearboxes whose teeth have errors: every mesh period has to be integrated.
-Study real_teeth(std::vector<std::string> overrides) {
-    overrides.insert(overrides.begin(),
-                     {kCompared, "sensor.noise_levels=[0.001]", "sensor.record_turns=1.2",
+Study real_teeth(const std::vector<std::string>& overrides) {
+    return test::shipped_study(
+        "planet-crack.toml",
+        test::joined({kCompared, "sensor.noise_levels=[0.001]", "sensor.record_turns=1.2",
                       "features.baseline_records=2", "features.baseline_torque_scatter=0.02",
                       "numerics.precision=\"double\"", "numerics.settle_tolerance=1e-6",
-                      "random.fault.depth_mm={distribution=\"constant\",value=3}"});
-    return test::shipped_study("planet-crack.toml", overrides);
+                      "random.fault.depth_mm={distribution=\"constant\",value=3}"},
+                     overrides));
 }
 
 // Features of the records of a gearbox, and the mesh periods that are integrated for them. `whole`:
@@ -284,10 +285,8 @@ TEST_CASE("A faster gearbox records more turns in the same time") {
 TEST_CASE("Integrated and periodic gearboxes have the same short records") {
     const std::vector<std::string> keys{kPlain, "sensor.noise_levels=[0]",
                                         "sensor.record_turns=1.2"};
-    const Computed periodic(ideal_crack_study(keys));
-    std::vector<std::string> all = keys;
-    all.push_back("numerics.horizon=\"full\"");
-    const Computed integrated(ideal_crack_study(all));
+    const Computed periodic(ideal_crack_study(keys)),
+        integrated(ideal_crack_study(test::joined(keys, {"numerics.horizon=\"full\""})));
     for (const std::size_t feature : {0, 1, 2}) {
         CHECK(integrated.value(feature) == Approx(periodic.value(feature)).epsilon(1e-5));
     }

@@ -34,31 +34,23 @@ std::vector<std::string> everything(const std::string& role) {
             "sensor.range_m_s2=0.35"};
 }
 
-std::vector<std::string> with_baselines(std::vector<std::string> settings) {
-    settings.insert(settings.end(), {kBaselines, "features.baseline_torque_scatter=0.02",
-                                     "sensor.record_s=9", "sensor.noise_levels=[0, 1, 2]"});
-    return settings;
-}
-
 std::string options(const std::vector<std::string>& settings) {
-    std::string text = " ";
-    for (const std::string& setting : settings) {
-        text += "--set '" + setting + "' ";
-    }
-    return text;
+    return set_options(settings) + " ";
 }
 
 TEST_CASE("Rows keep their bits over threads, parts and merging") {
     check_equal_bits_over_parts(options(everything("other_fault")));
-    check_equal_bits_over_parts(options(with_baselines(everything("other_fault"))));
+    check_equal_bits_over_parts(options(
+        joined(everything("other_fault"), {kBaselines, "features.baseline_torque_scatter=0.02",
+                                           "sensor.record_s=9", "sensor.noise_levels=[0, 1, 2]"})));
 }
 
 TEST_CASE("Rows keep their bits over lanes") {
     const auto rows = [](int lanes) {
-        auto settings = everything("other_fault");
-        settings.insert(settings.end(),
-                        {"ensemble.threshold_instances=5", "ensemble.instances=6",
-                         "numerics.precision=\"double\"", fmt::format("numerics.lanes={}", lanes)});
+        const auto settings =
+            joined(everything("other_fault"),
+                   {"ensemble.threshold_instances=5", "ensemble.instances=6",
+                    "numerics.precision=\"double\"", fmt::format("numerics.lanes={}", lanes)});
         return bits(test::run(valid_study(mc::read_study(kSmall, settings))));
     };
     const auto eight = rows(8);

@@ -13,13 +13,13 @@ namespace gearpod::mc::test_superposition {
 // Teeth 24/20/64 of grade 6, with pin errors of 20 um; cracked gearboxes and their baselines. No
 // tooth pair loses contact at 6 kN m; some do at 3 kN m and less.
 Study study_with(const std::string& horizon, const std::vector<std::string>& more = {}) {
-    std::vector<std::string> all{
-        "numerics.horizon=" + horizon,     "operation.carrier_speed_rpm=20",
-        "numerics.precision=double",       "numerics.settle_tolerance=1e-10",
-        "sensor.noise_levels=[0]",         "ensemble.threshold_records=1",
-        "detection.false_alarm_rate=0.05", "effects.contact_onset=abrupt"};
-    all.insert(all.end(), more.begin(), more.end());  // later ones take precedence
-    Study study = test::shipped_study("fleet-alarms.toml", all);
+    Study study = test::shipped_study(
+        "fleet-alarms.toml",
+        test::joined({"numerics.horizon=" + horizon, "operation.carrier_speed_rpm=20",
+                      "numerics.precision=double", "numerics.settle_tolerance=1e-10",
+                      "sensor.noise_levels=[0]", "ensemble.threshold_records=1",
+                      "detection.false_alarm_rate=0.05", "effects.contact_onset=abrupt"},
+                     more));
     study.ensemble.threshold_instances = 2;
     study.ensemble.instances = 6;
     return study;

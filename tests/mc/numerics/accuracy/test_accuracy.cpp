@@ -17,9 +17,8 @@ using namespace test;
 const std::vector<std::string> kNarrow{"sensor.sampling_Hz=17100", "sensor.low_pass_Hz=7695",
                                        "sensor.encoder_sampling_Hz=17100"};
 
-Study tian(std::vector<std::string> more = {}) {
-    more.insert(more.end(), kNarrow.begin(), kNarrow.end());
-    return shipped_study("published/tian-fig-4-9.toml", more);
+Study tian(const std::vector<std::string>& more = {}) {
+    return shipped_study("published/tian-fig-4-9.toml", joined(more, kNarrow));
 }
 
 ResolvedNumerics resolved_tian(const std::vector<std::string>& more) {
@@ -213,14 +212,6 @@ TEST_CASE("the share of decisions that the numerical error could change is count
     CHECK(back.numerical->largest == r.numerical->largest);
 }
 
-std::string sets() {
-    std::string text;
-    for (const std::string& key : kNarrow) {
-        text += " --set " + key;
-    }
-    return text;
-}
-
 TEST_CASE("accuracy lists every solver setting, marks the frontier and reports what is refused",
           "[accuracy]") {
     const Folder folder;
@@ -228,7 +219,7 @@ TEST_CASE("accuracy lists every solver setting, marks the frontier and reports w
         folder.file("peers.csv"),
         "name,command,integration_s,mesh_s,sensor,te,te_rms\nother,\"a, b\",1,0.5,0.1,0.2,0.3\n");
     const Outcome run = program(
-        "accuracy " + test::study("published/tian-fig-4-9.toml") + sets() +
+        "accuracy " + test::study("published/tian-fig-4-9.toml") + set_options(kNarrow) +
         " --quiet --repeats 1 --gearboxes 0 --seconds 0 --peers " + folder.file("peers.csv") +
         " --json " + folder.file("accuracy.json") + " --html " + folder.file("accuracy.html"));
     INFO(run.output);
@@ -271,12 +262,9 @@ TEST_CASE("accuracy lists every solver setting, marks the frontier and reports w
     const std::string headline = json["headline"];
     CHECK(headline.find("The study's own setting, auto") == 0);
     CHECK(run.mentions(headline));
-    const std::string page = bytes_of(folder.file("accuracy.html"));
-    for (const char* shown : {"Figure 1. Error of the worst feature against time", "te_rms",
-                              "rk4 at its stability limit, refused", "Detection rates were not"}) {
-        INFO(shown);
-        CHECK(contains(page, shown));
-    }
+    check_mentions({0, bytes_of(folder.file("accuracy.html"))},
+                   {"Figure 1. Error of the worst feature against time", "te_rms",
+                    "rk4 at its stability limit, refused", "Detection rates were not"});
     // A tolerance of 1e-3 is met with fewer steps and fewer run-in mesh periods than the study's
     // own.
     CHECK(json["choices"][1]["tolerance"].get<double>() == 1e-3);
@@ -310,13 +298,10 @@ TEST_CASE("an error is compared with the scatter of its feature between gearboxe
     CHECK(own.worst_feature(2) == 1);
     CHECK(report.fastest_within(0.2) == 1);
     CHECK(report.fastest_within(1e-4) == -1);
-    const std::string headline = accuracy_headline(report);
-    INFO(headline);
-    CHECK(contains(headline,
-                   "takes 3 ms of integration per gearbox; its worst feature, window_ratio, "
-                   "has an error of 2.0e-03 of its value"));
-    CHECK(contains(headline, "exceeds 3.0e-03 of a feature's scatter"));
-    CHECK(contains(headline, ": 2 ms of integration."));
+    check_mentions({0, accuracy_headline(report)},
+                   {"takes 3 ms of integration per gearbox; its worst feature, window_ratio, "
+                    "has an error of 2.0e-03 of its value",
+                    "exceeds 3.0e-03 of a feature's scatter", ": 2 ms of integration."});
 }
 
 TEST_CASE("the cost of an effect is the change of the pilot without it", "[accuracy]") {
@@ -376,15 +361,12 @@ TEST_CASE("accuracy omits what it has no time for, and reports this", "[accuracy
 }
 
 TEST_CASE("accuracy reports what it cannot do", "[accuracy]") {
-    const Outcome still = program("accuracy " + test::study("published/park-fig-13.toml"));
-    CHECK(still.code == kBadInput);
-    CHECK(still.mentions("effects.motion"));
+    check_refused("accuracy " + test::study("published/park-fig-13.toml"), {"effects.motion"});
     const Folder folder;
     write_bytes(folder.file("bad.csv"), "name,command,march_s,mesh_s,sensor,te\nx,y,1,2,z,3\n");
-    const Outcome bad = program("accuracy " + test::study("published/tian-fig-4-9.toml") +
-                                " --quiet --peers " + folder.file("bad.csv"));
-    CHECK(bad.code == kBadInput);
-    CHECK(bad.mentions("bad.csv:2: sensor: \"z\" is not a number >= 0"));
+    check_refused("accuracy " + test::study("published/tian-fig-4-9.toml") + " --quiet --peers " +
+                      folder.file("bad.csv"),
+                  {"bad.csv:2: sensor: \"z\" is not a number >= 0"});
 }
 
 // Checks the stability map of a study and its hard cases.

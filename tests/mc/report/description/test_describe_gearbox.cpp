@@ -1,8 +1,12 @@
 // Checks the output of describe about members, fault sizes, omitted damping, rigid bodies and tooth
 // contact.
+#include "mc/report/description/terminal_text.hpp"
+#include "mc/study/study.hpp"
 #include "tests/mc/program.hpp"
+#include "tests/mc/study_example.hpp"
+#include "tests/mc/study_file.hpp"
 
-namespace gearpod::test_describe_gearbox {
+namespace gearpod::mc::test_describe_gearbox {
 
 using namespace test;
 
@@ -97,4 +101,59 @@ TEST_CASE("Without --full, describe prints one screen that ends with the forecas
     }
 }
 
-}  // namespace gearpod::test_describe_gearbox
+// Checks that describe names the effects that a scene does not need.
+
+TEST_CASE("describe names effects that change nothing and those that a study lacks") {
+    const auto description =
+        require_success("describe " + study("published/tian-fig-4-9.toml") + " --seconds 30");
+    CHECK(description.mentions("what the effects change"));
+    // Constant forces on a stage whose stiffness varies in the mesh alone; the features are those
+    // of the vibration.
+    check_mentions(description,
+                   {"omitted, not needed: ", "no feature changes by more than 1 %",
+                    "extended contact", "omitted; would change", "shear of the teeth"});
+    // With a tolerance above all changes no effect is needed.
+    check_mentions(program("describe " + study("published/tian-fig-4-9.toml") +
+                           " --seconds 30 --set numerics.tolerance=0.9"),
+                   {"no feature changes by more than 90 %", "simulated, not needed: "});
+}
+
+TEST_CASE("describe measures effects on short records where every mesh period is integrated") {
+    check_mentions(
+        require_success("describe " + study("published/yang-pitch-errors.toml") + measuring_for(3) +
+                        " --set ensemble.instances=8 --set ensemble.threshold_instances=20"),
+        {"s: 3 turns of ", "tooth errors"});
+}
+
+// Checks the study that `describe` prints: short lines with the same meaning.
+
+using namespace tests;
+
+TEST_CASE("A wrapped study has short lines and the same meaning") {
+    const Study reading = gearpod::test::valid_study(read_study_text(
+        kExampleStudy, "study.toml",
+        {"random.operation.torque_N_m = {distribution='truncated-normal', mean=400, sd=20, "
+         "low=369.123456789, high=489.123456789}",
+         "features.use=['te_rms', 'te_kurtosis', 'te_fc', 'te_fm0', 'sensor_rms', 'window_ratio', "
+         "'window_z']"}));
+    const std::string text = resolved_text(reading), wrapped = wrapped_study(text);
+    INFO(wrapped);
+    CHECK(wrapped.find("operation.torque_N_m.sd = 20\n") != std::string::npos);
+    std::istringstream lines(wrapped);
+    for (std::string line; std::getline(lines, line);) {
+        CHECK((line.size() <= 80 || line.starts_with("title = ")));
+    }
+    const Study again = gearpod::test::valid_study(read_study_text(wrapped, "study.toml", {}));
+    CHECK(again == reading);
+}
+
+TEST_CASE("Short lines and long strings of a study stay as they are") {
+    const std::string text = "title = \"" + std::string(90, '{') + "\"\n\n[a]\nb = [1, 2]\n";
+    CHECK(wrapped_study(text) == text);
+    CHECK(wrapped_study("k = [\"" + std::string(40, ',') + "\", \"\\\\\", \"" +
+                        std::string(40, ']') + "\"]\n") == "k = [\n    \"" + std::string(40, ',') +
+                                                               "\", \"\\\\\",\n    \"" +
+                                                               std::string(40, ']') + "\",\n]\n");
+}
+
+}  // namespace gearpod::mc::test_describe_gearbox

@@ -1,10 +1,12 @@
 // Checks gearpod new planetary: a study from a datasheet.
 #include "mc/study/gears.hpp"
 #include "mc/study/new/datasheet.hpp"
+#include "mc/study/new/rules.hpp"
 #include "mc/study/study.hpp"
 #include "tests/mc/program.hpp"
+#include "tests/test.hpp"
 
-namespace gearpod::test_new_planetary {
+namespace gearpod::mc::test_new_planetary {
 
 using namespace gearpod::test;
 
@@ -205,4 +207,141 @@ TEST_CASE("new refuses inputs that are no gear set and writes nothing") {
     check_refused("new bevel --sun 21 --planet 39 --module 12");
 }
 
-}  // namespace gearpod::test_new_planetary
+// Checks profile shifts and centre distance of `new planetary` and of study files in every
+// combination.
+
+// Set of 62/17/96 teeth whose ring and planet were measured: shifts 0.2 and -0.5 give 557.089 mm
+// and a sun's shift of 0.1 (rounded).
+constexpr double kSun = 0.09995, kPlanet = 0.2, kRing = -0.5, kDistance_mm = 557.089;
+
+mc::PlanetaryDatasheet measured(int subset) {
+    mc::PlanetaryDatasheet data;
+    data.sun = 62;
+    data.planet = 17;
+    data.ring = 96;
+    data.module_mm = 14;
+    data.power_kW = 100;
+    data.speed_rpm = 152.9;
+    const auto given = [&](int bit, double value) {
+        return subset >> bit & 1 ? std::optional(value) : std::nullopt;
+    };
+    data.sun_shift = given(0, kSun);
+    data.planet_shift = given(1, kPlanet);
+    data.ring_shift = given(2, kRing);
+    data.centre_distance_mm = given(3, kDistance_mm);
+    return data;
+}
+
+TEST_CASE("Ring and planet shift give the published centre distance and the sun's shift") {
+    const mc::NewStudy made = new_planetary(measured(2 | 4), "new planetary");
+    INFO(format(made.problems));
+    const auto study = mc::read_study_text(made.text, "s.toml").study;
+    REQUIRE(study);
+    CHECK(1e3 * mc::centre_distance_m(*study) == Approx(kDistance_mm).epsilon(1e-6));
+    CHECK(mc::gear_of(*study, mc::Member::sun).profile_shift == Approx(0.1).margin(1e-3));
+    CHECK(mc::working_angle_rad(*study, mc::MeshKind::ring_planet) ==
+          Approx(21.125 * 3.14159265 / 180).epsilon(1e-4));
+}
+
+TEST_CASE("Every determined combination of shifts and centre distance gives the same set") {
+    // Two shifts, or one shift and the distance.
+    for (const int subset : {3, 5, 6, 7, 9, 10, 11, 12, 13, 14, 15}) {
+        const mc::NewStudy made = new_planetary(measured(subset), "new planetary");
+        INFO(subset << ": " << format(made.problems));
+        const auto study = mc::read_study_text(made.text, "s.toml").study;
+        REQUIRE(study);
+        CHECK(1e3 * mc::centre_distance_m(*study) == Approx(kDistance_mm).epsilon(1e-4));
+        CHECK(mc::gear_of(*study, mc::Member::sun).profile_shift == Approx(kSun).margin(5e-3));
+        CHECK(mc::gear_of(*study, mc::Member::ring).profile_shift == Approx(kRing).margin(5e-3));
+    }
+}
+
+TEST_CASE("Contradictory shifts and distances are refused with the values") {
+    // A distance 4 mm too large opens the sun mesh by 0.22 modules, 8 mm by 0.4 modules.
+    mc::PlanetaryDatasheet data = measured(1 | 2 | 8);
+    data.centre_distance_mm = kDistance_mm + 8;
+    const std::string open = format(new_planetary(data, "new planetary").problems);
+    INFO(open);
+    CHECK(open.find("--planet-shift: leaves") != std::string::npos);
+    CHECK(open.find("between sun and planets at a centre distance of 565.089 mm") !=
+          std::string::npos);
+    CHECK(open.find("leaves none") != std::string::npos);
+    data.centre_distance_mm = kDistance_mm - 4;
+    CHECK(!new_planetary(data, "new planetary").problems.empty());
+    // A ring shift that contradicts the other two.
+    data = measured(7);
+    data.ring_shift = -0.7;
+    const std::string ring = format(new_planetary(data, "new planetary").problems);
+    INFO(ring);
+    CHECK(ring.find("--ring-shift: leaves") != std::string::npos);
+}
+
+using std::numbers::pi;
+
+// Total force of the rollers when their ring is displaced by `shift` mm. Each roller has Palmgren's
+// ((shift cos angle) / 7.68e-5)^(1/0.9) l^(8/9), without clearance.
+double rollers_N(int rollers, double length_mm, double shift_mm) {
+    double sum = 0.0;
+    for (int i = 0; i < rollers; ++i) {
+        const double cosine = std::cos(2.0 * pi * (i + 0.25) / rollers);
+        if (cosine > 0.0) {
+            const double load =
+                std::pow(shift_mm * cosine / 7.68e-5, 1.0 / 0.9) * std::pow(length_mm, 0.8 / 0.9);
+            sum += load * cosine;
+        }
+    }
+    return sum;
+}
+
+TEST_CASE("The stiffness of a roller bearing is that of its rollers in parallel") {
+    for (const double bore : {0.04, 0.12, 0.35}) {
+        const RollerBearing bearing = bearing_in_bore(bore, 0.8 * bore);
+        const double length_mm = 1e3 * bearing.roller_length_m;
+        for (const double shift_mm : {0.002, 0.01, 0.05}) {
+            const double load = bearing.rows * rollers_N(bearing.rollers, length_mm, shift_mm);
+            const double more =
+                bearing.rows * rollers_N(bearing.rollers, length_mm, 1.001 * shift_mm);
+            const double tangent = 1e3 * (more - load) / (0.001 * shift_mm);
+            CHECK(bearing.stiffness_N_m(load) == Approx(tangent).epsilon(0.1));
+        }
+    }
+}
+
+// Source: ISO 15, dimension series 22; 2210 is 50 x 90 x 23 mm, 2220 is 100 x 180 x 46, 2240 is 200
+// x 360 x 98.
+TEST_CASE(
+    "A bearing in a bore has the dimensions of a cylindrical roller bearing, and its rollers fit") {
+    for (const auto& [outside, inside] :
+         {std::pair{90.0, 50.0}, std::pair{180.0, 100.0}, std::pair{360.0, 200.0}}) {
+        const RollerBearing bearing = bearing_in_bore(1e-3 * outside, 0.1);
+        CHECK(1e3 * bearing.inner_diameter_m == Approx(inside).epsilon(0.03));
+        const double roller = 0.14 * outside, circle = 0.77 * outside;
+        CHECK(circle - roller > inside);
+        CHECK(circle + roller < outside);
+        CHECK(bearing.rollers * roller < pi * circle);        // adjacent
+        CHECK((bearing.rollers + 4) * roller > pi * circle);  // with few gaps
+    }
+}
+
+// Source: ISO 286-1, table 1, grade 7; 10 to 18 mm 18 um, 50 to 80 30 um, 120 to 180 40 um, 315 to
+// 400 57 um, 800 to 1000 90 um. The standard uses the geometric mean of each step and rounds.
+TEST_CASE("The tolerance of grade 7 matches ISO 286's table") {
+    for (const auto& [low, high, um] :
+         {std::tuple{10.0, 18.0, 18.0}, std::tuple{50.0, 80.0, 30.0},
+          std::tuple{120.0, 180.0, 40.0}, std::tuple{315.0, 400.0, 57.0},
+          std::tuple{800.0, 1000.0, 90.0}}) {
+        CHECK(1e6 * grade_7_tolerance_m(1e-3 * std::sqrt(low * high)) == Approx(um).epsilon(0.05));
+    }
+}
+
+// A steel ring of 20 and 50 mm radius, 30 mm wide: 197.9 cm^3, 1.554 kg; thin hoops have m r^2.
+TEST_CASE("Masses and inertias are those of steel rings") {
+    const Annulus ring{0.05, 0.02, 0.03};
+    CHECK(ring.mass_kg() == Approx(1.5537).epsilon(1e-3));
+    const Annulus hoop{0.1001, 0.1, 0.01};
+    CHECK(hoop.inertia_kg_m2() == Approx(hoop.mass_kg() * 0.01).epsilon(2e-3));
+    const Annulus disc{0.1, 0.0, 0.01};
+    CHECK(disc.inertia_kg_m2() == Approx(0.5 * disc.mass_kg() * 0.01));
+}
+
+}  // namespace gearpod::mc::test_new_planetary
