@@ -150,6 +150,8 @@ def hdf5_files(folder):
     yield table, ["--sensor", "df/table/values_block_0:2"], 1.0
     yield table, ["--sensor", "values_block_0"], "df/table/values_block_0 is a matrix of 5120 x 2; choose one"
     yield table, ["--sensor", "none"], "df/table/sensor (5120)"
+    yield made("unused.h5", lambda f: f.update(sensor=X, RPM=60 + 0 * X)), ["--sampling-Hz", "3000"], \
+        "column RPM is not used: name it speed_rpm"
     yield made("big_endian.h5", lambda f: f.create_dataset("sensor", data=X.astype(">f8"))), rate, 1.0
 
 
