@@ -118,12 +118,6 @@ std::string open_problem(const std::string& path) {
         file.clear();
         file.seekg(static_cast<std::streamoff>(at));
         file.read(head.data(), static_cast<std::streamsize>(head.size()));
-        if (at == 0 && head.starts_with("RIFF")) {
-            return "is a WAV or other RIFF file";
-        }
-        if (at == 0 && head.starts_with("<")) {
-            return "is an HTML or XML text";
-        }
         if (at == 0 && head.starts_with("\0\0\0\0\0\0\0\0"sv)) {
             return "is without HDF5 signature: it begins with zeros, as if the program that wrote "
                    "it did not close it";
@@ -207,9 +201,38 @@ herr_t visit_link(hid_t group, const char* name, const H5L_info_t* link, void* d
     }
 }
 
+// Type of the values of a dataset, or of a field of its rows.
+Hdf5Handle value_type(const Hdf5Handle& dataset, const std::string& field) {
+    Hdf5Handle type(H5Dget_type(dataset.get()), H5Tclose, field);
+    if (field.empty()) {
+        return type;
+    }
+    const int index = H5Tget_member_index(type.get(), field.c_str());
+    return {H5Tget_member_type(type.get(), static_cast<unsigned>(index)), H5Tclose, field};
+}
+
+// Names of the fields if a dataset is a table of rows.
+std::vector<std::string> fields_of(hid_t file, const std::string& path) {
+    std::vector<std::string> fields;
+    try {
+        const Hdf5Handle dataset = open_dataset(file, path);
+        const Hdf5Handle type = value_type(dataset, "");
+        const bool rows =
+            H5Tget_class(type.get()) == H5T_COMPOUND && shape_of(dataset, path).size() == 1;
+        for (int i = 0; rows && i < H5Tget_nmembers(type.get()); ++i) {
+            char* const name = H5Tget_member_name(type.get(), static_cast<unsigned>(i));
+            fields.emplace_back(name);
+            H5free_memory(name);
+        }
+    } catch (const Hdf5Error&) {
+        fields.clear();  // reported if the dataset is chosen
+    }
+    return fields;
+}
+
 // Names are paths without a slash at their start; those in the group /signals, if it exists, also
-// omit "signals/". Signals are vectors of numbers, also N x 1, and columns of matrices; with `row`,
-// the rows of two-dimensional datasets.
+// omit "signals/". Signals are vectors of numbers, also N x 1, columns of matrices and fields of
+// tables of rows ("table/field"); with `row`, the rows of two-dimensional datasets.
 class SignalHdf5 : public NamedColumns {
   public:
     SignalHdf5(const std::string& path, std::optional<std::size_t> row)
@@ -243,6 +266,10 @@ class SignalHdf5 : public NamedColumns {
         };
         for (const auto& [name, dataset] : all) {
             datasets_.emplace(shown_name(name), Dataset{dataset});
+            for (const std::string& field :
+                 row ? std::vector<std::string>() : fields_of(file_.get(), dataset)) {
+                datasets_.emplace(shown_name(name + "/" + field), Dataset{dataset, {}, {}, field});
+            }
         }
         for (const std::string& link : walk.elsewhere) {
             datasets_.emplace(shown_name(link), Dataset{"", Content::elsewhere, {}});
@@ -327,6 +354,7 @@ class SignalHdf5 : public NamedColumns {
         std::string path;
         std::optional<Content> content = {};  // empty until it is inspected
         Shape shape = {};
+        std::string field = {};  // of its rows
 
         // Number of columns of a matrix; 0 if it is none.
         std::size_t columns() const {
@@ -352,8 +380,8 @@ class SignalHdf5 : public NamedColumns {
         }
         const Hdf5Handle opened = open_dataset(file_.get(), dataset.path);
         const Hdf5Handle created(H5Dget_create_plist(opened.get()), H5Pclose, name);
-        const Hdf5Handle type(H5Dget_type(opened.get()), H5Tclose, name);
-        const H5T_class_t kind = H5Tget_class(type.get());
+        const Hdf5Handle type = value_type(opened, dataset.field);
+        H5T_class_t kind = H5Tget_class(type.get());
         const bool elsewhere =
             H5Pget_external_count(created.get()) > 0 || H5Pget_layout(created.get()) == H5D_VIRTUAL;
         dataset.content = elsewhere                                  ? Content::elsewhere
@@ -363,6 +391,16 @@ class SignalHdf5 : public NamedColumns {
                                                                      : Content::other;
         if (!elsewhere) {
             dataset.shape = shape_of(opened, name);
+        }
+        // A field of several values is a matrix whose rows are those of the table.
+        if (kind == H5T_ARRAY && !dataset.field.empty() && H5Tget_array_ndims(type.get()) == 1) {
+            const Hdf5Handle value(H5Tget_super(type.get()), H5Tclose, name);
+            kind = H5Tget_class(value.get());
+            dataset.shape.push_back(0);
+            H5Tget_array_dims2(type.get(), &dataset.shape.back());
+            if ((kind == H5T_FLOAT || kind == H5T_INTEGER) && dataset.shape[0] > dataset.shape[1]) {
+                dataset.content = Content::numbers;
+            }
         }
         return dataset;
     }
@@ -491,6 +529,9 @@ class SignalHdf5 : public NamedColumns {
         const hsize_t values =
             count_of(count, kMostCompressed * std::filesystem::file_size(path_), name);
         const Hdf5Handle opened = open_dataset(file_.get(), dataset.path);
+        if (!dataset.field.empty()) {
+            return field_values(opened, dataset, part.matrix != name ? part.column - 1 : 0);
+        }
         const Hdf5Handle space(H5Dget_space(opened.get()), H5Sclose, name);
         if (!count.empty()) {
             check(H5Sselect_hyperslab(space.get(), H5S_SELECT_SET, start.data(), nullptr,
@@ -503,6 +544,24 @@ class SignalHdf5 : public NamedColumns {
                       read.data()),
               name);
         return read;
+    }
+
+    // Values of a field of all rows, or of one column of it.
+    static std::vector<double> field_values(const Hdf5Handle& opened, const Dataset& dataset,
+                                            std::size_t column) {
+        const std::string& field = dataset.field;
+        const bool several = dataset.shape.size() > 1;
+        const hsize_t width = several ? dataset.shape[1] : 1;
+        const Hdf5Handle array(H5Tarray_create2(H5T_NATIVE_DOUBLE, 1, &width), H5Tclose, field);
+        const Hdf5Handle row(H5Tcreate(H5T_COMPOUND, width * sizeof(double)), H5Tclose, field);
+        check(H5Tinsert(row.get(), field.c_str(), 0, several ? array.get() : H5T_NATIVE_DOUBLE),
+              field);
+        std::vector<double> all(dataset.shape.at(0) * width), values;
+        check(H5Dread(opened.get(), row.get(), H5S_ALL, H5S_ALL, H5P_DEFAULT, all.data()), field);
+        for (std::size_t i = column; i < all.size(); i += width) {
+            values.push_back(all[i]);
+        }
+        return values;
     }
 
     std::vector<Hdf5Attribute> attributes(const std::string& name) const {

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <ranges>
 #include <utility>
 
 #include "features/statistics/signal_statistics.hpp"
@@ -82,11 +83,8 @@ class MeasuredInput {
         te_ = signals::synchronous_average(
             std::span(signal.te).first(std::min(signal.te.size(), span)), turn);
         const auto largest = [&] {
-            double result = 0.0;
-            for (const double value : te_) {
-                result = std::max(result, std::abs(value));
-            }
-            return result;
+            return std::ranges::max(te_ |
+                                    std::views::transform([](double v) { return std::abs(v); }));
         };
         const double before = largest();
         remove_mean(te_);

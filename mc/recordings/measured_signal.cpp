@@ -7,6 +7,7 @@
 #include <functional>
 #include <mutex>
 #include <numbers>
+#include <numeric>
 #include <span>
 
 #include "features/feature.hpp"
@@ -24,48 +25,16 @@
 #include "signals/rotation/shaft_motion.hpp"
 #include "signals/spectra/recording_checks.hpp"
 #include "signals/spectra/resampling.hpp"
+#include "signals/spectra/speed_variation.hpp"
 #include "signals/spectra/wide_speed.hpp"
 
 namespace gearpod::mc {
-
-std::vector<std::string> rate_problems(std::span<const double> phase, const MeasurementPlan& plan,
-                                       RecordedSignals has) {
-    constexpr double kFewestSamples = 2.0;  // per mesh period
-    constexpr double kRateTolerance = 1.02;
-    const double per_mesh = static_cast<double>(phase.size() - 1) / (phase.back() - phase.front());
-    // Sampling rate of a recording with these samples per mesh period at the study's speed.
-    const double study_Hz = per_mesh * plan.record.mesh_frequency_Hz;
-    const double low_pass = plan.features.low_pass_Hz;
-    std::vector<std::string> problems;
-    if (has.te && per_mesh < kFewestSamples) {
-        problems.push_back(
-            fmt::format("{:.6g} samples per mesh period do not resolve the mesh frequency of "
-                        "the transmission error; check the speed and the sampling rate",
-                        per_mesh));
-    }
-    if (has.sensor && per_mesh > kRateTolerance * plan.record.samples) {
-        problems.push_back(
-            fmt::format("{:.6g} samples per mesh period, but the study's grid has {}; check the "
-                        "speed, or set sensor.sampling_Hz to that of the recording, at the study's "
-                        "speed about {:.6g} Hz",
-                        per_mesh, plan.record.samples, study_Hz));
-    }
-    if (has.sensor && study_Hz < 2.0 * low_pass) {
-        problems.push_back(
-            fmt::format("{:.6g} samples per mesh period are too few for signals up to {:.6g} Hz "
-                        "at the study's speed; check the speed, or set sensor.low_pass_Hz to at "
-                        "most {:.6g}",
-                        per_mesh, low_pass, 0.5 * study_Hz));
-    }
-    return problems;
-}
 
 namespace {
 
 constexpr const char* kSensor = "sensor";
 constexpr const char* kPhase = "mesh_phase";
 constexpr const char* kSpeed = "speed_rpm";
-constexpr double kRadPerSecondPerRpm = 2.0 * std::numbers::pi / 60.0;  // rad/s per rpm
 
 // Reads the signals. Throws SignalError if the file cannot be read or lacks a column.
 class SignalsReader : protected RecordingColumns {
@@ -131,22 +100,17 @@ class SignalReader : SignalsReader {
         measured.sensor_rounding = rounding_rms(sensor);
         keep(sensor, phase.size());
         keep(te, phase.size());
-        follow(far_speed(measured), measured);
-        for (const std::string& problem :
-             rate_problems(phase, plan_, {!sensor.empty(), !te.empty()})) {
-            reject(problem);
-        }
         stop_at_problems();
+        check_speed(measured);
+        check_rate();
         if (columns_.samples_per_mesh > 0.0) {
             extend_periodically({&sensor, &te}, phase,
                                 columns_.samples_per_mesh * record_.span.planet_teeth);
         }
         resample(sensor, te, phase, measured);
-        if (follow(near_speed(measured), measured)) {
-            resample(sensor, te, phase, measured);
-        }
         check_losses(measured);
         stop_at_problems();
+        check_variation(measured);
         return measured;
     }
 
@@ -169,6 +133,37 @@ class SignalReader : SignalsReader {
                 measured.notes.push_back(fmt::format("column {}: {}", name, text));
             }
         }
+    }
+    // Rejects a recording with too few samples per mesh period to resolve the mesh frequency or the
+    // sensor's frequency range, or with so many that the study's grid would alias high frequencies.
+    void check_rate() {
+        constexpr double kFewestSamples = 2.0;  // per mesh period
+        constexpr double kRateTolerance = 1.02;
+        const double per_mesh =
+            static_cast<double>(phase_.size() - 1) / (phase_.back() - phase_.front());
+        // Sampling rate of a recording with these samples per mesh period at the study's speed.
+        const double study_Hz = per_mesh * record_.mesh_frequency_Hz;
+        const double low_pass = plan_.features.low_pass_Hz;
+        const std::string samples = fmt::format("{:.6g} samples per mesh period", per_mesh);
+        if (!te_.empty() && per_mesh < kFewestSamples) {
+            reject(samples +
+                   " do not resolve the mesh frequency of the transmission error; check "
+                   "the speed and the sampling rate");
+        }
+        if (!sensor_.empty() && per_mesh > kRateTolerance * record_.samples) {
+            reject(
+                fmt::format("{}, but the study's grid has {}; check the speed, or set "
+                            "sensor.sampling_Hz to that of the recording, at the study's speed "
+                            "about {:.6g} Hz",
+                            samples, record_.samples, study_Hz));
+        }
+        if (!sensor_.empty() && study_Hz < 2.0 * low_pass) {
+            reject(
+                fmt::format("{} are too few for signals up to {:.6g} Hz at the study's speed; "
+                            "check the speed, or set sensor.low_pass_Hz to at most {:.6g}",
+                            samples, low_pass, 0.5 * study_Hz));
+        }
+        stop_at_problems();
     }
     void resample(const std::vector<double>& sensor, const std::vector<double>& te,
                   const std::vector<double>& phase, MeasuredSignal& measured) const {
@@ -209,12 +204,12 @@ class SignalReader : SignalsReader {
         counted_ = true;
         const std::string speed_name = found(kSpeed, false);
         if (speed_name.empty()) {
-            how = fmt::format("constant speed, {:.6g} Hz at the mesh", record_.mesh_frequency_Hz);
+            how = fmt::format("constant speed, {:.6g} Hz at the mesh{}", record_.mesh_frequency_Hz,
+                              unused_text());
             return scaled(std::move(phase), record_.mesh_frequency_Hz);
         }
         speed_column_ = true;
         const std::vector<double> speed_rpm = column(speed_name, Quantity::speed);
-        reject_column(kSpeed, sign_change_text(speed_rpm));
         how = speed_rpm.empty() || speed_rpm.front() >= 0.0
                   ? "column speed_rpm"
                   : "column speed_rpm, which is negative: backward rotation";
@@ -300,23 +295,15 @@ class SignalReader : SignalsReader {
         return tracking.resample(sensor_, grid, tracking.meshes(grid));
     }
 
-    // Takes a speed that is `ratio` times the stated one. Returns true if it differs.
-    bool follow(double ratio, MeasuredSignal& measured) {
-        stop_at_problems();
-        if (ratio != 1.0) {
-            phase_ = scaled(std::move(phase_), ratio);
-            measured.tracking += fmt::format(", multiplied by {:.5f} to fit the mesh lines", ratio);
-        }
-        return ratio != 1.0;
-    }
-
-    // Ratio of the speed shown by the mesh lines to the stated speed, where they differ by more
-    // than mesh_speed() searches; otherwise 1. Adds a note if there are no lines, or if they are
-    // too weak to refuse the recording.
-    double far_speed(MeasuredSignal& measured) {
+    // Compares the mesh lines with the stated speed: rejects another one, or takes it if requested.
+    // Adds a note if there are no lines, or if they are too weak to refuse the recording.
+    void check_speed(MeasuredSignal& measured) {
+        const bool sampled_in_phase = columns_.samples_per_mesh > 0.0;
+        constexpr double kFewestTurns = 4.0;  // of a recording that was sampled in phase
         if (columns_.speed == SpeedCheck::ignore || !measured.has_sensor ||
-            columns_.samples_per_mesh > 0.0) {
-            return 1.0;
+            (sampled_in_phase &&
+             phase_.back() - phase_.front() < kFewestTurns * record_.path_meshes())) {
+            return;
         }
         double per_mesh = 0.0;
         const std::vector<double> samples = evenly_tracked(per_mesh);
@@ -328,65 +315,49 @@ class SignalReader : SignalsReader {
             const auto untracked = signals::wide_speed(sensor_, mean, record_.path_meshes());
             found = untracked && untracked->contradicts() ? untracked : found;
         }
-        constexpr double kNear = 0.06;
-        if (!found || found->fits() || std::abs(found->ratio - 1.0) <= kNear) {
-            return 1.0;
+        if (!found || found->fits()) {
+            return;
         }
-        if (!found->contradicts()) {
-            measured.notes.push_back(no_lines_text(*found, samples, per_mesh, measured.tracking));
-            return 1.0;
+        constexpr double kNear = 0.06, kNoFit = 0.1;
+        const bool near = std::abs(found->ratio - 1.0) <= kNear;
+        const bool another =
+            near ? found->fit > kNoFit && found->harmonics > 2 : found->contradicts();
+        if (sampled_in_phase && !(near && another)) {
+            return;
         }
-        constexpr int kEnough = 4;  // harmonics
-        constexpr double kClearFit = 0.5, kClearlyLess = 0.25;
-        const bool clear = found->other == 0.0 && found->harmonics >= kEnough;
-        const std::string lines =
-            lines_text(found->ratio, found->other, measured) +
-            fmt::format(
-                ": they hold {:.0f} % of the lines at that speed, {:.0f} % at the stated "
-                "one; {}",
-                100.0 * found->fit, 100.0 * found->stated,
-                clear ? speed_remedy(found->ratio) : "correct the speed");
-        if (columns_.speed == SpeedCheck::refuse) {
-            if (found->fit < kClearFit || found->stated > kClearlyLess * found->fit) {
-                measured.notes.push_back(lines);
-                return 1.0;
+        if (!another) {
+            if (!near || found->fit <= kNoFit) {
+                measured.notes.push_back(
+                    fmt::format("no mesh harmonic of this gearbox stands out of the noise at the "
+                                "stated speed ({}{}; {} lines of any origin stand out): another "
+                                "channel, a machine at rest, or a speed that is wrong or varies",
+                                measured.tracking, measured_speed_text(), found->lines));
             }
+            return;
+        }
+        constexpr int kEnough = 4;  // harmonics; with fewer, a neighbour of the mesh line fits, too
+        const double clear_fit = near ? kNoFit : 0.5;
+        const double clearly_less = near && found->fit > 0.3 ? 0.5 : 0.25;
+        const bool clear = found->other == 0.0 && found->harmonics >= kEnough;
+        const std::string lines = fmt::format(
+            "the mesh lines fit {:.4f}{} times the stated speed ({}{}): they hold {:.0f} % of the "
+            "lines at that speed, {:.0f} % at the stated one; {}",
+            found->ratio, found->other > 0.0 ? fmt::format(" or {:.4f}", found->other) : "",
+            measured.tracking, measured_speed_text(), 100.0 * found->fit, 100.0 * found->stated,
+            clear ? speed_remedy(found->ratio)
+                  : "they are too few to determine the speed; correct it");
+        if (columns_.speed == SpeedCheck::refuse &&
+            (found->fit < clear_fit || found->stated > clearly_less * found->fit)) {
+            measured.notes.push_back(lines);
+            return;
+        }
+        if (columns_.speed == SpeedCheck::refuse || !clear) {
             reject(lines);
-        } else if (!clear) {
-            reject(lines);
         }
-        return found->ratio;
-    }
-
-    std::string lines_text(double ratio, double other, const MeasuredSignal& measured) const {
-        return fmt::format("the mesh lines fit {:.4f}{} times the stated speed ({}{})", ratio,
-                           other > 0.0 ? fmt::format(" or {:.4f}", other) : "", measured.tracking,
-                           measured_speed_text());
-    }
-
-    // The same near the stated speed, of signals on the study's grid.
-    double near_speed(const MeasuredSignal& measured) {
-        if (columns_.speed == SpeedCheck::ignore || !measured.has_sensor) {
-            return 1.0;
-        }
-        const auto found =
-            signals::mesh_speed(measured.sensor, record_.samples, record_.path_meshes());
-        constexpr double kClearly = 0.5;  // relative to the best fit
-        // harmonics; with fewer, a ratio that is off by one tooth fits as well
-        constexpr int kEnough = 4;
-        if (!found || found->stated > kClearly * found->fit) {
-            return 1.0;
-        }
-        const std::string lines = lines_text(found->ratio, found->other, measured);
-        if (columns_.speed == SpeedCheck::refuse) {
-            reject(fmt::format(
-                "{}: they hold {:.0f} % of the amplitudes at that speed, {:.0f} % at the stated "
-                "one; {}",
-                lines, 100.0 * found->fit, 100.0 * found->stated, speed_remedy(found->ratio)));
-        } else if (found->other > 0.0 || found->harmonics < kEnough) {
-            reject(lines + ", but they are too few to determine the speed; correct it");
-        }
-        return found->ratio;
+        stop_at_problems();
+        phase_ = scaled(std::move(phase_), found->ratio);
+        measured.tracking +=
+            fmt::format(", multiplied by {:.5f} to fit the mesh lines", found->ratio);
     }
 
     // Speed, rpm, of the member whose speed the study gives, at a mesh frequency.
@@ -438,33 +409,22 @@ class SignalReader : SignalsReader {
         return pair == of_pair ? record_.drivetrain->shaft_turns_per_mesh(member) : 0.0;
     }
 
-    // Reason why the mesh lines show no constant speed.
-    std::string no_lines_text(const signals::WideSpeed& found, std::span<const double> samples,
-                              double per_mesh, const std::string& tracking) const {
-        constexpr std::size_t kParts = 8;
-        const std::size_t length = samples.size() / kParts;
-        std::vector<double> ratios;
-        for (std::size_t part = 0; part < kParts; ++part) {
-            const auto in_part = signals::wide_speed(samples.subspan(part * length, length),
-                                                     per_mesh, record_.path_meshes());
-            if (in_part && in_part->fit > 0.4 && in_part->harmonics >= 2) {
-                ratios.push_back(in_part->ratio);
-            }
+    // Notes a speed that varies where a constant one is taken. Averaged over a phase that deviates
+    // by this much, the k-th mesh harmonic keeps sinc(k/4) of its amplitude: 90, 64, 30 and 0 %.
+    void check_variation(MeasuredSignal& measured) const {
+        constexpr double kLargestDeviation = 0.25;  // mesh periods
+        if (columns_.speed == SpeedCheck::ignore || !measured.has_sensor || !counted_ ||
+            speed_column_) {
+            return;
         }
-        std::string varies;
-        if (ratios.size() > kParts / 2) {
-            const auto [low, high] = std::ranges::minmax(ratios);
-            varies = fmt::format(
-                "; in parts of it the lines fit {:.3f} to {:.3f} times the stated "
-                "speed: give the speed with --tachometer, --encoder or a column "
-                "speed_rpm",
-                low, high);
+        const auto found = signals::speed_variation(measured.sensor, record_.samples);
+        if (found && found->meshes >= kLargestDeviation) {
+            measured.notes.push_back(fmt::format(
+                "the speed varies by {:.2g} %, but is taken as constant: the mesh phase deviates "
+                "by {:.2g} mesh periods, which smears what is averaged from {:g} on; give the "
+                "speed with --tachometer, --encoder or a column speed_rpm",
+                100.0 * found->speed, found->meshes, kLargestDeviation));
         }
-        return fmt::format(
-            "no mesh harmonic of this gearbox stands out of the noise at the stated speed ({}{}; "
-            "{} lines of any origin stand out): another channel, a machine at rest, or a speed "
-            "that is wrong or varies{}",
-            tracking, measured_speed_text(), found.lines, varies);
     }
 
     // Checks for lost samples if the phase comes only from sample numbers, times and speed. Lost
@@ -473,24 +433,36 @@ class SignalReader : SignalsReader {
         if (columns_.speed == SpeedCheck::ignore || !measured.has_sensor || !counted_) {
             return;
         }
-        reject_column(columns_.sensor.empty() ? kSensor : columns_.sensor,
-                      losses_text(measured.sensor, record_.samples, record_.path_meshes(),
-                                  measured.losses_detectable));
+        const auto lost =
+            signals::lost_samples(measured.sensor, record_.samples, record_.path_meshes());
+        measured.losses_detectable = lost.has_value();
+        if (lost && lost->found) {
+            reject_column(
+                columns_.sensor.empty() ? kSensor : columns_.sensor,
+                fmt::format("the meshes are {:.2f} periods too {} (plus any number of whole "
+                            "periods) after mesh period {} to {}: samples were lost or repeated, "
+                            "which the times do not show; cut the recording there",
+                            std::abs(lost->meshes), lost->meshes > 0.0 ? "early" : "late",
+                            lost->first_mesh, lost->last_mesh));
+        }
     }
 
-    // Mesh phase from the absolute speed; the direction of rotation does not matter.
+    // Mesh phase from the absolute speed; the direction of rotation does not matter. A gearbox that
+    // reverses passes its meshes again and loads the other flanks.
     std::vector<double> integrated(const std::vector<double>& time,
                                    const std::vector<double>& speed_rpm) {
-        if (!problems_.empty()) {
-            return {};
+        std::vector<double> phase(problems_.empty() ? speed_rpm.size() : 0, 0.0);
+        for (std::size_t i = 1; i < phase.size(); ++i) {
+            if (speed_rpm[i] * speed_rpm.front() < 0.0) {
+                reject_column(
+                    kSpeed,
+                    fmt::format("changes its sign at sample {}; cut the recording there", i + 1));
+                return {};
+            }
+            const double rpm = 0.5 * std::abs(speed_rpm[i - 1] + speed_rpm[i]);
+            phase[i] = phase[i - 1] + (time[i] - time[i - 1]) * rpm / 60.0 * meshes_per_turn();
         }
-        std::vector<double> frequency_Hz;
-        for (const double rpm : speed_rpm) {
-            frequency_Hz.push_back(std::abs(record_.drivetrain->mesh_frequency_rad_s(
-                                       std::abs(rpm) * kRadPerSecondPerRpm)) /
-                                   (2.0 * std::numbers::pi));
-        }
-        return rising(integral(time, frequency_Hz));
+        return rising(std::move(phase));
     }
 
     std::vector<double> rising(std::vector<double> phase, bool measured = false) {
@@ -576,12 +548,8 @@ namespace {
 
 // Factor on `before` that leaves the least squares of now - factor before.
 double best_scale(std::span<const double> now, std::span<const double> before) {
-    double both = 0.0, squares = 0.0;
-    for (std::size_t i = 0; i < now.size(); ++i) {
-        both += now[i] * before[i];
-        squares += before[i] * before[i];
-    }
-    return both / squares;
+    return std::inner_product(now.begin(), now.end(), before.begin(), 0.0) /
+           std::inner_product(before.begin(), before.end(), before.begin(), 0.0);
 }
 
 }  // namespace

@@ -20,16 +20,6 @@ struct MeasurementPlan {
     InstanceInputs nominal;  // inputs of every recorded gearbox, which are not known
 };
 
-struct RecordedSignals {
-    bool sensor = false, te = false;
-};
-
-// Problems of the number of samples per mesh period: too few to resolve the mesh frequency or the
-// sensor's frequency range, or so many that the study's grid would alias high frequencies. `phase`
-// has the mesh phase of every sample.
-std::vector<std::string> rate_problems(std::span<const double> phase, const MeasurementPlan& plan,
-                                       RecordedSignals has);
-
 struct MeasuredSignal {
     // Mesh periods that features use, as far as the recording has them.
     std::vector<double> sensor;               // m/s^2, P values per mesh period

@@ -21,12 +21,9 @@ constexpr double kNumerical = 1e-12;  // of the signal's RMS
 constexpr std::size_t kStepSamples = 65536;
 
 double rms_about_mean(std::span<const double> values) {
-    double sum = 0.0;
-    for (const double value : values) {
-        sum += value;
-    }
-    const double mean = sum / static_cast<double>(values.size());
-    return std::sqrt(std::max(0.0, rms_of(values) * rms_of(values) - mean * mean));
+    std::vector<double> about(values.begin(), values.end());
+    subtract_mean(about);
+    return rms_of(about);
 }
 
 // RMS of the rounding error in the regular signal: its orders have two of the N degrees of freedom

@@ -10,12 +10,13 @@
 
 #include "machine/contracts.hpp"
 #include "machine/upper_median.hpp"
+#include "mc/files/input/file_text.hpp"
 #include "mc/files/input/terminal_text.hpp"
-#include "signals/spectra/recording_checks.hpp"
 
 namespace gearpod::mc {
 namespace {
 
+constexpr const char* kTimeColumn = "time";
 constexpr double kEven = 1e-3;  // relative to a step
 // Largest unit of rounded times, relative to a step. Steps are whole numbers of units: one or two
 // where no sample is missing, three or more over a missing sample.
@@ -169,15 +170,6 @@ std::vector<double> steps_of(const std::vector<double>& time, double factor) {
     return steps;
 }
 
-// Reports times that are rounded so coarsely that a missing sample would not show.
-std::string coarse_problem(double unit, double step) {
-    return fmt::format(
-        "the times are rounded to {:.3g} s, too coarse for samples every {:.6g} s: a missing "
-        "sample "
-        "would not show; write more digits, or state the rate with --sampling-Hz",
-        unit, step);
-}
-
 // Mean of the steps about as long as their median.
 double usual_step(const std::vector<double>& steps, double unit) {
     const double median = machine::upper_median(steps);
@@ -222,7 +214,10 @@ std::string spacing_problem(const std::vector<double>& steps, double unit) {
                    : "");
     }
     if (coarse) {
-        return coarse_problem(unit, usual);
+        return fmt::format(
+            "the times are rounded to {:.3g} s, too coarse for samples every {:.6g} s: a missing "
+            "sample would not show; write more digits, or state the rate with --sampling-Hz",
+            unit, usual);
     }
     const auto worst = std::max_element(steps.begin(), steps.end(), [&](double a, double b) {
         return std::abs(a - usual) < std::abs(b - usual);
@@ -274,23 +269,6 @@ std::vector<double> evenly_spaced(std::size_t samples, double rate) {
         values[i] = static_cast<double>(i) / rate;
     }
     return values;
-}
-
-std::string sign_change_text(std::span<const double> speed) {
-    const auto other =
-        std::ranges::find_if(speed, [&](double value) { return value * speed.front() < 0.0; });
-    return other == speed.end()
-               ? ""
-               : fmt::format("changes its sign at sample {}; cut the recording there",
-                             other - speed.begin() + 1);
-}
-
-std::vector<double> integral(std::span<const double> time, std::span<const double> rate) {
-    std::vector<double> sum(time.size(), 0.0);
-    for (std::size_t i = 1; i < time.size(); ++i) {
-        sum[i] = sum[i - 1] + 0.5 * (time[i] - time[i - 1]) * (rate[i - 1] + rate[i]);
-    }
-    return sum;
 }
 
 void extend_periodically(const std::vector<std::vector<double>*>& signals,
@@ -365,27 +343,6 @@ std::string clipping(std::span<const double> samples) {
                                : "";
 }
 
-std::string losses_text(std::span<const double> samples, int per_mesh, int turn_meshes,
-                        bool& detectable) {
-    const auto lost = signals::lost_samples(samples, per_mesh, turn_meshes);
-    detectable = lost.has_value();
-    if (!lost || !lost->found) {
-        return "";
-    }
-    return fmt::format(
-        "the meshes are {:.2f} periods too {} (plus any number of whole periods) after mesh period "
-        "{} to {}: samples were lost or repeated, which the times do not show; cut the recording "
-        "there",
-        std::abs(lost->meshes), lost->meshes > 0.0 ? "early" : "late", lost->first_mesh,
-        lost->last_mesh);
-}
-
-namespace {
-
-constexpr const char* kTimeColumn = "time";
-
-}  // namespace
-
 std::vector<double> scaled(std::vector<double> values, double factor) {
     if (factor != 1.0) {
         for (double& value : values) {
@@ -418,6 +375,21 @@ void RecordingColumns::reject_missing(const std::string& name) {
 
 std::string RecordingColumns::found(const std::string& name, bool requested) {
     return file_->find({name, first_, requested});
+}
+
+std::string RecordingColumns::unused_text() {
+    constexpr std::pair<const char*, const char*> kUses[] = {
+        {"tach", "--tachometer {}"}, {"puls", "--tachometer {}"},  {"encoder", "--encoder {}"},
+        {"angle", "--encoder {}"},   {"rpm", "name it speed_rpm"}, {"speed", "name it speed_rpm"}};
+    for (const std::string& name : file_->names()) {
+        for (const auto& [part, use] : kUses) {
+            if (name != first_ && lower_case(name).find(part) != std::string::npos) {
+                return fmt::format("; column {} is not used: {}", printable(name),
+                                   fmt::format(fmt::runtime(use), printable(name)));
+            }
+        }
+    }
+    return "";
 }
 
 double RecordingColumns::factor(const std::string& name, Quantity quantity) {
@@ -493,8 +465,7 @@ std::vector<double> RecordingColumns::times(std::size_t samples) {
         }
         return std::move(time.seconds);
     }
-    const double rate = columns_.sampling_Hz > 0.0 ? columns_.sampling_Hz
-                                                   : file_->sampling_Hz_of(first_).value_or(0.0);
+    const double rate = stated_rate_Hz();
     if (!(rate > 0.0 && std::isfinite(rate))) {
         reject(
             fmt::format("no sampling rate: the file has neither a column {} or {} nor "
@@ -503,9 +474,10 @@ std::vector<double> RecordingColumns::times(std::size_t samples) {
         return {};
     }
     if (constexpr double kLeast_Hz = 1e-3; rate < kLeast_Hz) {
-        reject(fmt::format("a sampling rate of {:g} Hz resolves no mesh; correct --sampling-Hz or "
-                           "the rate in the file",
-                           rate));
+        reject(
+            fmt::format("a sampling rate of {:g} Hz resolves no mesh; correct --sampling-Hz or "
+                        "the rate in the file",
+                        rate));
         return {};
     }
     if (columns_.sampling_Hz > 0.0) {
@@ -548,27 +520,31 @@ std::string RecordingColumns::time_column() {
     return "";
 }
 
+double RecordingColumns::stated_rate_Hz() {
+    return columns_.sampling_Hz > 0.0 ? columns_.sampling_Hz
+                                      : file_->sampling_Hz_of(first_).value_or(0.0);
+}
+
 double RecordingColumns::rate_Hz() {
-    if (columns_.sampling_Hz > 0.0) {
-        return columns_.sampling_Hz;
+    const std::string time = time_column();
+    if (time.empty()) {
+        return stated_rate_Hz();
     }
-    if (const std::string time = time_column(); !time.empty()) {
-        const std::vector<double> values = file_->read(time);
-        const double rate = static_cast<double>(values.size() - 1) /
-                            ((values.back() - values.front()) * factor(time, Quantity::time));
-        return std::isfinite(rate) && rate > 0.0 ? rate : 0.0;
-    }
-    return file_->sampling_Hz_of(first_).value_or(0.0);
+    const std::vector<double> values = file_->read(time);
+    const double rate = static_cast<double>(values.size() - 1) /
+                        ((values.back() - values.front()) * factor(time, Quantity::time));
+    return std::isfinite(rate) && rate > 0.0 ? rate : 0.0;
 }
 
 std::string RecordingColumns::moment(std::size_t sample) {
+    if (sample == 0) {
+        return "";
+    }
     const std::string time = time_column();
-    const double rate = columns_.sampling_Hz > 0.0 ? columns_.sampling_Hz
-                                                   : file_->sampling_Hz_of(first_).value_or(0.0);
-    const double seconds = sample == 0 || time.empty()
-                               ? static_cast<double>(sample - 1) / rate
+    const double seconds = time.empty()
+                               ? static_cast<double>(sample - 1) / stated_rate_Hz()
                                : file_->read(time).at(sample - 1) * factor(time, Quantity::time);
-    return sample > 0 && std::isfinite(seconds) ? fmt::format(" ({:.6g} s)", seconds) : "";
+    return std::isfinite(seconds) ? fmt::format(" ({:.6g} s)", seconds) : "";
 }
 
 }  // namespace gearpod::mc

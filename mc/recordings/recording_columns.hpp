@@ -28,13 +28,6 @@ SampleTimes sample_times(std::vector<double> column, double factor = 1.0);
 // The values 0, 1, 2, ... divided by `rate`.
 std::vector<double> evenly_spaced(std::size_t samples, double rate);
 
-// Returns "" unless the speed changes its sign. A gearbox that reverses passes its meshes again and
-// loads the other flanks.
-std::string sign_change_text(std::span<const double> speed);
-
-// Integral of `rate` over `time` from the first sample on, by the trapezoidal rule.
-std::vector<double> integral(std::span<const double> time, std::span<const double> rate);
-
 // Continues a signal of whole planet turns periodically by some samples; does nothing for other
 // lengths and for empty signals. Otherwise a finer grid would lose its points after the last
 // sample, and with them the last mesh period.
@@ -48,15 +41,9 @@ std::string bad_values(std::span<const double> values);
 // value that begin and end with jumps above the resolution.
 std::string clipping(std::span<const double> samples);
 
-// Returns "" unless samples are missing within a signal on the mesh-phase grid
-// (signals/spectra/recording_checks.hpp). `detectable` is set to true if missing samples can be
-// detected.
-std::string losses_text(std::span<const double> samples, int per_mesh, int turn_meshes,
-                        bool& detectable);
-
 // Columns of a recording: found by name, converted to the program's units and checked.
 
-// Use of the speed that the mesh lines show (signals/spectra/recording_checks.hpp).
+// Use of the speed that the mesh lines show (signals/spectra/wide_speed.hpp).
 enum class SpeedCheck {
     refuse,  // reject a recording whose lines fit another speed clearly better
     follow,  // use that speed
@@ -95,6 +82,8 @@ class RecordingColumns {
     void reject_missing(const std::string& name);
     // Full name of a column; "" if it does not exist. All columns belong to the first one.
     std::string found(const std::string& name, bool requested);
+    // Names a column of speeds, pulses or angles that is not used, with its use; "": none.
+    std::string unused_text();
     // Factor that converts a column to the program's units.
     double factor(const std::string& name, Quantity quantity);
     // Name of the column of times: that of --time, or one of its usual names; "": none.
@@ -107,7 +96,8 @@ class RecordingColumns {
                                Quantity quantity);
     // Time of every sample, s.
     std::vector<double> times(std::size_t samples);
-    // Sampling rate as stated or by the times; 0 if it is not known.
+    // Sampling rate as stated, and that or the rate of the times; 0 if it is not known.
+    double stated_rate_Hz();
     double rate_Hz();
     // Adds a note if the file states another sampling rate than the one used.
     void compare_with_stated_rate(double used_Hz);

@@ -3,74 +3,13 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <set>
+#include <numeric>
 #include <vector>
 
 #include "machine/upper_median.hpp"
 #include "signals/spectra/order_spectrum.hpp"
 
 namespace gearpod::signals {
-namespace {
-
-constexpr double kMaxRatioDeviation = 0.06;  // largest deviation of the ratio from 1
-constexpr int kMostHarmonics = 8;            // beyond, the search bands of neighbours overlap
-constexpr double kMinPeakToMedian = 5.0;     // amplitude over the median of its band
-constexpr double kLineSpread = 4.0;          // of the lines around a harmonic, in turn frequencies
-constexpr double kMinFit = 0.3;          // smallest accepted fraction of the amplitudes on the comb
-constexpr double kComparableFit = 0.85;  // fraction of the best fit
-
-struct Line {
-    double order;  // per mesh
-    double amplitude;
-    int harmonic;
-};
-
-std::vector<Line> strong_lines(const std::vector<double>& amplitude, double meshes) {
-    std::vector<Line> lines;
-    for (int k = 1; k <= kMostHarmonics; ++k) {
-        const auto first =
-            static_cast<std::size_t>(std::ceil(k * (1.0 - kMaxRatioDeviation) * meshes));
-        const auto last =
-            static_cast<std::size_t>(std::floor(k * (1.0 + kMaxRatioDeviation) * meshes));
-        if (last + 1 >= amplitude.size()) {
-            break;
-        }
-        std::vector<double> band(amplitude.begin() + static_cast<std::ptrdiff_t>(first),
-                                 amplitude.begin() + static_cast<std::ptrdiff_t>(last) + 1);
-        const auto middle = band.begin() + static_cast<std::ptrdiff_t>(band.size() / 2);
-        std::nth_element(band.begin(), middle, band.end());
-        double most = 0.0;
-        for (std::size_t bin = first; bin <= last; ++bin) {
-            most = std::max(most, amplitude[bin]);
-        }
-        // Threshold above the noise and above the skirts of stronger lines.
-        const double least = std::max(kMinPeakToMedian * *middle, 0.05 * most);
-        for (std::size_t bin = first; bin <= last; ++bin) {
-            if (amplitude[bin] > least && amplitude[bin] >= amplitude[bin - 1] &&
-                amplitude[bin] >= amplitude[bin + 1]) {
-                // Amplitudes are normalised so that every harmonic counts equally, whatever its
-                // strength.
-                lines.push_back({static_cast<double>(bin) / meshes, amplitude[bin] / most, k});
-            }
-        }
-    }
-    return lines;
-}
-
-// Fraction of the amplitudes that the comb stretched by `ratio` covers.
-double fit_of(const std::vector<Line>& lines, double ratio, int turn_meshes, double width) {
-    double on = 0.0, all = 0.0;
-    for (const Line& line : lines) {
-        const double offset = (line.order / ratio - line.harmonic) * turn_meshes;
-        const double from_tooth = std::abs(offset - std::round(offset)) / width;
-        const double near = std::exp(-0.5 * std::pow(offset / kLineSpread, 2));
-        on += line.amplitude * near * std::max(0.0, 1.0 - from_tooth);
-        all += line.amplitude;
-    }
-    return on / all;
-}
-
-}  // namespace
 
 std::span<const double> fast_part(std::span<const double> samples) {
     constexpr std::size_t kMostSamples = std::size_t{1} << 20;
@@ -88,63 +27,20 @@ std::span<const double> fast_part(std::span<const double> samples) {
     return {};
 }
 
-std::vector<double> hann_amplitudes(std::span<const double> samples, double mean) {
+std::vector<double> hann_amplitudes(std::span<const double> samples, int zeros) {
     const auto length = static_cast<int>(samples.size());
+    const double mean = std::accumulate(samples.begin(), samples.end(), 0.0) / length;
     std::vector<double> windowed;
     for (int i = 0; i < length; ++i) {
         windowed.push_back((samples[static_cast<std::size_t>(i)] - mean) *
                            (0.5 - 0.5 * std::cos(2.0 * std::numbers::pi * i / length)));
     }
-    OrderSpectrum spectrum(length);
+    windowed.resize(samples.size() + static_cast<std::size_t>(zeros), 0.0);
+    OrderSpectrum spectrum(length + zeros);
     spectrum.load(windowed);
     std::vector<double> amplitude(static_cast<std::size_t>(spectrum.orders()));
     spectrum.amplitudes(0.0, amplitude);
     return amplitude;
-}
-
-std::optional<MeshSpeed> mesh_speed(std::span<const double> samples, int per_mesh,
-                                    int turn_meshes) {
-    constexpr int kFewestTurns = 4, kFewestHarmonics = 3;
-    samples = fast_part(samples);
-    const double meshes = static_cast<double>(samples.size()) / per_mesh;
-    const double turns = meshes / turn_meshes;
-    if (turn_meshes < 2 || turns < kFewestTurns) {
-        return std::nullopt;
-    }
-    const std::vector<Line> lines = strong_lines(hann_amplitudes(samples, 0.0), meshes);
-    std::set<int> harmonics;
-    for (const Line& line : lines) {
-        harmonics.insert(line.harmonic);
-    }
-    if (harmonics.size() < kFewestHarmonics) {
-        return std::nullopt;
-    }
-    // Each comb tooth is 1.5 bins wide, at most a third of the distance to the next one.
-    const double width = std::min(0.33, 1.5 / turns);
-    const double step = 0.25 / (meshes * *harmonics.rbegin());
-    MeshSpeed best{1.0, 0.0, fit_of(lines, 1.0, turn_meshes, width)};
-    best.fit = best.stated;
-    best.harmonics = static_cast<int>(harmonics.size());
-    const auto scan_ratios = [&](const auto& use) {
-        for (double ratio = 1.0 - kMaxRatioDeviation; ratio <= 1.0 + kMaxRatioDeviation;
-             ratio += step) {
-            use(ratio, fit_of(lines, ratio, turn_meshes, width));
-        }
-    };
-    scan_ratios([&](double ratio, double fit) {
-        if (fit > best.fit) {
-            best.ratio = ratio;
-            best.fit = fit;
-        }
-    });
-    double best_other_fit = kComparableFit * best.fit;
-    scan_ratios([&](double ratio, double fit) {
-        if (fit > best_other_fit && std::abs(ratio - best.ratio) * turn_meshes > 0.5) {
-            best.other = ratio;
-            best_other_fit = fit;
-        }
-    });
-    return best.fit > kMinFit ? std::optional(best) : std::nullopt;
 }
 
 namespace {

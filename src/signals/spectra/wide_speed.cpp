@@ -128,25 +128,15 @@ std::optional<WideSpeed> wide_speed(std::span<const double> samples, double per_
                                     int turn_meshes) {
     constexpr double kFewestMeshes = 20.0;
     samples = fast_part(samples);
-    const auto length = static_cast<double>(samples.size());
-    const double meshes = length / per_mesh;
+    const double meshes = static_cast<double>(samples.size()) / per_mesh;
     if (meshes < kFewestMeshes || per_mesh < 2.0) {
         return std::nullopt;
     }
-    double mean = 0.0;
-    for (const double value : samples) {
-        mean += value / length;
-    }
-    const std::vector<WideLine> lines = strongest_lines(hann_amplitudes(samples, mean), meshes);
+    const std::vector<WideLine> lines = strongest_lines(hann_amplitudes(samples), meshes);
     const Comb comb(lines, 0.5 * per_mesh, meshes, turn_meshes);
     WideSpeed best;
     for (const double part : {-0.25, 0.0, 0.25}) {
-        int harmonics = 0;
-        const double fit = comb.fit(1.0 + part / meshes, &harmonics);
-        if (fit > best.stated) {
-            best.stated = fit;
-            best.harmonics = harmonics;
-        }
+        best.stated = std::max(best.stated, comb.fit(1.0 + part / meshes));
     }
     best.fit = best.stated;
     best.lines = static_cast<int>(lines.size());

@@ -1,6 +1,14 @@
-// Search for the speed of a signal far from the assumed one, by the comb of mesh lines that
-// recording_checks.hpp describes. It finds another shaft's speed, a wrong number of pulses, and
-// signals without mesh lines; it is less accurate than mesh_speed() next to the assumed speed.
+// Checks the speed of a signal by the mesh lines of its spectrum.
+//
+// In steady running all lines of a gearbox are multiples of the turn frequency of the carrier (of
+// the wheel, for a fixed-shaft pair). The lines of a mesh cluster around the multiples k of the
+// mesh frequency. A comb of these lines, stretched by `ratio`, is compared with the strong lines of
+// the spectrum. The ratio of the best fit is the signal's speed over the assumed one: it shows a
+// wrong speed, another shaft's speed, a wrong number of pulses, and signals without mesh lines.
+//
+// A stretch by one comb tooth maps the lines of k = 1 to their neighbours, but the lines of the
+// k-th harmonic k teeth away, where lines are weaker. With few harmonics such a ratio may fit
+// nearly as well; it is then reported as `other`.
 #pragma once
 
 #include <optional>

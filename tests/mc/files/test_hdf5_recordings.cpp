@@ -233,13 +233,15 @@ TEST_CASE("Datasets that are not columns of numbers do not prevent reading, and 
         H5Lcreate_hard(file, "/", file, "circle", H5P_DEFAULT, H5P_DEFAULT);
     });
     const auto file = made.open();
-    CHECK(file->names() == std::vector<std::string>{"sensor"});
+    CHECK(file->names() == std::vector<std::string>{"pairs/im", "pairs/re", "sensor"});
     CHECK(file->read("sensor") == kSix);
+    CHECK(file->read("pairs/im") == Values{0.0, 0.0});
     CHECK(file->find({"time", "sensor", false}).empty());
     REQUIRE(file->notes().size() == 1);
     CHECK(file->notes()[0] == "time (text) is not a column of numbers; it is not used");
     check_contains(made.refusal("pairs"), "pairs (compound) is not a column of numbers");
-    check_contains(file->contents(), "pairs (compound), sensor (6), time (text)");
+    check_contains(file->contents(),
+                   "pairs (compound), pairs/im (2), pairs/re (2), sensor (6), time (text)");
 }
 
 TEST_CASE("A file of 20,000 datasets is read, and its list is short") {
