@@ -12,7 +12,7 @@ from measuring import arguments, finished, parsed, show, table
 COMMANDS = {
     "datasheet_to_pod": "`new planetary`, `run`, `report --html`",
     "record_length_and_interval": "`run --set sensor.record_s=10 --set detection.record_interval_h=24`",
-    "one_false_alarm_a_year": "`describe --set detection.false_alarms_per_1000_h=0.114`",
+    "one_false_alarm_a_year": "`describe --full --set detection.false_alarms_per_1000_h=0.114`",
     "compare_two_sensors": "`run`, `run --set`, `compare --html`",
     "signals_in_python": '`gearpod.open("a.h5").signals(3)`',
     "own_feature": "`tests/tasks/own_feature.py`",

@@ -39,7 +39,7 @@ record_length_and_interval() {
     has out 'A record lasts 9.19 s and begins at a random tooth position' && has out 'There are 24 h between two records'
 }
 one_false_alarm_a_year() {
-    gearpod describe stage.toml --set detection.false_alarms_per_1000_h=0.114 --set detection.record_interval_h=24 > out &&
+    gearpod describe stage.toml --full --set detection.false_alarms_per_1000_h=0.114 --set detection.record_interval_h=24 > out &&
     has out 'are a rate of 0.00274 in a record for each feature' && has out 'Healthy records needed for a rate of 0.00274: 365'
 }
 own_csv_with_tachometer() {
