@@ -4,9 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "analysis/detection/threshold.hpp"
 #include "analysis/pod/hit_miss_pod.hpp"
-#include "analysis/statistics/interval.hpp"
 
 namespace gearpod::analysis {
 namespace {

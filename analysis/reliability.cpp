@@ -5,8 +5,6 @@
 #include <numeric>
 #include <stdexcept>
 
-#include "analysis/detection/detection.hpp"
-#include "analysis/pod/hit_miss_pod.hpp"
 #include "analysis/statistics/every_nth.hpp"
 #include "machine/team.hpp"
 

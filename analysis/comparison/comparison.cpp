@@ -2,20 +2,15 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdint>
 #include <limits>
 #include <random>
-#include <span>
 #include <stdexcept>
 #include <utility>
-#include <vector>
 
-#include "analysis/detection/detection.hpp"
 #include "analysis/detection/detection_table.hpp"
 #include "analysis/detection/threshold.hpp"
 #include "analysis/pod/hit_miss_pod.hpp"
 #include "analysis/pod/pod_curve.hpp"
-#include "analysis/statistics/interval.hpp"
 #include "analysis/statistics/link.hpp"
 #include "analysis/statistics/rank_statistics.hpp"
 #include "machine/team.hpp"

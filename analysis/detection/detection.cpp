@@ -6,7 +6,6 @@
 #include <cmath>
 #include <set>
 #include <stdexcept>
-#include <vector>
 
 #include "analysis/detection/threshold.hpp"
 #include "analysis/statistics/every_nth.hpp"

@@ -6,11 +6,9 @@
 #include <limits>
 #include <map>
 #include <numeric>
-#include <optional>
 #include <utility>
 
 #include "analysis/statistics/distributions.hpp"
-#include "analysis/statistics/interval.hpp"
 #include "analysis/statistics/quiet_policy.hpp"
 #include "analysis/statistics/rank_statistics.hpp"
 #include "machine/contracts.hpp"

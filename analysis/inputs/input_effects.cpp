@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numeric>
@@ -10,7 +9,6 @@
 
 #include "analysis/statistics/binary_regression.hpp"
 #include "analysis/statistics/distributions.hpp"
-#include "analysis/statistics/interval.hpp"
 #include "analysis/statistics/link.hpp"
 #include "analysis/statistics/rank_statistics.hpp"
 #include "features/statistics/signal_statistics.hpp"

@@ -5,8 +5,6 @@
 #include <numeric>
 #include <stdexcept>
 
-#include "analysis/statistics/interval.hpp"
-
 namespace gearpod::analysis {
 namespace {
 

@@ -6,7 +6,6 @@
 #include <limits>
 #include <tuple>
 #include <utility>
-#include <vector>
 
 #include "analysis/statistics/distributions.hpp"
 #include "analysis/statistics/interval.hpp"

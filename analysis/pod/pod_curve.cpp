@@ -5,13 +5,10 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <map>
 #include <set>
 
 #include "analysis/statistics/distributions.hpp"
-#include "analysis/statistics/interval.hpp"
-#include "analysis/statistics/link.hpp"
 #include "machine/contracts.hpp"
 
 namespace gearpod::analysis {

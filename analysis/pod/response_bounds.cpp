@@ -11,7 +11,6 @@
 #include <utility>
 
 #include "analysis/pod/pod_bounds.hpp"
-#include "analysis/statistics/interval.hpp"
 #include "analysis/statistics/link.hpp"
 #include "analysis/statistics/noncentral_distributions.hpp"
 #include "analysis/statistics/quiet_policy.hpp"

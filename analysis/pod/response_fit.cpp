@@ -14,8 +14,6 @@
 #include <utility>
 
 #include "analysis/statistics/gauss_rule.hpp"
-#include "analysis/statistics/interval.hpp"
-#include "analysis/statistics/numeric_maximum.hpp"
 
 namespace gearpod::analysis {
 

@@ -5,7 +5,6 @@
 #include <numeric>
 #include <stdexcept>
 
-#include "analysis/statistics/interval.hpp"
 #include "analysis/statistics/link.hpp"
 #include "machine/contracts.hpp"
 

@@ -11,7 +11,6 @@
 #include "mc/commands/options/options.hpp"
 #include "mc/ensemble/results_check.hpp"
 #include "mc/ensemble/run_store.hpp"
-#include "mc/files/atomic_file.hpp"
 #include "mc/files/input/problems.hpp"
 #include "mc/files/input/terminal_text.hpp"
 #include "mc/library/run/command_files.hpp"

@@ -93,7 +93,6 @@ std::string unknown_rate_text(const RareRateRequest& question, const RareRateRes
                      question.gearboxes, analysis::kLeastFamilies);
 }
 
-// The request and its result.
 std::string rate_text(const PreparedRare& prepared, const RareRateResult& result) {
     const RareRateRequest& q = prepared.question;
     std::string text =

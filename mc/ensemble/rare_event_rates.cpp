@@ -5,7 +5,6 @@
 #include <stdexcept>
 
 #include "machine/no_value.hpp"
-#include "mc/ensemble/ensemble.hpp"
 #include "mc/ensemble/messages.hpp"
 
 namespace gearpod::mc {

@@ -8,7 +8,6 @@
 #include <nlohmann/json.hpp>
 #include <span>
 
-#include "analysis/report/inspection_report.hpp"
 #include "machine/no_value.hpp"
 #include "mc/files/input/file_text.hpp"
 #include "mc/files/input/problems.hpp"

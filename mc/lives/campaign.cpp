@@ -9,7 +9,6 @@
 #include <stdexcept>
 
 #include "machine/no_value.hpp"
-#include "mc/ensemble/ensemble.hpp"
 
 namespace gearpod::mc {
 namespace {

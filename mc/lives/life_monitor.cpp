@@ -5,7 +5,6 @@
 #include <numeric>
 
 #include "analysis/monitoring/baseline_deviations.hpp"
-#include "analysis/monitoring/monitor_performance.hpp"
 
 namespace gearpod::mc {
 

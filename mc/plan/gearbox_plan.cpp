@@ -9,7 +9,6 @@
 #include "dynamics/gearbox_matrices.hpp"
 #include "machine/contracts.hpp"
 #include "mc/plan/scene_error.hpp"
-#include "mc/plan/scene_stiffness.hpp"
 #include "mc/study/fluctuations.hpp"
 #include "mc/study/gears.hpp"
 #include "mc/study/housing.hpp"

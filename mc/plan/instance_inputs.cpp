@@ -1,11 +1,9 @@
 #include "mc/plan/instance_inputs.hpp"
 
 #include <cmath>
-#include <limits>
 #include <map>
 #include <numbers>
 #include <string>
-#include <variant>
 
 #include "mc/study/faults/fault_kind.hpp"
 #include "mc/study/gears.hpp"
@@ -100,7 +98,6 @@ InputsRecipe::Body body_recipe(const Study& study, Member member) {
     return body;
 }
 
-// Inputs of one gearbox as they are computed from its values.
 class Computation {
   public:
     Computation(const InputsRecipe& recipe, const InputValues& values)
@@ -201,7 +198,6 @@ class Computation {
                 values_.or_0<"operation.speed_noise_band_Hz">()};
     }
 
-    // Speed of speed_member().
     double speed_rad_s() const {
         for (const std::optional<double> given :
              {values_.get<"operation.pinion_speed_rpm">(), values_.get<"operation.sun_speed_rpm">(),

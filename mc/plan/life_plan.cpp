@@ -141,7 +141,6 @@ RecordDistributions::RecordDistributions(const Study& study)
 
 namespace {
 
-// Step of depth in which the crack begins to grow.
 int first_step_of(const Life& life) {
     constexpr double kRounding = 1e-9;
     const double steps = crack_begin_m(life) / *life.last_depth_m * life.depth_steps;

@@ -148,7 +148,6 @@ DrawPlan::DrawPlan(const Study& study)
 
 namespace {
 
-// Standard normal quantile at probability `share`.
 double standard_normal_quantile(double share) {
     return -std::numbers::sqrt2 * boost::math::erfc_inv(2.0 * share);
 }
@@ -163,7 +162,6 @@ GearboxId owner(GearboxId id, DrawnPer per) {
 
 }  // namespace
 
-// Uniform variates of the correlated inputs.
 std::vector<double> Sampler::uniform_variates(const GearboxId& id) const {
     return plan_.copula.uniform_variates([&](std::size_t input) {
         if (plan_.sampling.has(input)) {

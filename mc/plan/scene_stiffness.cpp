@@ -1,24 +1,18 @@
 #include "mc/plan/scene_stiffness.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <ranges>
 
 #include "dynamics/helical_pair.hpp"
-#include "gears/tooth_deviations.hpp"
 #include "machine/contracts.hpp"
-#include "mc/plan/drivetrain.hpp"
 #include "mc/plan/scene_error.hpp"
 #include "mc/study/faults/fault_kind.hpp"
-#include "mc/study/gears.hpp"
 #include "mc/study/schema/sizes.hpp"
 #include "stiffness/additive_mesh.hpp"
 #include "stiffness/coupled_mesh.hpp"
 #include "stiffness/gapped_mesh.hpp"
 #include "stiffness/helical_mesh.hpp"
-#include "stiffness/loaded_mesh.hpp"
 #include "stiffness/square_wave_mesh.hpp"
 
 namespace gearpod::mc {

@@ -8,7 +8,6 @@
 #include <numbers>
 #include <stdexcept>
 #include <utility>
-#include <vector>
 
 #include "dynamics/gearbox_matrices.hpp"
 #include "lockstep/integrators/facts.hpp"
@@ -18,9 +17,7 @@
 #include "lockstep/steps/stability.hpp"
 #include "lockstep/tile/superposed_motion.hpp"
 #include "lockstep/tile/tile_integrators.hpp"
-#include "mc/plan/drivetrain.hpp"
 #include "mc/plan/feature_plan.hpp"
-#include "mc/plan/gearbox_plan.hpp"
 #include "mc/plan/scene_error.hpp"
 #include "mc/study/fluctuations.hpp"
 #include "mc/study/gears.hpp"

@@ -1,7 +1,6 @@
 #include "mc/report/page.hpp"
 
 #include <cstdlib>
-#include <filesystem>
 #include <nlohmann/json.hpp>
 #include <span>
 #include <stdexcept>

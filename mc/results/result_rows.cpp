@@ -1,9 +1,6 @@
 #include "mc/results/result_rows.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
-#include <charconv>
 #include <iterator>
 #include <map>
 #include <sstream>

@@ -4,8 +4,6 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "gears/mesh_geometry.hpp"
-
 namespace gearpod::gears {
 
 namespace {

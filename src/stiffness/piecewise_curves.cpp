@@ -1,10 +1,7 @@
 #include "stiffness/piecewise_curves.hpp"
 
 #include <algorithm>
-#include <array>
 #include <limits>
-
-#include "stiffness/teeth/positions.hpp"
 
 namespace gearpod::stiffness {
 

@@ -10,7 +10,6 @@
 
 #include "analysis/detection/threshold.hpp"
 #include "analysis/report/false_alarm_text.hpp"
-#include "analysis/report/wording.hpp"
 
 namespace gearpod::analysis {
 namespace {
@@ -422,7 +421,6 @@ std::string headline_text(const Findings& findings, std::size_t level) {
 
 namespace {
 
-// Step that makes detection assessable.
 std::string assessable_step(const Findings& findings) {
     const DetectionRequest& request = findings.request;
     if (findings.subject == Subject::recordings) {

@@ -117,7 +117,6 @@ class LaneSamples {
     }
 
   private:
-    // Signals of the sensor in a lane.
     LaneSignals& of_lane(std::size_t i) {
         return sensor_->number == 0 ? lanes_[i] : lanes_[i].additional[sensor_->number - 1];
     }
@@ -243,7 +242,6 @@ class LaneSamples {
     std::optional<signals::PeriodicResponse> response_, other_response_;
 };
 
-// Signals of `count` lanes.
 std::vector<LaneSignals> signals_of_lanes(const TilePlan& plan, const GearboxTile& tile,
                                           std::size_t first, std::size_t count, int meshes) {
     const RecordPlan& record = plan.record;

@@ -12,8 +12,6 @@
 
 #include "machine/no_value.hpp"
 #include "machine/team.hpp"
-#include "mc/ensemble/gearbox/realization_signals.hpp"
-#include "mc/ensemble/gearbox/record_window.hpp"
 #include "mc/files/input/terminal_text.hpp"
 #include "mc/files/python/python_worker.hpp"
 #include "mc/study/gears.hpp"
@@ -219,7 +217,6 @@ HealthyReference simulated_reference(const TilePlan& plan) {
 
 namespace {
 
-// Signals of baseline record k of a gearbox.
 const LaneSignals& baseline_of(const LaneSignals& gearbox, std::size_t k) {
     return gearbox.baseline[std::min(k, gearbox.baselines - 1)];
 }

@@ -1,14 +1,11 @@
 #include "mc/ensemble/gearbox/realization_signals.hpp"
 
-#include <algorithm>
 #include <boost/random/uniform_01.hpp>
 
 #include "machine/clocks.hpp"
 #include "machine/team.hpp"
 #include "mc/ensemble/gearbox/record_window.hpp"
 #include "mc/study/random/philox.hpp"
-#include "signals/noise/normals.hpp"
-#include "signals/noise/sensor_noise.hpp"
 #include "signals/path/frequency_response.hpp"
 
 namespace gearpod::mc {

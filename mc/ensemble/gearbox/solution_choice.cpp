@@ -1,7 +1,6 @@
 #include "mc/ensemble/gearbox/solution_choice.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <functional>
 #include <limits>
 #include <memory>
@@ -15,7 +14,6 @@
 #include "lockstep/tile/tile_integrators.hpp"
 #include "machine/clocks.hpp"
 #include "mc/ensemble/gearbox/tile_random_inputs.hpp"
-#include "mc/study/other_sources.hpp"
 
 namespace gearpod::mc {
 namespace {
@@ -54,7 +52,6 @@ double least_mesh_s(const GearboxPlan& gearbox, const lockstep::IntegrationPlan&
     return least;
 }
 
-// The same integration plan with the usual explicit method.
 lockstep::IntegrationPlan explicit_plan(lockstep::IntegrationPlan plan,
                                         const lockstep::PairSet& pairs, int steps) {
     plan.integrator = lockstep::kUsualExplicit;
@@ -114,7 +111,6 @@ const T* pointer_to(const std::optional<T>& value) {
     return value ? &*value : nullptr;
 }
 
-// Solution of a tile by each strategy.
 struct SolutionMaker {
     const SolvePlan& solve;
     const RecordPlan& record;

@@ -9,7 +9,6 @@
 
 #include "machine/clocks.hpp"
 #include "machine/team.hpp"
-#include "mc/ensemble/ensemble.hpp"
 #include "mc/ensemble/gearbox/simulation.hpp"
 #include "mc/ensemble/run_store.hpp"
 #include "mc/files/input/problems.hpp"
@@ -233,7 +232,6 @@ class Run {
     WallClock::time_point last_snapshot_ = WallClock::now();
 };
 
-// Work of the other ranks: computing batches.
 void compute_for_leader(const RunOptions& options, const TilePlan& tile,
                         const EnsemblePlan& ensemble, const Ranks& ranks,
                         const Interruption& interruption) {

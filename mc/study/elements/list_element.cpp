@@ -7,17 +7,13 @@
 #include <cmath>
 #include <filesystem>
 #include <iterator>
-#include <optional>
-#include <vector>
 
 #include "machine/no_value.hpp"
 #include "mc/files/foreign_file.hpp"
-#include "mc/files/input/file_text.hpp"
 #include "mc/files/input/input_file.hpp"
 #include "mc/files/input/spelling.hpp"
 #include "mc/files/signal_file.hpp"
 #include "mc/files/text/text_table.hpp"
-#include "mc/study/distributions/range.hpp"
 #include "mc/study/housing.hpp"
 
 namespace gearpod::mc {
@@ -245,7 +241,6 @@ std::optional<FileColumn> file_column(const Value& value) {
 
 namespace {
 
-// Numbers of a column of a text table.
 std::vector<double> table_column(const FileColumn& source) {
     const TextTable table = read_text_table(source.file);
     const auto column = table.find(source.column);

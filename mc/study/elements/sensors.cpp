@@ -255,7 +255,6 @@ std::optional<StageText> stage_text(const ListElement& element, const Value& tab
     return problems.empty() ? std::optional(std::move(found)) : std::nullopt;
 }
 
-// True if the document gives that key.
 bool gives(const Value& document, const char* section, const char* key) {
     const Entry* entry = document.find(section);
     return entry != nullptr && entry->value.find(key) != nullptr;

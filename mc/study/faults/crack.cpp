@@ -7,11 +7,9 @@
 #include <string_view>
 #include <utility>
 
-#include "mc/study/faults/fault_kind.hpp"
 #include "mc/study/gears.hpp"
 #include "stiffness/faults/spatial_crack.hpp"
 #include "stiffness/faults/tooth_crack.hpp"
-#include "stiffness/teeth/fracture_mechanics.hpp"
 #include "stiffness/teeth/tooth_profile.hpp"
 
 namespace gearpod::mc {

@@ -5,8 +5,6 @@
 #include <algorithm>
 #include <string>
 
-#include "analysis/detection/detection.hpp"
-#include "features/feature.hpp"
 #include "machine/contracts.hpp"
 #include "mc/study/faults/crack.hpp"
 #include "mc/study/faults/fault_kind.hpp"

@@ -23,13 +23,11 @@ bool is(const Study& s, StiffnessSource profile) {
 
 using Governors = decltype(Presence::governors);
 
-// Forbidden unless the condition is true.
 Presence only_if(bool condition, std::string_view why, const Governors& governors = {},
                  const Presence& otherwise = kOptional) {
     return condition ? otherwise : Presence{Need::forbidden, std::string(why), governors};
 }
 
-// Required if the condition is true.
 Presence required_if(bool condition, std::string_view why, const Governors& governors = {},
                      const Presence& otherwise = kOptional) {
     return condition ? Presence{Need::required, std::string(why), governors} : otherwise;

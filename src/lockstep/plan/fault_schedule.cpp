@@ -5,7 +5,6 @@
 #include <stdexcept>
 
 #include "dynamics/effects/mesh_damping.hpp"
-#include "lockstep/plan/tooth_pairs.hpp"
 
 namespace gearpod::lockstep {
 

@@ -4,9 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <stdexcept>
-#include <vector>
 
-#include "lockstep/plan/phase_grid.hpp"
 #include "lockstep/tile/rigid_rotation.hpp"
 #include "lockstep/tile/tile_integrators.hpp"
 

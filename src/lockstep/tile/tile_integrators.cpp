@@ -3,11 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <memory>
-#include <span>
 #include <stdexcept>
 #include <utility>
-#include <vector>
 
 #include "dynamics/fixed_shaft_motion.hpp"
 #include "dynamics/planetary_motion.hpp"

@@ -37,7 +37,6 @@ std::vector<int> consecutive(int first, int count) {
     return meshes;
 }
 
-// Signals of the lanes from `first` on.
 std::vector<std::vector<double>> signals_of(const TileSignals& tile, int first,
                                             const Timeline& timeline, const SpanLayout& layout,
                                             const PathGrid& path,

@@ -1,11 +1,8 @@
 #include "signals/spectra/order_spectrum.hpp"
 
 #include <cmath>
-#include <complex>
 #include <numeric>
 #include <stdexcept>
-
-#include "signals/spectra/fourier_transform.hpp"
 
 namespace gearpod::signals {
 namespace {

@@ -1,7 +1,6 @@
 #include "signals/spectra/resampling.hpp"
 
 #include <algorithm>
-#include <boost/math/interpolators/cardinal_cubic_b_spline.hpp>
 #include <cmath>
 #include <cstddef>
 #include <limits>

@@ -12,7 +12,6 @@
 #include <stdexcept>
 
 #include "stiffness/piecewise_curves.hpp"
-#include "stiffness/teeth/fracture_mechanics.hpp"
 #include "stiffness/teeth/tooth_compliance.hpp"
 
 namespace gearpod::stiffness {
