@@ -134,13 +134,13 @@ class Run {
         }
     }
 
-    // First screen of results that have been written.
     std::string screen_of(const Results& all, const RowSource& rows) const {
         analysis::Report report;
         try {
-            report = results_report(
-                all, rows,
-                reliability_on_machines(all, rows, ranks_, threads_of_machine(ensemble_, ranks_)));
+            report = findings_of_run(all, rows,
+                                     reliability_on_machines(all, rows, ranks_,
+                                                             threads_of_machine(ensemble_, ranks_)))
+                         .report;
         } catch (const machine::Cancelled&) {
             fmt::print(stderr, "the time limit is reached; `gearpod report` shows the results\n");
         }
