@@ -246,6 +246,19 @@ void warn(const LevelDetection& level, std::size_t healthy, double rate,
     }
 }
 
+// True if all values equal to the threshold belong to one gearbox. Noise-free records of one
+// gearbox are equal, which does not make the feature a constant.
+bool tied_within_one(std::span<const double> values, std::span<const std::size_t> gearbox,
+                     double threshold) {
+    std::set<std::size_t> tied;
+    for (std::size_t i = 0; i < values.size(); ++i) {
+        if (values[i] == threshold) {
+            tied.insert(gearbox[i]);
+        }
+    }
+    return tied.size() == 1;
+}
+
 }  // namespace
 
 FeatureDetection detect(const std::string& feature, Alarm alarm, const FeatureSample& healthy,
@@ -303,23 +316,6 @@ FeatureDetection detect(const std::string& feature, Alarm alarm, const FeatureSa
     }
     return result;
 }
-
-namespace {
-
-// True if all values equal to the threshold belong to one gearbox. Noise-free records of one
-// gearbox are equal, which does not make the feature a constant.
-bool tied_within_one(std::span<const double> values, std::span<const std::size_t> gearbox,
-                     double threshold) {
-    std::set<std::size_t> tied;
-    for (std::size_t i = 0; i < values.size(); ++i) {
-        if (values[i] == threshold) {
-            tied.insert(gearbox[i]);
-        }
-    }
-    return tied.size() == 1;
-}
-
-}  // namespace
 
 FeatureDetection detect_clustered(const std::string& feature, Alarm alarm,
                                   const FeatureSample& healthy,

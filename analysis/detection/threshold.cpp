@@ -14,7 +14,6 @@
 #include "machine/contracts.hpp"
 
 namespace gearpod::analysis {
-
 namespace {
 
 // (n+1)(1-rate) is a whole number for the usual rates; this keeps rounding from adding one to it.
@@ -203,6 +202,22 @@ Interval middle_of(std::vector<Weighted>& values, double weight, double confiden
               [](const Weighted& a, const Weighted& b) { return a.value < b.value; });
     const double tail = 0.5 * (1.0 - confidence);
     return {quantile(values, tail * weight), quantile(values, (1.0 - tail) * weight)};
+}
+
+// Smallest rank of a healthy value for which, with the confidence 1 - tail, fewer than `rate` of
+// all gearboxes lie beyond that value. With `below`, the largest rank for which more than `rate`
+// do. n + 1 or 0 if there is none.
+long rank_within(long sample, double rate, double tail, bool below) {
+    long low = 0, high = sample + 1;
+    while (high - low > 1) {
+        const long middle = low + (high - low) / 2;
+        // Probability that at most `rate` of all gearboxes lie beyond the value of rank `middle`.
+        // It increases with the rank.
+        const double p =
+            beta_cdf(static_cast<double>(sample + 1 - middle), static_cast<double>(middle), rate);
+        ((below ? p <= tail : p < 1.0 - tail) ? low : high) = middle;
+    }
+    return below ? low : high;
 }
 
 }  // namespace
@@ -400,26 +415,6 @@ HealthyRate rate_of(const Threshold& threshold, Alarm alarm, double false_alarm_
                : healthy_rate(threshold.sample, false_alarm_rate, alarms, tested, confidence);
 }
 
-namespace {
-
-// Smallest rank of a healthy value for which, with the confidence 1 - tail, fewer than `rate` of
-// all gearboxes lie beyond that value. With `below`, the largest rank for which more than `rate`
-// do. n + 1 or 0 if there is none.
-long rank_within(long sample, double rate, double tail, bool below) {
-    long low = 0, high = sample + 1;
-    while (high - low > 1) {
-        const long middle = low + (high - low) / 2;
-        // Probability that at most `rate` of all gearboxes lie beyond the value of rank `middle`.
-        // It increases with the rank.
-        const double p =
-            beta_cdf(static_cast<double>(sample + 1 - middle), static_cast<double>(middle), rate);
-        ((below ? p <= tail : p < 1.0 - tail) ? low : high) = middle;
-    }
-    return below ? low : high;
-}
-
-}  // namespace
-
 Threshold alarm_threshold(std::vector<double> healthy, Alarm alarm, double false_alarm_rate) {
     return SortedSample(std::move(healthy), alarm).threshold(false_alarm_rate);
 }
@@ -593,6 +588,17 @@ std::optional<Interval> rare_interval(const Gearboxes& gearboxes, double rate, d
                               std::min(scatter_sample, alarming_now), rate, tail);
 }
 
+// All values, or the first of each gearbox of an importance-sampled sample.
+std::vector<double> plain_values(const HealthyValues& sample) {
+    std::vector<double> plain;
+    for (std::size_t i = 0; i < sample.values.size(); ++i) {
+        if (sample.weights.empty() || i == 0 || sample.gearbox[i] != sample.gearbox[i - 1]) {
+            plain.push_back(sample.values[i]);
+        }
+    }
+    return plain;
+}
+
 }  // namespace
 
 Interval clustered_rate_interval(std::span<const double> values,
@@ -626,21 +632,6 @@ Interval clustered_rate_interval(std::span<const double> values,
             beta_quantile(std::max(1.0, all.gearboxes + 1.0 - rank), std::min(rank, all.gearboxes),
                           1.0 - tail)};
 }
-
-namespace {
-
-// All values, or the first of each gearbox of an importance-sampled sample.
-std::vector<double> plain_values(const HealthyValues& sample) {
-    std::vector<double> plain;
-    for (std::size_t i = 0; i < sample.values.size(); ++i) {
-        if (sample.weights.empty() || i == 0 || sample.gearbox[i] != sample.gearbox[i - 1]) {
-            plain.push_back(sample.values[i]);
-        }
-    }
-    return plain;
-}
-
-}  // namespace
 
 bool HealthyValues::clustered() const {
     std::vector<std::size_t> sorted(gearbox.begin(), gearbox.end());

@@ -133,6 +133,20 @@ double share_by_chance(const Detector& detector, std::span<const HealthyLife> he
     return pairs > 0 ? static_cast<double>(found) / static_cast<double>(pairs) : kNan;
 }
 
+// Values that do not exist come last.
+double or_last(double value) {
+    return std::isnan(value) ? std::numeric_limits<double>::infinity() : value;
+}
+
+// Probability that chance finds as many cracks or more.
+double chance_of(const MonitorPerformance& performance) {
+    const double share = std::fmax(performance.share_by_chance, performance.share_at_stated_rate);
+    return performance.found == 0
+               ? 1.0
+               : 1.0 - binomial_cdf(static_cast<double>(performance.ended), share,
+                                    static_cast<double>(performance.found - 1));
+}
+
 }  // namespace
 
 double quantile_bound(std::vector<double> values, double quantile, double confidence) {
@@ -205,24 +219,6 @@ MonitorPerformance monitor_performance(const Detector& detector,
     performance.warning_90 = sample_quantile(warnings, 0.1);
     return performance;
 }
-
-namespace {
-
-// Values that do not exist come last.
-double or_last(double value) {
-    return std::isnan(value) ? std::numeric_limits<double>::infinity() : value;
-}
-
-// Probability that chance finds as many cracks or more.
-double chance_of(const MonitorPerformance& performance) {
-    const double share = std::fmax(performance.share_by_chance, performance.share_at_stated_rate);
-    return performance.found == 0
-               ? 1.0
-               : 1.0 - binomial_cdf(static_cast<double>(performance.ended), share,
-                                    static_cast<double>(performance.found - 1));
-}
-
-}  // namespace
 
 double net_share(const MonitorPerformance& performance) {
     const double chance = std::isnan(performance.share_by_chance) ? performance.share_at_stated_rate

@@ -177,6 +177,32 @@ SizeNodes condensed(const SizeNodes& all, double low, double range, Eigen::Index
     return out;
 }
 
+constexpr double kInTransition = 1e-6;
+// Half-width of a cell of sizes in units of eta, at most. The singularities of the links nearest to
+// the real axis are at a distance of pi for the logit, about 2 with a usual floor for the probit,
+// and pi / 2 for the others.
+constexpr double kHalfCellLogit = 2.0, kHalfCell = 1.0;
+
+constexpr double kPenaltyStep = 1e-4;
+
+// Share of the own probability below which the curve is flat in double precision.
+constexpr double kFlat = 1e-17;
+
+// Range of eta, -low to high, outside which the probability of this outcome is constant. Infinite
+// where that probability is 0 and its logarithm still varies.
+struct Transition {
+    double low = 0.0, high = 0.0;
+
+    Transition(Link link, double at_floor, double at_ceiling, double rise) {
+        const double bottom = std::min(0.5, kFlat * at_floor / rise);
+        const double top = std::min(0.5, kFlat * at_ceiling / rise);
+        // A normal deviate x is exceeded at a rate of at most exp(-x^2 / 2) / 2.
+        const auto normal = [](double rate) { return std::sqrt(-2.0 * std::log(2.0 * rate)); };
+        low = link == Link::probit ? normal(bottom) : -link_quantile(link, bottom);
+        high = link == Link::probit ? normal(top) : link_upper_quantile(link, top);
+    }
+};
+
 }  // namespace
 
 StandardisedSizes::StandardisedSizes(const HitMissTable& table, bool log_size)
@@ -237,36 +263,6 @@ const SizeNodes& StandardisedSizes::nodes(double widest_cell) const {
     }
     return all_;
 }
-
-namespace {
-
-constexpr double kInTransition = 1e-6;
-// Half-width of a cell of sizes in units of eta, at most. The singularities of the links nearest to
-// the real axis are at a distance of pi for the logit, about 2 with a usual floor for the probit,
-// and pi / 2 for the others.
-constexpr double kHalfCellLogit = 2.0, kHalfCell = 1.0;
-
-constexpr double kPenaltyStep = 1e-4;
-
-// Share of the own probability below which the curve is flat in double precision.
-constexpr double kFlat = 1e-17;
-
-// Range of eta, -low to high, outside which the probability of this outcome is constant. Infinite
-// where that probability is 0 and its logarithm still varies.
-struct Transition {
-    double low = 0.0, high = 0.0;
-
-    Transition(Link link, double at_floor, double at_ceiling, double rise) {
-        const double bottom = std::min(0.5, kFlat * at_floor / rise);
-        const double top = std::min(0.5, kFlat * at_ceiling / rise);
-        // A normal deviate x is exceeded at a rate of at most exp(-x^2 / 2) / 2.
-        const auto normal = [](double rate) { return std::sqrt(-2.0 * std::log(2.0 * rate)); };
-        low = link == Link::probit ? normal(bottom) : -link_quantile(link, bottom);
-        high = link == Link::probit ? normal(top) : link_upper_quantile(link, top);
-    }
-};
-
-}  // namespace
 
 PodLikelihood::PodLikelihood(std::shared_ptr<const StandardisedSizes> sizes, const PodForm& form)
     : sizes_(std::move(sizes)), form_(form) {

@@ -16,7 +16,6 @@
 #include "analysis/statistics/quiet_policy.hpp"
 
 namespace gearpod::analysis {
-
 namespace {
 
 using Where = SizeEstimate::Where;
@@ -212,6 +211,28 @@ class BoundsOfLikelihood : public ResponseBounds {
     double threshold_, side_, limit_;
 };
 
+constexpr double kGridDistances[] = {-2.5, -1.2815515655446004, 0.0, 1.2815515655446004, 2.5};
+
+class NormalVariates {
+  public:
+    double operator()() {
+        constexpr double kUnit = 0x1p-53;
+        return link_quantile(Link::probit, (static_cast<double>(engine_() >> 11) + 0.5) * kUnit);
+    }
+
+  private:
+    std::mt19937_64 engine_{20230417};
+};
+
+// Interpolated quantile of the sorted values, at the position share (n + 1).
+double sorted_quantile(const std::vector<double>& values, double share) {
+    const auto n = static_cast<double>(values.size());
+    const double position = std::clamp(share * (n + 1.0) - 1.0, 0.0, n - 1.0);
+    const auto low = static_cast<std::size_t>(position);
+    const std::size_t high = std::min(low + 1, values.size() - 1);
+    return values[low] + (position - static_cast<double>(low)) * (values[high] - values[low]);
+}
+
 }  // namespace
 
 LocationScale curve_of(const SignalResponseFit& fit, double threshold) {
@@ -246,32 +267,6 @@ std::unique_ptr<ResponseBounds> bounds_of_likelihood(const SignalResponseFit& fi
                                                      Alarm alarm, double limit) {
     return std::make_unique<BoundsOfLikelihood>(fit, threshold, alarm, limit);
 }
-
-namespace {
-
-constexpr double kGridDistances[] = {-2.5, -1.2815515655446004, 0.0, 1.2815515655446004, 2.5};
-
-class NormalVariates {
-  public:
-    double operator()() {
-        constexpr double kUnit = 0x1p-53;
-        return link_quantile(Link::probit, (static_cast<double>(engine_() >> 11) + 0.5) * kUnit);
-    }
-
-  private:
-    std::mt19937_64 engine_{20230417};
-};
-
-// Interpolated quantile of the sorted values, at the position share (n + 1).
-double sorted_quantile(const std::vector<double>& values, double share) {
-    const auto n = static_cast<double>(values.size());
-    const double position = std::clamp(share * (n + 1.0) - 1.0, 0.0, n - 1.0);
-    const auto low = static_cast<std::size_t>(position);
-    const std::size_t high = std::min(low + 1, values.size() - 1);
-    return values[low] + (position - static_cast<double>(low)) * (values[high] - values[low]);
-}
-
-}  // namespace
 
 LineDistance line_distance(const SignalResponseFit& fit, double size, double threshold,
                            Alarm alarm) {
@@ -421,8 +416,6 @@ double SimulatedLimits::at(double size, double u, int bound) const {
 }
 
 namespace {
-
-using Where = SizeEstimate::Where;
 
 // Bounds by a test of every size and distance u: a pair is on the inner side of the bound if the
 // table does not reject it.

@@ -69,22 +69,6 @@ std::vector<RocPoint> thinned(const std::vector<RocPoint>& points, std::size_t m
     return kept;
 }
 
-}  // namespace
-
-std::vector<RocPoint> roc_curve(std::span<const double> healthy, std::span<const double> faulty,
-                                bool high, std::size_t most_points) {
-    EXPECTS(most_points >= 2);
-    const std::vector<double> below = from_alarm_side(healthy, high);
-    const std::vector<double> beyond = from_alarm_side(faulty, high);
-    if (below.empty() || beyond.empty()) {
-        return {};
-    }
-    const std::vector<RocPoint> points = corners(below, beyond);
-    return points.size() <= most_points ? points : thinned(points, most_points);
-}
-
-namespace {
-
 std::vector<std::size_t> complete_rows(const std::vector<const RankedFeature*>& features,
                                        std::span<const double> RankedFeature::*group) {
     std::vector<std::size_t> rows;
@@ -122,6 +106,18 @@ double paired_p_value(const AucComponents& a, const AucComponents& b) {
 }
 
 }  // namespace
+
+std::vector<RocPoint> roc_curve(std::span<const double> healthy, std::span<const double> faulty,
+                                bool high, std::size_t most_points) {
+    EXPECTS(most_points >= 2);
+    const std::vector<double> below = from_alarm_side(healthy, high);
+    const std::vector<double> beyond = from_alarm_side(faulty, high);
+    if (below.empty() || beyond.empty()) {
+        return {};
+    }
+    const std::vector<RocPoint> points = corners(below, beyond);
+    return points.size() <= most_points ? points : thinned(points, most_points);
+}
 
 FeatureRanking rank_features(const std::vector<RankedFeature>& features, double confidence) {
     EXPECTS(std::ranges::all_of(features, [&](const RankedFeature& feature) {

@@ -26,22 +26,6 @@ std::optional<InputId> find_input_id(std::string_view key) {
     return found == ids.end() ? std::nullopt : std::optional(found->second);
 }
 
-}  // namespace
-
-InputId input_id(std::string_view key) {
-    return find_input_id(key).value();
-}
-
-InputValues::InputValues(const Study& study) {
-    for (const Key& key : schema()) {
-        if (key.may_be_random()) {
-            values_.push_back(std::get<NumberAccess>(key.access).get(study));
-        }
-    }
-}
-
-namespace {
-
 double angle_of(const Gearbox& gearbox, std::size_t planet) {
     return gearbox.planet_positions_rad.empty()
                ? 2.0 * std::numbers::pi * static_cast<double>(planet) / gearbox.planets
@@ -214,6 +198,18 @@ class Computation {
 };
 
 }  // namespace
+
+InputId input_id(std::string_view key) {
+    return find_input_id(key).value();
+}
+
+InputValues::InputValues(const Study& study) {
+    for (const Key& key : schema()) {
+        if (key.may_be_random()) {
+            values_.push_back(std::get<NumberAccess>(key.access).get(study));
+        }
+    }
+}
 
 InputsRecipe::InputsRecipe(const Study& study)
     : nominal(study), planets(given_planets(study)), noise(noise_model(study)) {

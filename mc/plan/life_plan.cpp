@@ -48,6 +48,20 @@ std::vector<double> means_of_parts(int parts) {
     return means;
 }
 
+int first_step_of(const Life& life) {
+    constexpr double kRounding = 1e-9;
+    const double steps = crack_begin_m(life) / *life.last_depth_m * life.depth_steps;
+    return std::min(static_cast<int>(steps + kRounding), life.depth_steps - 1);
+}
+
+// Study of the gearboxes: inputs that vary by record keep their nominal values.
+Study study_of_gearboxes(const Study& study) {
+    Study all = study;
+    std::erase_if(all.random,
+                  [](const RandomInput& input) { return input.distribution.per_record(); });
+    return all;
+}
+
 }  // namespace
 
 RecordDistribution::RecordDistribution(const Study& study, RecordQuantity quantity, double scatter,
@@ -138,24 +152,6 @@ RecordDistributions::RecordDistributions(const Study& study)
       sensor_noise_only(std::ranges::any_of(study.random, [](const RandomInput& input) {
           return input.distribution.per_record() && input.quantity == RecordQuantity::noise;
       })) {}
-
-namespace {
-
-int first_step_of(const Life& life) {
-    constexpr double kRounding = 1e-9;
-    const double steps = crack_begin_m(life) / *life.last_depth_m * life.depth_steps;
-    return std::min(static_cast<int>(steps + kRounding), life.depth_steps - 1);
-}
-
-// Study of the gearboxes: inputs that vary by record keep their nominal values.
-Study study_of_gearboxes(const Study& study) {
-    Study all = study;
-    std::erase_if(all.random,
-                  [](const RandomInput& input) { return input.distribution.per_record(); });
-    return all;
-}
-
-}  // namespace
 
 CampaignPlan make_campaign_plan(const Study& study) {
     EnsemblePlan ensemble(study);
@@ -272,15 +268,6 @@ LifePlan make_life_plan(const Study& study, const GearboxPlan& gearbox) {
             .growth = growth_of(life)};
 }
 
-}  // namespace
-
-RecordSpan LifePlan::record_span(double speed_rad_s) const {
-    return span_of(length, recordings, drivetrain->span(),
-                   mesh_frequency_Hz(*drivetrain, speed_rad_s));
-}
-
-namespace {
-
 // Reason why a feature cannot be computed from superposed records; empty if it can.
 std::string feature_problem(const Study& study, const FeaturePlan& plan, const RecordSpan& record,
                             const features::Feature& feature) {
@@ -381,6 +368,11 @@ std::vector<std::string> keys_without_effect_on_lives(const Study& study) {
 }
 
 }  // namespace
+
+RecordSpan LifePlan::record_span(double speed_rad_s) const {
+    return span_of(length, recordings, drivetrain->span(),
+                   mesh_frequency_Hz(*drivetrain, speed_rad_s));
+}
 
 StudyLives::StudyLives(const Study& study, const FeaturePlan& features, const GearboxPlan& gearbox)
     : requested(study.life.interval_h),

@@ -98,22 +98,6 @@ Study stage_study(const Study& study, const NeighbourStage& stage, const Study& 
     return adapted;
 }
 
-}  // namespace
-
-std::vector<Study> stage_studies(const Study& study) {
-    const std::vector<NeighbourStage>& stages = study.sensor.stages;
-    std::vector<Study> studies;
-    for (const NeighbourStage& stage : stages) {
-        check_steady(stage);
-        const auto of = std::ranges::find(stages, stage.of, &NeighbourStage::name) - stages.begin();
-        studies.push_back(stage_study(
-            study, stage, stage.of.empty() ? study : studies[static_cast<std::size_t>(of)]));
-    }
-    return studies;
-}
-
-namespace {
-
 void check_other_fault(const NeighbourStage& stage, const Study& study) {
     if (stage.role == SourceRole::other_fault && !(nominal_inputs(study).fault_size > 0.0) &&
         std::ranges::none_of(study.random, [](const RandomInput& input) {
@@ -161,6 +145,18 @@ std::vector<StagePlan> make_stages(const Study& study, const GearboxPlan& gearbo
 }
 
 }  // namespace
+
+std::vector<Study> stage_studies(const Study& study) {
+    const std::vector<NeighbourStage>& stages = study.sensor.stages;
+    std::vector<Study> studies;
+    for (const NeighbourStage& stage : stages) {
+        check_steady(stage);
+        const auto of = std::ranges::find(stages, stage.of, &NeighbourStage::name) - stages.begin();
+        studies.push_back(stage_study(
+            study, stage, stage.of.empty() ? study : studies[static_cast<std::size_t>(of)]));
+    }
+    return studies;
+}
 
 bool share_steps(Numerics a, const Numerics& b) {
     a.convergence_tolerance = b.convergence_tolerance;

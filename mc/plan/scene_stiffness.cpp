@@ -132,6 +132,20 @@ void add_gaps(const Study& study, double force_N, SceneMesh& mesh) {
                                                                    overlap, gaps, force_N, slices);
 }
 
+gears::DeviationScales grade_5(const Gearbox& gearbox, const gears::Gear& gear) {
+    const double normal_module_m = gear.module_m * normal_over_transverse(gearbox);
+    return gears::scales_of(
+        gears::tooth_tolerances(normal_module_m, 2.0 * gear.pitch_radius(), 5.0), gear.teeth,
+        gear.pressure_angle_rad);
+}
+
+// Stiffness with all tooth pairs in contact that can touch at a position.
+double sum_of_springs(const stiffness::MeshStiffness& mesh, double tau) {
+    std::vector<stiffness::ContactSpring> springs;
+    add_springs(mesh, tau, tau, springs);
+    return secant_stiffness(springs, 0.0);
+}
+
 }  // namespace
 
 double pitch_error_m(const Study& study, Member member) {
@@ -221,24 +235,6 @@ std::vector<double> constant_pairs(const Study& study) {
     }
     return k;
 }
-
-namespace {
-
-gears::DeviationScales grade_5(const Gearbox& gearbox, const gears::Gear& gear) {
-    const double normal_module_m = gear.module_m * normal_over_transverse(gearbox);
-    return gears::scales_of(
-        gears::tooth_tolerances(normal_module_m, 2.0 * gear.pitch_radius(), 5.0), gear.teeth,
-        gear.pressure_angle_rad);
-}
-
-// Stiffness with all tooth pairs in contact that can touch at a position.
-double sum_of_springs(const stiffness::MeshStiffness& mesh, double tau) {
-    std::vector<stiffness::ContactSpring> springs;
-    add_springs(mesh, tau, tau, springs);
-    return secant_stiffness(springs, 0.0);
-}
-
-}  // namespace
 
 SceneStiffness::SceneStiffness(const Study& study, const Drivetrain& drivetrain)
     : meshes_(make_meshes(study, drivetrain.mesh_force_N(nominal_inputs(study)))),

@@ -26,7 +26,6 @@
 #include "signals/spectra/fourier_transform.hpp"
 
 namespace gearpod::mc {
-
 namespace {
 
 constexpr int kMostSteps = 1'000'000;  // per mesh period
@@ -629,14 +628,6 @@ class PlanBuilder {
     ScenePlan plan_;
 };
 
-}  // namespace
-
-ScenePlan make_plan(const Study& study, const Sampler& sampler, const GearboxPlan& gearbox) {
-    return PlanBuilder(study, sampler, gearbox).make();
-}
-
-namespace {
-
 double resolved_tolerance(const Numerics& numerics) {
     constexpr double kFinestInSingle = 1e-5;
     return numerics.precision == Precision::single_precision
@@ -733,6 +724,10 @@ std::vector<int> part_periods(const GearboxPlan& gearbox) {
 }
 
 }  // namespace
+
+ScenePlan make_plan(const Study& study, const Sampler& sampler, const GearboxPlan& gearbox) {
+    return PlanBuilder(study, sampler, gearbox).make();
+}
 
 SolveSettings::SolveSettings(const Study& study)
     : numerics(study.numerics),

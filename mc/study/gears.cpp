@@ -21,6 +21,41 @@ constexpr std::array kPlanetaryMeshes{
 constexpr std::array kFixedShaftMeshes{
     MeshMembers{MeshKind::pinion_gear, Member::pinion, Member::gear}};
 
+bool any_random(const Study& study, std::initializer_list<const char*> keys) {
+    return std::any_of(keys.begin(), keys.end(),
+                       [&](const char* key) { return study.find_random(key) != nullptr; });
+}
+
+gears::Gear standard_gear(const Study& study, Member member) {
+    const Gearbox& gearbox = study.gearbox;
+    gears::Gear gear;
+    gear.teeth = teeth_of(study, member).value();
+    gear.internal = member == Member::ring;
+    gear.module_m = gearbox.transverse_module_m().value();
+    gear.pressure_angle_rad = transverse_pressure_angle_rad(gearbox);
+    gear.addendum_coefficient = gearbox.addendum_coefficient * normal_over_transverse(gearbox);
+    gear.dedendum_coefficient = gearbox.dedendum_coefficient * normal_over_transverse(gearbox);
+    return gear;
+}
+
+// Pinion and gear of a fixed-shaft gearbox, or sun and planet.
+std::pair<Member, Member> shifted_pair(const Study& study) {
+    const MeshMembers& mesh = meshes_of(study.gearbox.kind).front();
+    return {mesh.member_1, mesh.member_2};
+}
+
+std::vector<FaultPlace> places_on_planet(FaultSide side) {
+    switch (side) {
+        case FaultSide::sun:
+            return {{0, 2}};
+        case FaultSide::ring:
+            return {{1, 1}};
+        case FaultSide::both:
+            return {{0, 2}, {1, 1}};
+    }
+    return {};
+}
+
 }  // namespace
 
 std::string_view member_name(Member member) {
@@ -89,15 +124,6 @@ bool has_toothed_member(GearboxKind kind, Member member) {
 std::optional<int> teeth_of(const Study& study, Member member) {
     return study.gearbox.bodies[member].teeth;
 }
-
-namespace {
-
-bool any_random(const Study& study, std::initializer_list<const char*> keys) {
-    return std::any_of(keys.begin(), keys.end(),
-                       [&](const char* key) { return study.find_random(key) != nullptr; });
-}
-
-}  // namespace
 
 bool has_static_errors(const Study& study) {
     return std::ranges::any_of(study.gearbox.meshes.values,
@@ -173,28 +199,6 @@ double transverse_pressure_angle_rad(const Gearbox& gearbox) {
 double normal_over_transverse(const Gearbox& gearbox) {
     return std::cos(gearbox.helix_angle_rad);
 }
-
-namespace {
-
-gears::Gear standard_gear(const Study& study, Member member) {
-    const Gearbox& gearbox = study.gearbox;
-    gears::Gear gear;
-    gear.teeth = teeth_of(study, member).value();
-    gear.internal = member == Member::ring;
-    gear.module_m = gearbox.transverse_module_m().value();
-    gear.pressure_angle_rad = transverse_pressure_angle_rad(gearbox);
-    gear.addendum_coefficient = gearbox.addendum_coefficient * normal_over_transverse(gearbox);
-    gear.dedendum_coefficient = gearbox.dedendum_coefficient * normal_over_transverse(gearbox);
-    return gear;
-}
-
-// Pinion and gear of a fixed-shaft gearbox, or sun and planet.
-std::pair<Member, Member> shifted_pair(const Study& study) {
-    const MeshMembers& mesh = meshes_of(study.gearbox.kind).front();
-    return {mesh.member_1, mesh.member_2};
-}
-
-}  // namespace
 
 bool shift_given(const Study& study) {
     return study.gearbox.centre_distance_m ||
@@ -344,22 +348,6 @@ double overlap_ratio(const Study& study) {
     return g.face_width_m.value() * std::tan(g.helix_angle_rad) /
            (std::numbers::pi * g.transverse_module_m().value());
 }
-
-namespace {
-
-std::vector<FaultPlace> places_on_planet(FaultSide side) {
-    switch (side) {
-        case FaultSide::sun:
-            return {{0, 2}};
-        case FaultSide::ring:
-            return {{1, 1}};
-        case FaultSide::both:
-            return {{0, 2}, {1, 1}};
-    }
-    return {};
-}
-
-}  // namespace
 
 std::vector<FaultPlace> fault_places(const Fault& fault) {
     switch (fault.member.value()) {

@@ -48,6 +48,18 @@ nlohmann::json properties(const RecordPlan& record, const FeaturePlan& features,
             {"noise_m_s2", inputs.noise_m_s2}};
 }
 
+double variance(std::span<const double> values) {
+    const auto count = static_cast<double>(values.size());
+    double sum = 0.0, squares = 0.0;
+    for (const double value : values) {
+        sum += value;
+    }
+    for (const double value : values) {
+        squares += (value - sum / count) * (value - sum / count);
+    }
+    return squares / count;
+}
+
 }  // namespace
 
 PythonFeatures::PythonFeatures(const RecordPlan& record, const FeaturePlan& features,
@@ -133,22 +145,6 @@ void print_python_problems(const std::vector<PythonProblem>& problems, const std
     }
 }
 
-namespace {
-
-double variance(std::span<const double> values) {
-    const auto count = static_cast<double>(values.size());
-    double sum = 0.0, squares = 0.0;
-    for (const double value : values) {
-        sum += value;
-    }
-    for (const double value : values) {
-        squares += (value - sum / count) * (value - sum / count);
-    }
-    return squares / count;
-}
-
-}  // namespace
-
 HealthyRecordsMean::HealthyRecordsMean(std::size_t levels) : records_(levels, 0) {
     sum_.residual_variance.resize(levels, 0.0);
 }
@@ -202,6 +198,10 @@ HealthyReference reference_of(const TilePlan& plan, const SensorPlan& sensor) {
     return mean.mean();
 }
 
+const LaneSignals& baseline_of(const LaneSignals& gearbox, std::size_t k) {
+    return gearbox.baseline[std::min(k, gearbox.baselines - 1)];
+}
+
 }  // namespace
 
 HealthyReference healthy_reference(const TilePlan& plan, std::uint64_t sensor) {
@@ -214,14 +214,6 @@ HealthyReference healthy_reference(const TilePlan& plan, std::uint64_t sensor) {
 HealthyReference simulated_reference(const TilePlan& plan) {
     return reference_of(plan, plan.sensors->front());
 }
-
-namespace {
-
-const LaneSignals& baseline_of(const LaneSignals& gearbox, std::size_t k) {
-    return gearbox.baseline[std::min(k, gearbox.baselines - 1)];
-}
-
-}  // namespace
 
 RealizationFeatures::RealizationFeatures(const TilePlan& plan, const HealthyReference* healthy,
                                          bool python, std::uint64_t sensor)

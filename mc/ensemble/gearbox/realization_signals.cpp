@@ -24,6 +24,12 @@ class Stopwatch {
     const WallClock::time_point start_ = WallClock::now();
 };
 
+// Subtracts `factor` times the values of b.
+void subtract(std::span<const double> b, double factor, std::vector<double>& a) {
+    std::transform(a.begin(), a.end(), b.begin(), a.begin(),
+                   [&](double x, double y) { return x - factor * y; });
+}
+
 }  // namespace
 
 std::vector<double> sample_noise(const RecordPlan& plan, const NoiseStage& stage,
@@ -244,16 +250,6 @@ features::FeatureInput RealizationSignals::at(std::size_t level) {
     te_features(factor * inputs_.encoder_noise_rad, input);
     return input;
 }
-
-namespace {
-
-// Subtracts `factor` times the values of b.
-void subtract(std::span<const double> b, double factor, std::vector<double>& a) {
-    std::transform(a.begin(), a.end(), b.begin(), a.begin(),
-                   [&](double x, double y) { return x - factor * y; });
-}
-
-}  // namespace
 
 LaneSignals change_since_baseline(const RecordPlan& plan, const LaneSignals& record,
                                   std::span<const LaneSignals* const> baselines) {

@@ -90,6 +90,31 @@ std::string chain_text(const AdditionalSensor& sensor) {
     return text;
 }
 
+Bearing read_bearing(const ListElement& element) {
+    Bearing bearing;
+    bearing.fault =
+        static_cast<BearingFault>(element.choice("fault", kBearingFaults, true).value_or(0));
+    if (element.first_of("shaft", "shaft_Hz")) {
+        bearing.shaft = element.shaft();
+    } else if (element.has("shaft_Hz")) {
+        bearing.shaft_Hz = element.number("shaft_Hz", kAbove0);
+    }
+    bearing.elements = element.integer("elements", {3.0, 1000.0});
+    bearing.diameter_ratio = element.number("diameter_ratio", {0.01, 0.9});
+    bearing.contact_angle_deg = element.number("contact_angle_deg", {0.0, 60.0}, 0.0);
+    bearing.amplitude_m_s2 = element.number("amplitude_m_s2", kAbove0);
+    bearing.resonance_Hz = element.number("resonance_Hz", {.low = 1.0});
+    bearing.damping = element.number("damping", {0.001, signals::kMostResonanceDamping}, 0.05);
+    bearing.slip = element.number("slip", {0.0, signals::kMostSlip}, 0.01);
+    bearing.load_zone_deg = element.number("load_zone_deg", {0.0, 360.0, true}, 180.0);
+    if (element.has("load_zone_deg") && load_turns_per_turn(bearing) == 0.0) {
+        element.reject("load_zone_deg has no effect: the load of this part is constant",
+                       "remove it, or use fault = \"inner\" or \"roller\"");
+    }
+    bearing.role = static_cast<SourceRole>(element.choice("role", kSourceRoles, false).value_or(0));
+    return bearing;
+}
+
 }  // namespace
 
 std::vector<AdditionalSensor> read_additional_sensors(const Value& list,
@@ -171,35 +196,6 @@ std::string tone_table(const Tone& tone) {
                       : fmt::format("{{ frequency_Hz = {}, amplitude_m_s2 = {} }}",
                                     tone.frequency_Hz, tone.amplitude_m_s2);
 }
-
-namespace {
-
-Bearing read_bearing(const ListElement& element) {
-    Bearing bearing;
-    bearing.fault =
-        static_cast<BearingFault>(element.choice("fault", kBearingFaults, true).value_or(0));
-    if (element.first_of("shaft", "shaft_Hz")) {
-        bearing.shaft = element.shaft();
-    } else if (element.has("shaft_Hz")) {
-        bearing.shaft_Hz = element.number("shaft_Hz", kAbove0);
-    }
-    bearing.elements = element.integer("elements", {3.0, 1000.0});
-    bearing.diameter_ratio = element.number("diameter_ratio", {0.01, 0.9});
-    bearing.contact_angle_deg = element.number("contact_angle_deg", {0.0, 60.0}, 0.0);
-    bearing.amplitude_m_s2 = element.number("amplitude_m_s2", kAbove0);
-    bearing.resonance_Hz = element.number("resonance_Hz", {.low = 1.0});
-    bearing.damping = element.number("damping", {0.001, signals::kMostResonanceDamping}, 0.05);
-    bearing.slip = element.number("slip", {0.0, signals::kMostSlip}, 0.01);
-    bearing.load_zone_deg = element.number("load_zone_deg", {0.0, 360.0, true}, 180.0);
-    if (element.has("load_zone_deg") && load_turns_per_turn(bearing) == 0.0) {
-        element.reject("load_zone_deg has no effect: the load of this part is constant",
-                       "remove it, or use fault = \"inner\" or \"roller\"");
-    }
-    bearing.role = static_cast<SourceRole>(element.choice("role", kSourceRoles, false).value_or(0));
-    return bearing;
-}
-
-}  // namespace
 
 std::vector<Bearing> read_bearings(const Value& list, const RejectElement& reject) {
     std::vector<Bearing> bearings;

@@ -13,7 +13,6 @@
 #include "stiffness/teeth/tooth_profile.hpp"
 
 namespace gearpod::mc {
-
 namespace {
 
 stiffness::ToothProfile faulty_tooth(const Study& study) {
@@ -85,9 +84,9 @@ std::string deeper_than_tooth_text(const Study& study) {
                        rounded_down(max_crack_depth_m(study) * kMmPerM));
 }
 
-// Crack from the tooth root straight through the face width: stiffness/faults/tooth_crack.hpp.
-
 namespace {
+
+// Crack from the tooth root straight through the face width: stiffness/faults/tooth_crack.hpp.
 
 struct Crack : FaultShape {
     std::optional<double> depth_m;  // along the crack
@@ -129,17 +128,8 @@ class CrackKind final : public FaultKind {
     }
 };
 
-}  // namespace
-
-const FaultKind& crack() {
-    static const CrackKind kind{};
-    return kind;
-}
-
 // Crack with depth, height and angle that vary along the face width and as it grows:
 // stiffness/faults/spatial_crack.hpp.
-
-namespace {
 
 // Growth of a spatial crack, Yang (2022), Eqs. 61-66. Entry k of a list belongs to stage k + 1.
 struct Growth : FaultShape {
@@ -285,6 +275,11 @@ class SpatialCrackKind final : public FaultKind {
 };
 
 }  // namespace
+
+const FaultKind& crack() {
+    static const CrackKind kind{};
+    return kind;
+}
 
 const FaultKind& spatial_crack() {
     static const SpatialCrackKind kind{};

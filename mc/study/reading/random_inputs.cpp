@@ -326,31 +326,7 @@ class CorrelationReader {
     bool good_ = true;
 };
 
-}  // namespace
-
-void read_correlations(StudyDraft& draft, const Entry& list) {
-    if (list.value.kind != Value::Kind::array) {
-        return draft.reject(list.position, "random.correlations",
-                            fmt::format("must be a list of pairs, but is {}", list.value.shown()),
-                            kPair);
-    }
-    bool good = true;
-    for (std::size_t i = 0; i < list.value.elements.size(); ++i) {
-        CorrelationReader reader(draft, list.position, fmt::format("pair {}", i + 1));
-        reader.read(list.value.elements[i]);
-        good = reader.good() && good;
-    }
-    if (good && !Copula(draft.study).exists()) {
-        draft.reject(list.position, "random.correlations",
-                     "no random inputs can have all these correlations (their matrix, with 0 for "
-                     "pairs that are not listed, is not positive definite)",
-                     "use smaller correlations, or list the missing pairs");
-    }
-}
-
 // Checks of the distributions in [random] that vary from record to record.
-
-namespace {
 
 // Short form of a record distribution: its key and the scatter that it gives.
 struct ShortForm {
@@ -405,6 +381,26 @@ void check_input(StudyDraft& draft, const RandomInput& input) {
 }
 
 }  // namespace
+
+void read_correlations(StudyDraft& draft, const Entry& list) {
+    if (list.value.kind != Value::Kind::array) {
+        return draft.reject(list.position, "random.correlations",
+                            fmt::format("must be a list of pairs, but is {}", list.value.shown()),
+                            kPair);
+    }
+    bool good = true;
+    for (std::size_t i = 0; i < list.value.elements.size(); ++i) {
+        CorrelationReader reader(draft, list.position, fmt::format("pair {}", i + 1));
+        reader.read(list.value.elements[i]);
+        good = reader.good() && good;
+    }
+    if (good && !Copula(draft.study).exists()) {
+        draft.reject(list.position, "random.correlations",
+                     "no random inputs can have all these correlations (their matrix, with 0 for "
+                     "pairs that are not listed, is not positive definite)",
+                     "use smaller correlations, or list the missing pairs");
+    }
+}
 
 // Runs only on a study without other problems.
 void check_records(StudyDraft& draft) {

@@ -48,6 +48,15 @@ Presence with_gears(const Study& s, std::string_view otherwise) {
         {"gearbox.module_mm", "gearbox.sun.teeth", "gearbox.planet.teeth", "gearbox.ring.teeth"});
 }
 
+// Required if `other`, its key in the member's table, is given.
+Presence blank_part(const Study& s, Member member, const std::optional<double>& given,
+                    std::string_view other) {
+    return only_if(s.effects.foundation != Foundation::none && !stiffness_given(s),
+                   "only for elastic gear bodies, but effects.foundation is \"none\"",
+                   {"effects.foundation"},
+                   required_if(given.has_value(), member_key(member, other) + " is given"));
+}
+
 }  // namespace
 
 Presence with_baseline(const Study& s) {
@@ -112,19 +121,6 @@ Presence tooth_module(const Study& s) {
 Presence shifted_teeth(const Study& s) {
     return with_gears(s, "only with tooth numbers and module");
 }
-
-namespace {
-
-// Required if `other`, its key in the member's table, is given.
-Presence blank_part(const Study& s, Member member, const std::optional<double>& given,
-                    std::string_view other) {
-    return only_if(s.effects.foundation != Foundation::none && !stiffness_given(s),
-                   "only for elastic gear bodies, but effects.foundation is \"none\"",
-                   {"effects.foundation"},
-                   required_if(given.has_value(), member_key(member, other) + " is given"));
-}
-
-}  // namespace
 
 Presence tip_relief_length(const Study& s, Member member) {
     const std::optional<double>& amount = s.gearbox.bodies[member].tip_relief_m;

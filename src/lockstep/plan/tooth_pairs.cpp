@@ -33,17 +33,6 @@ double contact_stiffness(const PairSet& pairs, PairId pair, int slice, double si
     return stiffness;
 }
 
-}  // namespace
-
-EngagedTeeth engaged_teeth(const PairSet& pairs, PairId pair, double phase) {
-    const double since = phase - pairs.start[pair];
-    const int youngest = static_cast<int>(std::floor(-since)) + 1;
-    const double left = pairs.curve(pair).contact_ratio() - (since + youngest);
-    return {youngest, static_cast<int>(std::ceil(left))};
-}
-
-namespace {
-
 // Fills the springs of one pair at one stage node; `first` is the index of the first in the tables,
 // `worn` is true if the pair's flanks wear.
 void fill_node(const PairSet& pairs, PairId pair, double phase, double middle, std::size_t first,
@@ -91,6 +80,13 @@ void fill_contacts(const PairSet& pairs, const PhaseGrid& grid, const std::vecto
 }
 
 }  // namespace
+
+EngagedTeeth engaged_teeth(const PairSet& pairs, PairId pair, double phase) {
+    const double since = phase - pairs.start[pair];
+    const int youngest = static_cast<int>(std::floor(-since)) + 1;
+    const double left = pairs.curve(pair).contact_ratio() - (since + youngest);
+    return {youngest, static_cast<int>(std::ceil(left))};
+}
 
 void add_tooth_pairs(const PairSet& pairs, const PhaseGrid& grid, StiffnessNodes& nodes,
                      const std::vector<int>& worn) {

@@ -24,6 +24,14 @@ double balancing_power_of_two(std::span<const double> a, std::span<const double>
     return ratio > 0.0 && std::isfinite(ratio) ? std::ldexp(1.0, std::ilogb(ratio) / 2) : 1.0;
 }
 
+int checked(int points, int teeth) {
+    if (teeth < 3 || points < 4 * teeth) {
+        throw std::invalid_argument(
+            "mesh separation: needs three or more teeth and four samples a tooth");
+    }
+    return points;
+}
+
 }  // namespace
 
 OrderSpectrum::OrderSpectrum(int points)
@@ -66,18 +74,6 @@ void OrderSpectrum::amplitudes(double noise_factor, std::span<double> amplitudes
         amplitudes[k] = std::sqrt(re * re + im * im);
     }
 }
-
-namespace {
-
-int checked(int points, int teeth) {
-    if (teeth < 3 || points < 4 * teeth) {
-        throw std::invalid_argument(
-            "mesh separation: needs three or more teeth and four samples a tooth");
-    }
-    return points;
-}
-
-}  // namespace
 
 MeshSeparation::MeshSeparation(int points, int teeth)
     : forward_(checked(points, teeth)),
