@@ -34,8 +34,8 @@ std::vector<Stratum> strata_of(std::span<const double> sizes, std::span<const in
             order.push_back(i);
         }
     }
-    std::stable_sort(order.begin(), order.end(),
-                     [&](std::size_t a, std::size_t b) { return sizes[a] < sizes[b]; });
+    std::ranges::stable_sort(order,
+                             [&](std::size_t a, std::size_t b) { return sizes[a] < sizes[b]; });
     std::vector<Stratum> strata;
     for (std::size_t first = 0; first < order.size();) {
         const auto equal = [&](std::size_t i) { return sizes[order[i]] == sizes[order[first]]; };
@@ -70,9 +70,9 @@ std::vector<double> values_at(const InputColumn& input, const std::vector<std::s
 bool varies(const InputColumn& input, const std::vector<Stratum>& strata) {
     const double first = input.values[strata.front().hits.front()];
     const auto differs = [&](std::size_t row) { return input.values[row] != first; };
-    return std::any_of(strata.begin(), strata.end(), [&](const Stratum& stratum) {
-        return std::any_of(stratum.hits.begin(), stratum.hits.end(), differs) ||
-               std::any_of(stratum.misses.begin(), stratum.misses.end(), differs);
+    return std::ranges::any_of(strata, [&](const Stratum& stratum) {
+        return std::ranges::any_of(stratum.hits, differs) ||
+               std::ranges::any_of(stratum.misses, differs);
     });
 }
 
@@ -141,11 +141,9 @@ MissSensitivity miss_sensitivity(std::span<const double> sizes, std::span<const 
     for (std::size_t i = 0; i < result.inputs.size(); ++i) {
         result.inputs[i].p_value = p_values[i];
     }
-    std::stable_sort(result.inputs.begin(), result.inputs.end(),
-                     [](const InputInfluence& a, const InputInfluence& b) {
-                         return std::abs(a.larger_in_misses - 0.5) >
-                                std::abs(b.larger_in_misses - 0.5);
-                     });
+    std::ranges::stable_sort(result.inputs, [](const InputInfluence& a, const InputInfluence& b) {
+        return std::abs(a.larger_in_misses - 0.5) > std::abs(b.larger_in_misses - 0.5);
+    });
     return result;
 }
 
@@ -153,8 +151,8 @@ InputBins equal_count_bins(std::span<const double> values, std::size_t bins) {
     EXPECTS(std::ranges::all_of(values, [](double value) { return std::isfinite(value); }));
     std::vector<std::size_t> order(values.size());
     std::iota(order.begin(), order.end(), std::size_t{0});
-    std::stable_sort(order.begin(), order.end(),
-                     [&](std::size_t a, std::size_t b) { return values[a] < values[b]; });
+    std::ranges::stable_sort(order,
+                             [&](std::size_t a, std::size_t b) { return values[a] < values[b]; });
     std::size_t distinct = 0;
     for (std::size_t i = 0; i < order.size(); ++i) {
         distinct += i == 0 || values[order[i]] != values[order[i - 1]] ? 1 : 0;
@@ -213,7 +211,7 @@ struct Outcomes {
 };
 
 std::vector<double> sorted(std::vector<double> values) {
-    std::sort(values.begin(), values.end());
+    std::ranges::sort(values);
     return values;
 }
 

@@ -319,8 +319,7 @@ void simulate_responses(const ResponseRows& rows, bool by_specimen, const Signal
             }
             drawn.value[i] = truth.scale.value(y);
         }
-        if (!std::all_of(drawn.value.begin(), drawn.value.end(),
-                         [](double value) { return std::isfinite(value); })) {
+        if (!std::ranges::all_of(drawn.value, [](double value) { return std::isfinite(value); })) {
             continue;
         }
         const auto fits = fit_scales(drawn, by_specimen, request, true);
@@ -370,7 +369,7 @@ SimulatedLimits::SimulatedLimits(const ResponseRows& rows, bool by_specimen,
     for (int i = 0; i < kSizes; ++i) {
         for (int j = 0; j < kDistances; ++j) {
             std::vector<double>& values = errors[i][j];
-            std::sort(values.begin(), values.end());
+            std::ranges::sort(values);
             // Distances that the scale of the response does not have take the limits of others.
             const bool none = values.empty();
             const double share = request.confidence;

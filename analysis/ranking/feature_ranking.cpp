@@ -22,7 +22,7 @@ std::vector<double> from_alarm_side(std::span<const double> values, bool high) {
             sorted.push_back(high ? value : -value);
         }
     }
-    std::sort(sorted.begin(), sorted.end(), std::greater<>());
+    std::ranges::sort(sorted, std::greater<>());
     return sorted;
 }
 
@@ -73,7 +73,7 @@ std::vector<std::size_t> complete_rows(const std::vector<const RankedFeature*>& 
                                        std::span<const double> RankedFeature::*group) {
     std::vector<std::size_t> rows;
     for (std::size_t i = 0; i < (features.front()->*group).size(); ++i) {
-        if (std::all_of(features.begin(), features.end(), [&](const RankedFeature* feature) {
+        if (std::ranges::all_of(features, [&](const RankedFeature* feature) {
                 return std::isfinite((feature->*group)[i]);
             })) {
             rows.push_back(i);
@@ -128,8 +128,7 @@ FeatureRanking rank_features(const std::vector<RankedFeature>& features, double 
     std::vector<const RankedFeature*> used;
     for (const RankedFeature& feature : features) {
         const auto finite = [](std::span<const double> values) {
-            return std::count_if(values.begin(), values.end(),
-                                 [](double value) { return std::isfinite(value); });
+            return std::ranges::count_if(values, [](double value) { return std::isfinite(value); });
         };
         const auto all = static_cast<long>(feature.healthy.size() + feature.faulty.size());
         const long missing = all - finite(feature.healthy) - finite(feature.faulty);
@@ -160,9 +159,8 @@ FeatureRanking rank_features(const std::vector<RankedFeature>& features, double 
     }
     std::vector<std::size_t> order(used.size());
     std::iota(order.begin(), order.end(), std::size_t{0});
-    std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
-        return components[a].auc > components[b].auc;
-    });
+    std::ranges::stable_sort(
+        order, [&](std::size_t a, std::size_t b) { return components[a].auc > components[b].auc; });
     std::vector<double> p_values;
     for (std::size_t i = 0; i < order.size(); ++i) {
         for (std::size_t j = i + 1; j < order.size(); ++j) {

@@ -214,9 +214,8 @@ void print_decisions(const FeaturesOptions& options, const Population& populatio
 
 // Prints the recordings without features and the files written. Returns the exit code.
 int summary(const FeaturesOptions& options, const std::vector<MeasuredRecording>& measured) {
-    const auto bad = std::count_if(
-        measured.begin(), measured.end(),
-        [](const MeasuredRecording& recording) { return !recording.problem.empty(); });
+    const auto bad = std::ranges::count_if(
+        measured, [](const MeasuredRecording& recording) { return !recording.problem.empty(); });
     for (const MeasuredRecording& recording : measured) {
         if (!recording.problem.empty()) {
             fmt::print(stderr, "{}\n", printable(recording.problem));

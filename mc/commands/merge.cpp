@@ -86,7 +86,6 @@ class Merge {
         return problems.empty() ? gaps() : problems;
     }
 
-    // Text of the study that all files share.
     std::string study() const { return files_.front().frame.provenance_value("study"); }
 
     BatchPlan whole() const { return files_.front().ensemble.batches(); }

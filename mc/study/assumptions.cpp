@@ -88,9 +88,8 @@ std::string assumptions(const Study& study, bool lives) {
                         : "a healthy record",
             100.0 * study.features.baseline_torque_scatter, baseline_differences(study));
     }
-    const bool alike =
-        std::all_of(study.random.begin(), study.random.end(),
-                    [](const RandomInput& input) { return input.kind == InputKind::fault_size; });
+    const bool alike = std::ranges::all_of(
+        study.random, [](const RandomInput& input) { return input.kind == InputKind::fault_size; });
     if (alike) {
         text += " Only the fault and the noise vary.";
     }

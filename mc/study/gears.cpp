@@ -22,8 +22,8 @@ constexpr std::array kFixedShaftMeshes{
     MeshMembers{MeshKind::pinion_gear, Member::pinion, Member::gear}};
 
 bool any_random(const Study& study, std::initializer_list<const char*> keys) {
-    return std::any_of(keys.begin(), keys.end(),
-                       [&](const char* key) { return study.find_random(key) != nullptr; });
+    return std::ranges::any_of(keys,
+                               [&](const char* key) { return study.find_random(key) != nullptr; });
 }
 
 gears::Gear standard_gear(const Study& study, Member member) {
@@ -116,7 +116,7 @@ std::string mesh_name(const MeshMembers& mesh) {
 
 bool has_toothed_member(GearboxKind kind, Member member) {
     const auto meshes = meshes_of(kind);
-    return std::any_of(meshes.begin(), meshes.end(), [&](const MeshMembers& mesh) {
+    return std::ranges::any_of(meshes, [&](const MeshMembers& mesh) {
         return mesh.member_1 == member || mesh.member_2 == member;
     });
 }
@@ -145,14 +145,13 @@ bool teeth_can_separate(const Study& study) {
 }
 
 bool has_tooth_quality(const Study& study) {
-    return study.errors.tooth_quality ||
-           std::any_of(kAllMembers.begin(), kAllMembers.end(), [&](Member member) {
+    return study.errors.tooth_quality || std::ranges::any_of(kAllMembers, [&](Member member) {
                return study.gearbox.bodies[member].quality.has_value();
            });
 }
 
 bool has_measured_teeth(const Study& study) {
-    return std::any_of(kAllMembers.begin(), kAllMembers.end(), [&](Member member) {
+    return std::ranges::any_of(kAllMembers, [&](Member member) {
         const MemberValues& body = study.gearbox.bodies[member];
         return !body.index_m.empty() || !body.ring_side_index_m.empty();
     });
@@ -184,7 +183,7 @@ bool stiffness_given(const Study& study) {
 bool has_gears(const Study& study) {
     const auto meshes = meshes_of(study.gearbox.kind);
     return study.gearbox.transverse_module_m() &&
-           std::all_of(meshes.begin(), meshes.end(), [&](const MeshMembers& mesh) {
+           std::ranges::all_of(meshes, [&](const MeshMembers& mesh) {
                return teeth_of(study, mesh.member_1) && teeth_of(study, mesh.member_2);
            });
 }
@@ -201,8 +200,7 @@ double normal_over_transverse(const Gearbox& gearbox) {
 }
 
 bool shift_given(const Study& study) {
-    return study.gearbox.centre_distance_m ||
-           std::any_of(kAllMembers.begin(), kAllMembers.end(), [&](Member member) {
+    return study.gearbox.centre_distance_m || std::ranges::any_of(kAllMembers, [&](Member member) {
                return study.gearbox.bodies[member].profile_shift.has_value();
            });
 }
@@ -281,8 +279,8 @@ gears::FlankRelief relief_of(const Study& study, Member member) {
 }
 
 bool has_relief(const Study& study) {
-    return std::any_of(kAllMembers.begin(), kAllMembers.end(),
-                       [&](Member member) { return relief_of(study, member).any(); });
+    return std::ranges::any_of(kAllMembers,
+                               [&](Member member) { return relief_of(study, member).any(); });
 }
 
 bool has_flank_gaps(const Study& study) {

@@ -262,9 +262,8 @@ Findings::Findings(const AssessedDetection& assessed) : AssessedDetection(assess
 }
 
 std::size_t Findings::feature(const std::string& feature_name) const {
-    const auto at =
-        std::find_if(detection.begin(), detection.end(),
-                     [&](const FeatureDetection& f) { return f.feature == feature_name; });
+    const auto at = std::ranges::find_if(
+        detection, [&](const FeatureDetection& f) { return f.feature == feature_name; });
     return static_cast<std::size_t>(at - detection.begin());
 }
 

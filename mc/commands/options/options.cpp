@@ -43,7 +43,6 @@ bool needs_file_name(const CLI::App& command) {
     });
 }
 
-// Column in which the descriptions of options and commands start.
 constexpr std::size_t kDescriptionColumn = 30;
 
 // Two columns: a name, and its description in the same line or, after a long name, in the next one.

@@ -241,7 +241,6 @@ void keep_solution(TileSolution solved, GearboxTile& tile) {
     }
 }
 
-// Solves the tile by the strategy of its study.
 void solve_by_choice(const TilePlan& plan, const lockstep::RecordOptions& records,
                      const OnRecord& on_record, const TileOptions& options, GearboxTile& tile) {
     const auto* coupled = std::get_if<CoupledStages>(&plan.solve->strategy);
@@ -267,7 +266,6 @@ void solve_and_record(const TilePlan& plan, const TileOptions& options, GearboxT
     tile.signals_s += recorder.spent_s();
 }
 
-// Computes the signals of the sensors from an integrated tile.
 void add_signals(const TilePlan& plan, GearboxTile& tile) {
     add_status(*plan.gearbox, *plan.solve, tile);
     auto start = WallClock::now();

@@ -24,7 +24,6 @@ class Stopwatch {
     const WallClock::time_point start_ = WallClock::now();
 };
 
-// Subtracts `factor` times the values of b.
 void subtract(std::span<const double> b, double factor, std::vector<double>& a) {
     std::transform(a.begin(), a.end(), b.begin(), a.begin(),
                    [&](double x, double y) { return x - factor * y; });

@@ -187,8 +187,8 @@ void read_random(StudyDraft& draft, const Value& section) {
             continue;
         }
         const auto names = section_names();
-        const bool known = std::find(names.begin(), names.end(), entry.name) != names.end() &&
-                           entry.name != "random";
+        const bool known =
+            std::ranges::find(names, entry.name) != names.end() && entry.name != "random";
         if (!known) {
             reject(draft, entry, entry.name, "unknown section",
                    suggest(entry.name, {names.begin(), names.end()}) +
@@ -204,12 +204,11 @@ void read_random(StudyDraft& draft, const Value& section) {
     // Sorted in the order of the schema, whatever their order in the file.
     const auto rank = [](const RandomInput& input) {
         const auto keys = schema();
-        return std::find_if(keys.begin(), keys.end(),
-                            [&](const Key& key) { return key.path() == input.key; }) -
+        return std::ranges::find_if(keys, [&](const Key& key) { return key.path() == input.key; }) -
                keys.begin();
     };
-    std::sort(draft.study.random.begin(), draft.study.random.end(),
-              [&](const auto& a, const auto& b) { return rank(a) < rank(b); });
+    std::ranges::sort(draft.study.random,
+                      [&](const auto& a, const auto& b) { return rank(a) < rank(b); });
     check_rows(draft);
     if (const Entry* correlations = section.find(kCorrelations)) {
         read_correlations(draft, *correlations);

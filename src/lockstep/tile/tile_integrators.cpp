@@ -169,8 +169,7 @@ class ExcitedKernelIntegrator final : public ExcitedIntegrator<W> {
 };
 
 bool any_sample_inside(const PhaseGrid& grid) {
-    return std::any_of(grid.steps.begin(), grid.steps.end(),
-                       [](const Step& step) { return step.inside > 0; });
+    return std::ranges::any_of(grid.steps, [](const Step& step) { return step.inside > 0; });
 }
 
 }  // namespace
