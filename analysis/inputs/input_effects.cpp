@@ -16,7 +16,6 @@
 #include "machine/no_value.hpp"
 
 namespace gearpod::analysis {
-
 namespace {
 
 constexpr std::size_t kNeighbours = 100;
@@ -377,6 +376,41 @@ void fit_input(InputEffect& effect, const std::vector<double>& values, const Out
     }
 }
 
+constexpr double kFound = 0.9;  // POD
+
+// Standardises the columns of a design to mean 0 and standard deviation 1 and keeps the scales.
+struct Standard {
+    Eigen::RowVectorXd centre, spread;
+
+    Eigen::MatrixXd operator()(const Eigen::MatrixXd& values) {
+        centre = values.colwise().mean();
+        const Eigen::MatrixXd away = values.rowwise() - centre;
+        spread = (away.array().square().colwise().mean()).sqrt();
+        return away.array().rowwise() / spread.array();
+    }
+};
+
+// The inputs and, for those with more than two values, their squares.
+Eigen::MatrixXd covariates(const Eigen::MatrixXd& scaled) {
+    Eigen::MatrixXd all(scaled.rows(), 2 * scaled.cols());
+    Eigen::Index count = 0;
+    for (Eigen::Index c = 0; c < scaled.cols(); ++c) {
+        const auto column = scaled.col(c);
+        all.col(count++) = column;
+        if (std::set<double>(column.begin(), column.end()).size() > 2) {
+            all.col(count++) = column.array().square();
+        }
+    }
+    return all.leftCols(count);
+}
+
+double quantile(std::vector<double>& values, double share) {
+    const auto at =
+        static_cast<std::ptrdiff_t>(std::lround(share * static_cast<double>(values.size() - 1)));
+    std::nth_element(values.begin(), values.begin() + at, values.end());
+    return values[static_cast<std::size_t>(at)];
+}
+
 }  // namespace
 
 SizeGroup transition_sizes(const std::vector<DetectionCell>& cells) {
@@ -437,45 +471,6 @@ InputEffects input_effects(std::span<const double> sizes, std::span<const int> h
     }
     return result;
 }
-
-namespace {
-
-constexpr double kFound = 0.9;  // POD
-
-// Standardises the columns of a design to mean 0 and standard deviation 1 and keeps the scales.
-struct Standard {
-    Eigen::RowVectorXd centre, spread;
-
-    Eigen::MatrixXd operator()(const Eigen::MatrixXd& values) {
-        centre = values.colwise().mean();
-        const Eigen::MatrixXd away = values.rowwise() - centre;
-        spread = (away.array().square().colwise().mean()).sqrt();
-        return away.array().rowwise() / spread.array();
-    }
-};
-
-// The inputs and, for those with more than two values, their squares.
-Eigen::MatrixXd covariates(const Eigen::MatrixXd& scaled) {
-    Eigen::MatrixXd all(scaled.rows(), 2 * scaled.cols());
-    Eigen::Index count = 0;
-    for (Eigen::Index c = 0; c < scaled.cols(); ++c) {
-        const auto column = scaled.col(c);
-        all.col(count++) = column;
-        if (std::set<double>(column.begin(), column.end()).size() > 2) {
-            all.col(count++) = column.array().square();
-        }
-    }
-    return all.leftCols(count);
-}
-
-double quantile(std::vector<double>& values, double share) {
-    const auto at =
-        static_cast<std::ptrdiff_t>(std::lround(share * static_cast<double>(values.size() - 1)));
-    std::nth_element(values.begin(), values.begin() + at, values.end());
-    return values[static_cast<std::size_t>(at)];
-}
-
-}  // namespace
 
 EpistemicBand epistemic_band(std::span<const double> sizes, std::span<const int> hit,
                              const std::vector<InputColumn>& inputs, const HitMissPod& pod) {

@@ -203,6 +203,47 @@ struct Transition {
     }
 };
 
+constexpr double kReplicates = 5.0;  // mean number of gearboxes per size to count as replicated
+constexpr int kGroups = 10;
+
+double excess(double count, double expected) {
+    return count > 0.0 ? count * std::log(count / expected) : 0.0;
+}
+
+double saturated_statistic(const HitMissTable& table, const PodCurve& curve) {
+    double sum = 0.0;
+    for (const HitMissRow& row : table) {
+        const double pod = curve.pod(row.size);
+        sum += excess(row.hits, row.tests * pod) +
+               excess(row.tests - row.hits, row.tests * (1.0 - pod));
+    }
+    return 2.0 * sum;
+}
+
+// Hosmer-Lemeshow statistic. A size is never split, so that the groups do not depend on the order
+// of its gearboxes.
+double grouped_statistic(const HitMissTable& table, const PodCurve& curve, int& groups) {
+    const double tests = total_tests(table);
+    double statistic = 0.0;
+    double seen = 0.0, hits = 0.0, expected = 0.0, count = 0.0;
+    groups = 0;
+    for (std::size_t i = 0; i < table.size(); ++i) {
+        hits += table[i].hits;
+        expected += table[i].tests * curve.pod(table[i].size);
+        count += table[i].tests;
+        seen += table[i].tests;
+        if (seen >= (groups + 1) * tests / kGroups || i + 1 == table.size()) {
+            const double variance = expected * (1.0 - expected / count);
+            if (variance > 0.0) {
+                statistic += (hits - expected) * (hits - expected) / variance;
+            }
+            ++groups;
+            hits = expected = count = 0.0;
+        }
+    }
+    return statistic;
+}
+
 }  // namespace
 
 StandardisedSizes::StandardisedSizes(const HitMissTable& table, bool log_size)
@@ -576,51 +617,6 @@ int PodLikelihood::sizes_in_transition(const Parameters& parameters) const {
     const Eigen::ArrayXd eta = parameters[0] + parameters[1] * sizes_->sizes();
     return static_cast<int>((eta > low && eta < high).count());
 }
-
-namespace {
-
-constexpr double kReplicates = 5.0;  // mean number of gearboxes per size to count as replicated
-constexpr int kGroups = 10;
-
-double excess(double count, double expected) {
-    return count > 0.0 ? count * std::log(count / expected) : 0.0;
-}
-
-double saturated_statistic(const HitMissTable& table, const PodCurve& curve) {
-    double sum = 0.0;
-    for (const HitMissRow& row : table) {
-        const double pod = curve.pod(row.size);
-        sum += excess(row.hits, row.tests * pod) +
-               excess(row.tests - row.hits, row.tests * (1.0 - pod));
-    }
-    return 2.0 * sum;
-}
-
-// Hosmer-Lemeshow statistic. A size is never split, so that the groups do not depend on the order
-// of its gearboxes.
-double grouped_statistic(const HitMissTable& table, const PodCurve& curve, int& groups) {
-    const double tests = total_tests(table);
-    double statistic = 0.0;
-    double seen = 0.0, hits = 0.0, expected = 0.0, count = 0.0;
-    groups = 0;
-    for (std::size_t i = 0; i < table.size(); ++i) {
-        hits += table[i].hits;
-        expected += table[i].tests * curve.pod(table[i].size);
-        count += table[i].tests;
-        seen += table[i].tests;
-        if (seen >= (groups + 1) * tests / kGroups || i + 1 == table.size()) {
-            const double variance = expected * (1.0 - expected / count);
-            if (variance > 0.0) {
-                statistic += (hits - expected) * (hits - expected) / variance;
-            }
-            ++groups;
-            hits = expected = count = 0.0;
-        }
-    }
-    return statistic;
-}
-
-}  // namespace
 
 GoodnessOfFit goodness_of_fit(const HitMissTable& table, const PodCurve& curve) {
     GoodnessOfFit fit;

@@ -62,6 +62,62 @@ Study study_of_gearboxes(const Study& study) {
     return all;
 }
 
+double mesh_frequency_Hz(const Drivetrain& drivetrain, double speed_rad_s) {
+    return std::abs(drivetrain.mesh_frequency_rad_s(speed_rad_s)) / (2.0 * std::numbers::pi);
+}
+
+RecordSpan span_of(const RecordLength& length, int recordings, const signals::SpanLayout& span,
+                   double mesh_Hz) {
+    RecordSpan record{span.ring_teeth, span.ring_teeth, recordings};
+    if (length.given()) {
+        check_record_length(length, span, mesh_Hz);
+        record.turns = whole_turns(length, span, mesh_Hz);
+    }
+    return record;
+}
+
+// Length of a recording, s.
+double recording_s(const RecordSpan& record, int planet_teeth, double mesh_Hz) {
+    return record.turns * planet_teeth / mesh_Hz;
+}
+
+std::string record_text(const Study& study, const GearboxPlan& gearbox) {
+    const signals::SpanLayout span = gearbox.drivetrain->span();
+    const double mesh_Hz = mesh_frequency_Hz(*gearbox.drivetrain, gearbox.nominal.speed_rad_s);
+    const RecordSpan record =
+        span_of(life_record_length(study), study.life.recordings, span, mesh_Hz);
+    const int teeth = span.planet_teeth;
+    std::string text = fmt::format("{} turns of {} mesh periods, {:.3g} s", record.turns, teeth,
+                                   recording_s(record, teeth, mesh_Hz));
+    if (record.recordings > 1) {
+        text += fmt::format(", averaged over {} such recordings", record.recordings);
+    }
+    return text +
+           (record.turns >= record.all_turns
+                ? fmt::format(": each of the {} teeth with all {} mating teeth", teeth,
+                              record.all_turns)
+                : fmt::format(
+                      ": each of the {} teeth with {} of its {} mating teeth, chosen at random",
+                      teeth, record.turns, record.all_turns));
+}
+
+CrackedTooth cracked_tooth(const Study& study, const GearboxPlan& gearbox) {
+    const FaultPlace place = fault_places(study.fault).front();
+    const Member member = *study.fault.member;
+    return {gearbox.stiffness->meshes()[place.mesh].geometry.value(), place.gear, profile_of(study),
+            crack_angle_rad(study), study.gearbox.face_width_m.value(), crack_law(study),
+            gearbox.teeth[member],
+            // A tooth of a central gear meets every planet in turn.
+            member == Member::sun ? gearbox.planets : 1};
+}
+
+std::variant<ParisStart, DepthCurve> growth_of(const Life& life) {
+    if (life.curve_h.empty()) {
+        return ParisStart{life.first_depth_m.value()};
+    }
+    return DepthCurve{life.curve_h, life.curve_depth_m};
+}
+
 }  // namespace
 
 RecordDistribution::RecordDistribution(const Study& study, RecordQuantity quantity, double scatter,
@@ -178,66 +234,6 @@ std::optional<CampaignPlan> recorded_campaign_plan(const std::string& study_text
     return study && study->life.interval_h ? std::optional(make_campaign_plan(*study))
                                            : std::nullopt;
 }
-
-namespace {
-
-double mesh_frequency_Hz(const Drivetrain& drivetrain, double speed_rad_s) {
-    return std::abs(drivetrain.mesh_frequency_rad_s(speed_rad_s)) / (2.0 * std::numbers::pi);
-}
-
-RecordSpan span_of(const RecordLength& length, int recordings, const signals::SpanLayout& span,
-                   double mesh_Hz) {
-    RecordSpan record{span.ring_teeth, span.ring_teeth, recordings};
-    if (length.given()) {
-        check_record_length(length, span, mesh_Hz);
-        record.turns = whole_turns(length, span, mesh_Hz);
-    }
-    return record;
-}
-
-// Length of a recording, s.
-double recording_s(const RecordSpan& record, int planet_teeth, double mesh_Hz) {
-    return record.turns * planet_teeth / mesh_Hz;
-}
-
-std::string record_text(const Study& study, const GearboxPlan& gearbox) {
-    const signals::SpanLayout span = gearbox.drivetrain->span();
-    const double mesh_Hz = mesh_frequency_Hz(*gearbox.drivetrain, gearbox.nominal.speed_rad_s);
-    const RecordSpan record =
-        span_of(life_record_length(study), study.life.recordings, span, mesh_Hz);
-    const int teeth = span.planet_teeth;
-    std::string text = fmt::format("{} turns of {} mesh periods, {:.3g} s", record.turns, teeth,
-                                   recording_s(record, teeth, mesh_Hz));
-    if (record.recordings > 1) {
-        text += fmt::format(", averaged over {} such recordings", record.recordings);
-    }
-    return text +
-           (record.turns >= record.all_turns
-                ? fmt::format(": each of the {} teeth with all {} mating teeth", teeth,
-                              record.all_turns)
-                : fmt::format(
-                      ": each of the {} teeth with {} of its {} mating teeth, chosen at random",
-                      teeth, record.turns, record.all_turns));
-}
-
-CrackedTooth cracked_tooth(const Study& study, const GearboxPlan& gearbox) {
-    const FaultPlace place = fault_places(study.fault).front();
-    const Member member = *study.fault.member;
-    return {gearbox.stiffness->meshes()[place.mesh].geometry.value(), place.gear, profile_of(study),
-            crack_angle_rad(study), study.gearbox.face_width_m.value(), crack_law(study),
-            gearbox.teeth[member],
-            // A tooth of a central gear meets every planet in turn.
-            member == Member::sun ? gearbox.planets : 1};
-}
-
-std::variant<ParisStart, DepthCurve> growth_of(const Life& life) {
-    if (life.curve_h.empty()) {
-        return ParisStart{life.first_depth_m.value()};
-    }
-    return DepthCurve{life.curve_h, life.curve_depth_m};
-}
-
-}  // namespace
 
 namespace {
 

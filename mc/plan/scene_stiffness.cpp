@@ -146,6 +146,57 @@ double sum_of_springs(const stiffness::MeshStiffness& mesh, double tau) {
     return secant_stiffness(springs, 0.0);
 }
 
+void check_sizes(const FaultPlan& plan, const stiffness::ToothFaultFamily& family) {
+    for (const double size : plan.sizes) {
+        const std::vector<std::string> problems = family.problems(size);
+        if (!problems.empty()) {
+            throw SceneError(plan.size_key->path(), problems.front(), "");
+        }
+    }
+}
+
+lockstep::PlanetPositions planet_positions(const Study& study) {
+    const gears::PlanetPositions planets = gears::planet_positions(planetary_train(study));
+    lockstep::PlanetPositions turns;
+    for (const int step : planets.step) {
+        turns.position.push_back(static_cast<double>(step) / planets.steps);
+    }
+    return turns;
+}
+
+lockstep::FaultPattern make_pattern(const Study& study, const lockstep::PairSet& pairs) {
+    const Fault& f = study.fault;
+    const int teeth = teeth_of(study, *f.member).value();
+    switch (*f.member) {
+        case Member::sun:
+            return lockstep::sun_fault_pattern(pairs, planet_positions(study), teeth);
+        case Member::ring:
+            return lockstep::ring_fault_pattern(pairs, planet_positions(study), teeth);
+        case Member::planet:
+            return lockstep::planet_fault_pattern(pairs, PlanetId{f.planet - 1}, *f.side, teeth);
+        case Member::pinion:
+        case Member::gear:
+            return lockstep::shaft_fault_pattern(pairs, teeth);
+        case Member::carrier:
+            return {};
+    }
+    return {};
+}
+
+// Pairs in which the flanks of the faulty member meet its mates.
+std::vector<int> pairs_of_member(const Fault& fault, int meshes, const lockstep::PairSet& pairs) {
+    const int per_mesh = pairs.pairs() / meshes;
+    std::vector<int> all;
+    for (const FaultPlace& place : fault_places(fault)) {
+        for (int n = 0; n < per_mesh; ++n) {
+            if (fault.member != Member::planet || n == fault.planet - 1) {
+                all.push_back(static_cast<int>(place.mesh) * per_mesh + n);
+            }
+        }
+    }
+    return all;
+}
+
 }  // namespace
 
 double pitch_error_m(const Study& study, Member member) {
@@ -301,61 +352,6 @@ double loaded_approach(const SceneStiffness& stiffness, PairId pair, double phas
     const SceneMesh& mesh = meshes[pair / pairs_per_mesh];
     return mesh.loaded->approach(tau - period, inside - period);
 }
-
-namespace {
-
-void check_sizes(const FaultPlan& plan, const stiffness::ToothFaultFamily& family) {
-    for (const double size : plan.sizes) {
-        const std::vector<std::string> problems = family.problems(size);
-        if (!problems.empty()) {
-            throw SceneError(plan.size_key->path(), problems.front(), "");
-        }
-    }
-}
-
-lockstep::PlanetPositions planet_positions(const Study& study) {
-    const gears::PlanetPositions planets = gears::planet_positions(planetary_train(study));
-    lockstep::PlanetPositions turns;
-    for (const int step : planets.step) {
-        turns.position.push_back(static_cast<double>(step) / planets.steps);
-    }
-    return turns;
-}
-
-lockstep::FaultPattern make_pattern(const Study& study, const lockstep::PairSet& pairs) {
-    const Fault& f = study.fault;
-    const int teeth = teeth_of(study, *f.member).value();
-    switch (*f.member) {
-        case Member::sun:
-            return lockstep::sun_fault_pattern(pairs, planet_positions(study), teeth);
-        case Member::ring:
-            return lockstep::ring_fault_pattern(pairs, planet_positions(study), teeth);
-        case Member::planet:
-            return lockstep::planet_fault_pattern(pairs, PlanetId{f.planet - 1}, *f.side, teeth);
-        case Member::pinion:
-        case Member::gear:
-            return lockstep::shaft_fault_pattern(pairs, teeth);
-        case Member::carrier:
-            return {};
-    }
-    return {};
-}
-
-// Pairs in which the flanks of the faulty member meet its mates.
-std::vector<int> pairs_of_member(const Fault& fault, int meshes, const lockstep::PairSet& pairs) {
-    const int per_mesh = pairs.pairs() / meshes;
-    std::vector<int> all;
-    for (const FaultPlace& place : fault_places(fault)) {
-        for (int n = 0; n < per_mesh; ++n) {
-            if (fault.member != Member::planet || n == fault.planet - 1) {
-                all.push_back(static_cast<int>(place.mesh) * per_mesh + n);
-            }
-        }
-    }
-    return all;
-}
-
-}  // namespace
 
 SceneFault::SceneFault(const Study& study, const std::vector<SceneMesh>& meshes,
                        const lockstep::PairSet& pairs)

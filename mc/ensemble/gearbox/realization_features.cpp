@@ -60,6 +60,43 @@ double variance(std::span<const double> values) {
     return squares / count;
 }
 
+HealthyReference reference_of(const TilePlan& plan, const SensorPlan& sensor) {
+    const int lanes = plan.solve->settings.numerics.lanes;
+    RealizationSignals records(plan.record, plan.features, sensor,
+                               features::SignalSet::of<features::SensorTurn>());
+    const std::size_t levels = plan.record.noise_levels.size();
+    HealthyRecordsMean mean(levels);
+    for (int first = 0; first < HealthyReference::kRecords; first += lanes) {
+        std::vector<GearboxId> ids;
+        for (int i = first; i < std::min(first + lanes, HealthyReference::kRecords); ++i) {
+            ids.push_back({Group::threshold, static_cast<std::uint64_t>(i)});
+        }
+        const GearboxTile tile =
+            run_gearboxes(plan, ids, lanes, {.signal_meshes = records.meshes()});
+        auto signals = all_lane_signals(plan, tile, records.meshes());
+        for (LaneId lane{0}; lane < ids.size(); ++lane) {
+            machine::throw_if_cancelled();
+            if (tile.status[lane] == Status::ok) {
+                const Realization realization = sensor.realization(tile.realizations[lane]);
+                if (sensor.number > 0) {
+                    signals[lane] = signals_of_sensor(sensor, signals[lane]).record;
+                }
+                const LaneSignals record =
+                    drawn_record(plan.record, std::move(signals[lane]), realization);
+                records.load(record, realization);
+                for (std::size_t level = 0; level < levels; ++level) {
+                    mean.add(level, records.at(level));
+                }
+            }
+        }
+    }
+    return mean.mean();
+}
+
+const LaneSignals& baseline_of(const LaneSignals& gearbox, std::size_t k) {
+    return gearbox.baseline[std::min(k, gearbox.baselines - 1)];
+}
+
 }  // namespace
 
 PythonFeatures::PythonFeatures(const RecordPlan& record, const FeaturePlan& features,
@@ -162,47 +199,6 @@ HealthyReference HealthyRecordsMean::mean() const {
     }
     return mean;
 }
-
-namespace {
-
-HealthyReference reference_of(const TilePlan& plan, const SensorPlan& sensor) {
-    const int lanes = plan.solve->settings.numerics.lanes;
-    RealizationSignals records(plan.record, plan.features, sensor,
-                               features::SignalSet::of<features::SensorTurn>());
-    const std::size_t levels = plan.record.noise_levels.size();
-    HealthyRecordsMean mean(levels);
-    for (int first = 0; first < HealthyReference::kRecords; first += lanes) {
-        std::vector<GearboxId> ids;
-        for (int i = first; i < std::min(first + lanes, HealthyReference::kRecords); ++i) {
-            ids.push_back({Group::threshold, static_cast<std::uint64_t>(i)});
-        }
-        const GearboxTile tile =
-            run_gearboxes(plan, ids, lanes, {.signal_meshes = records.meshes()});
-        auto signals = all_lane_signals(plan, tile, records.meshes());
-        for (LaneId lane{0}; lane < ids.size(); ++lane) {
-            machine::throw_if_cancelled();
-            if (tile.status[lane] == Status::ok) {
-                const Realization realization = sensor.realization(tile.realizations[lane]);
-                if (sensor.number > 0) {
-                    signals[lane] = signals_of_sensor(sensor, signals[lane]).record;
-                }
-                const LaneSignals record =
-                    drawn_record(plan.record, std::move(signals[lane]), realization);
-                records.load(record, realization);
-                for (std::size_t level = 0; level < levels; ++level) {
-                    mean.add(level, records.at(level));
-                }
-            }
-        }
-    }
-    return mean.mean();
-}
-
-const LaneSignals& baseline_of(const LaneSignals& gearbox, std::size_t k) {
-    return gearbox.baseline[std::min(k, gearbox.baselines - 1)];
-}
-
-}  // namespace
 
 HealthyReference healthy_reference(const TilePlan& plan, std::uint64_t sensor) {
     if (!plan.features.needs.all().has<features::HealthyRecords>()) {

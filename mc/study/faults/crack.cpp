@@ -41,51 +41,6 @@ double section_share(const Study& study, double depth_m) {
     return depth_m * std::sin(crack_angle_rad(study)) / critical_section_m(study);
 }
 
-}  // namespace
-
-double crack_angle_rad(const Study& study) {
-    return study.fault.shapes.get<CrackShape>().angle_rad;
-}
-
-stiffness::CrackLaw crack_law(const Study& study) {
-    const bool fillet = profile_of(study) == stiffness::Profile::fillet;
-    return study.fault.shapes.get<CrackShape>().law.value_or(
-        fillet ? stiffness::CrackLaw::fracture_mechanics : stiffness::CrackLaw::sections);
-}
-
-double max_crack_depth_m(const Study& study) {
-    return stiffness::max_crack_depth(faulty_tooth(study), crack_law(study),
-                                      crack_angle_rad(study));
-}
-
-double critical_section_m(const Study& study) {
-    const stiffness::ToothProfile tooth = faulty_tooth(study);
-    return crack_law(study) == stiffness::CrackLaw::sections
-               ? 2.0 * tooth.root_half_thickness()
-               : stiffness::CrackPath(tooth, crack_angle_rad(study)).thickness();
-}
-
-std::string crack_origin(const Study& study, std::span<const double> depths_m) {
-    std::vector<std::string> depths, shares;
-    for (const double depth_m : depths_m) {
-        depths.push_back(fmt::format("{:.4g}", depth_m * kMmPerM));
-        shares.push_back(fmt::format("{:.3g}", 100.0 * section_share(study, depth_m)));
-    }
-    return fmt::format(
-        "depth along the crack from {}, where the tooth is {:.4g} mm thick; {} mm is {} % of that "
-        "section",
-        start_name(study), critical_section_m(study) * kMmPerM, fmt::join(depths, ", "),
-        fmt::join(shares, ", "));
-}
-
-std::string deeper_than_tooth_text(const Study& study) {
-    return fmt::format("than the tooth (a crack at {:.4g} deg cuts through it after {} mm)",
-                       crack_angle_rad(study) * 180.0 / kPi,
-                       rounded_down(max_crack_depth_m(study) * kMmPerM));
-}
-
-namespace {
-
 // Crack from the tooth root straight through the face width: stiffness/faults/tooth_crack.hpp.
 
 struct Crack : FaultShape {
@@ -275,6 +230,47 @@ class SpatialCrackKind final : public FaultKind {
 };
 
 }  // namespace
+
+double crack_angle_rad(const Study& study) {
+    return study.fault.shapes.get<CrackShape>().angle_rad;
+}
+
+stiffness::CrackLaw crack_law(const Study& study) {
+    const bool fillet = profile_of(study) == stiffness::Profile::fillet;
+    return study.fault.shapes.get<CrackShape>().law.value_or(
+        fillet ? stiffness::CrackLaw::fracture_mechanics : stiffness::CrackLaw::sections);
+}
+
+double max_crack_depth_m(const Study& study) {
+    return stiffness::max_crack_depth(faulty_tooth(study), crack_law(study),
+                                      crack_angle_rad(study));
+}
+
+double critical_section_m(const Study& study) {
+    const stiffness::ToothProfile tooth = faulty_tooth(study);
+    return crack_law(study) == stiffness::CrackLaw::sections
+               ? 2.0 * tooth.root_half_thickness()
+               : stiffness::CrackPath(tooth, crack_angle_rad(study)).thickness();
+}
+
+std::string crack_origin(const Study& study, std::span<const double> depths_m) {
+    std::vector<std::string> depths, shares;
+    for (const double depth_m : depths_m) {
+        depths.push_back(fmt::format("{:.4g}", depth_m * kMmPerM));
+        shares.push_back(fmt::format("{:.3g}", 100.0 * section_share(study, depth_m)));
+    }
+    return fmt::format(
+        "depth along the crack from {}, where the tooth is {:.4g} mm thick; {} mm is {} % of that "
+        "section",
+        start_name(study), critical_section_m(study) * kMmPerM, fmt::join(depths, ", "),
+        fmt::join(shares, ", "));
+}
+
+std::string deeper_than_tooth_text(const Study& study) {
+    return fmt::format("than the tooth (a crack at {:.4g} deg cuts through it after {} mm)",
+                       crack_angle_rad(study) * 180.0 / kPi,
+                       rounded_down(max_crack_depth_m(study) * kMmPerM));
+}
 
 const FaultKind& crack() {
     static const CrackKind kind{};

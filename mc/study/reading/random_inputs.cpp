@@ -179,44 +179,6 @@ void read_random_section(StudyDraft& draft, const std::string& section, const st
     }
 }
 
-}  // namespace
-
-void read_random(StudyDraft& draft, const Value& section) {
-    for (const Entry& entry : section.entries) {
-        if (entry.name == kCorrelations) {
-            continue;
-        }
-        const auto names = section_names();
-        const bool known =
-            std::ranges::find(names, entry.name) != names.end() && entry.name != "random";
-        if (!known) {
-            reject(draft, entry, entry.name, "unknown section",
-                   suggest(entry.name, {names.begin(), names.end()}) +
-                       " (write section.key = { distribution = \"...\", ... })");
-        } else if (entry.value.kind != Value::Kind::table) {
-            reject(draft, entry, entry.name,
-                   fmt::format("must be a table, but is {}", entry.value.shown()),
-                   "write section.key = { distribution = \"...\", ... }");
-        } else {
-            read_random_section(draft, entry.name, "", entry.value.entries);
-        }
-    }
-    // Sorted in the order of the schema, whatever their order in the file.
-    const auto rank = [](const RandomInput& input) {
-        const auto keys = schema();
-        return std::ranges::find_if(keys, [&](const Key& key) { return key.path() == input.key; }) -
-               keys.begin();
-    };
-    std::ranges::sort(draft.study.random,
-                      [&](const auto& a, const auto& b) { return rank(a) < rank(b); });
-    check_rows(draft);
-    if (const Entry* correlations = section.find(kCorrelations)) {
-        read_correlations(draft, *correlations);
-    }
-}
-
-namespace {
-
 constexpr const char* kPair =
     "write { between = [\"section.key\", \"section.key\"], rank = 0.6 } for each pair";
 
@@ -380,6 +342,40 @@ void check_input(StudyDraft& draft, const RandomInput& input) {
 }
 
 }  // namespace
+
+void read_random(StudyDraft& draft, const Value& section) {
+    for (const Entry& entry : section.entries) {
+        if (entry.name == kCorrelations) {
+            continue;
+        }
+        const auto names = section_names();
+        const bool known =
+            std::ranges::find(names, entry.name) != names.end() && entry.name != "random";
+        if (!known) {
+            reject(draft, entry, entry.name, "unknown section",
+                   suggest(entry.name, {names.begin(), names.end()}) +
+                       " (write section.key = { distribution = \"...\", ... })");
+        } else if (entry.value.kind != Value::Kind::table) {
+            reject(draft, entry, entry.name,
+                   fmt::format("must be a table, but is {}", entry.value.shown()),
+                   "write section.key = { distribution = \"...\", ... }");
+        } else {
+            read_random_section(draft, entry.name, "", entry.value.entries);
+        }
+    }
+    // Sorted in the order of the schema, whatever their order in the file.
+    const auto rank = [](const RandomInput& input) {
+        const auto keys = schema();
+        return std::ranges::find_if(keys, [&](const Key& key) { return key.path() == input.key; }) -
+               keys.begin();
+    };
+    std::ranges::sort(draft.study.random,
+                      [&](const auto& a, const auto& b) { return rank(a) < rank(b); });
+    check_rows(draft);
+    if (const Entry* correlations = section.find(kCorrelations)) {
+        read_correlations(draft, *correlations);
+    }
+}
 
 void read_correlations(StudyDraft& draft, const Entry& list) {
     if (list.value.kind != Value::Kind::array) {
