@@ -271,45 +271,42 @@ struct CovariateCurve {
     double target = 0.0;  // eta at POD 0.9
 
     // Size at which the POD is 0.9, for a value of the input.
-    SizeBounds a90(double value, double smallest, double largest, double confidence) const;
+    SizeBounds a90(double value, double smallest, double largest, double confidence) const {
+        const Eigen::VectorXd& b = fit.coefficients;
+        const double z = input(value);
+        Eigen::VectorXd level = Eigen::VectorXd::Zero(b.size());  // eta(u) = b . (level + u e_1)
+        level[0] = 1.0;
+        level[2] = z;
+        if (b.size() > 3) {
+            level[3] = z * z;
+        }
+        const double slope = b[1];
+        const double away = b.dot(level) - target;  // eta - target at u = 0
+        const auto estimate = [&](double u) {
+            return estimate_within(form.size(size.back(u)), smallest, largest);
+        };
+        if (!(slope > 0.0)) {
+            const SizeEstimate never{Where::not_reached, kNan};
+            return {never, {Where::below_tested, kNan}, never};
+        }
+        const double q = link_quantile(Link::probit, confidence);
+        const double v_level = level.dot(fit.covariance * level);
+        const double v_cross = level.dot(fit.covariance.col(1));
+        const double v_slope = fit.covariance(1, 1);
+        // (away + slope u)^2 = q^2 var(away + slope u)
+        const double a = slope * slope - q * q * v_slope;
+        const double half = away * slope - q * q * v_cross;
+        const double c = away * away - q * q * v_level;
+        SizeBounds bounds{estimate(-away / slope), {Where::below_tested, kNan}, {}};
+        bounds.upper = {Where::not_reached, kNan};
+        if (a > 0.0) {
+            const double root = std::sqrt(std::max(0.0, half * half - a * c));
+            bounds.lower = estimate((-half - root) / a);
+            bounds.upper = estimate((-half + root) / a);
+        }
+        return bounds;
+    }
 };
-
-SizeBounds CovariateCurve::a90(double value, double smallest, double largest,
-                               double confidence) const {
-    const Eigen::VectorXd& b = fit.coefficients;
-    const double z = input(value);
-    Eigen::VectorXd level = Eigen::VectorXd::Zero(b.size());  // eta(u) = b . (level + u e_1)
-    level[0] = 1.0;
-    level[2] = z;
-    if (b.size() > 3) {
-        level[3] = z * z;
-    }
-    const double slope = b[1];
-    const double away = b.dot(level) - target;  // eta - target at u = 0
-    const auto estimate = [&](double u) {
-        return estimate_within(form.size(size.back(u)), smallest, largest);
-    };
-    if (!(slope > 0.0)) {
-        const SizeEstimate never{Where::not_reached, kNan};
-        return {never, {Where::below_tested, kNan}, never};
-    }
-    const double q = link_quantile(Link::probit, confidence);
-    const double v_level = level.dot(fit.covariance * level);
-    const double v_cross = level.dot(fit.covariance.col(1));
-    const double v_slope = fit.covariance(1, 1);
-    // (away + slope u)^2 = q^2 var(away + slope u)
-    const double a = slope * slope - q * q * v_slope;
-    const double half = away * slope - q * q * v_cross;
-    const double c = away * away - q * q * v_level;
-    SizeBounds bounds{estimate(-away / slope), {Where::below_tested, kNan}, {}};
-    bounds.upper = {Where::not_reached, kNan};
-    if (a > 0.0) {
-        const double root = std::sqrt(std::max(0.0, half * half - a * c));
-        bounds.lower = estimate((-half - root) / a);
-        bounds.upper = estimate((-half + root) / a);
-    }
-    return bounds;
-}
 
 Eigen::MatrixXd design_of(const Eigen::VectorXd& x, const Scale& size, const Eigen::VectorXd& z,
                           const Scale& input, int powers) {

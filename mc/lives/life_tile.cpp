@@ -222,7 +222,6 @@ class LifeTiles::Lane {
         return coefficients;
     }
 
-    // Inputs of a record, with the noise of its sensor.
     InstanceInputs inputs_of(const LifeRecord& record) const {
         InstanceInputs inputs = inputs_;
         if (tiles_.plan_.distributions.sensor_noise_only) {

@@ -125,7 +125,6 @@ class LaneSamples {
         return tile_.realizations[first_lane_ + i].inputs;
     }
 
-    // Samples of a lane along one of the sensor's paths.
     std::vector<double> along(std::size_t path, std::size_t i, int meshes,
                               const signals::Tones& tones = {}) const {
         if (!tile_.sensor_recorders.empty()) {

@@ -388,7 +388,6 @@ void check_given_stiffness(StudyDraft& draft) {
 
 // Checks of deviations from the ideal gearbox: planets, tooth deviations and transmission errors.
 
-// Checks lists that have one value for each planet.
 void check_planet_lists(StudyDraft& draft) {
     const Study& s = draft.study;
     if (s.gearbox.kind != GearboxKind::planetary || !draft.usable("gearbox.planets")) {

@@ -50,7 +50,6 @@ void place_samples(PhaseGrid& grid) {
 
 constexpr auto kLanes = static_cast<std::size_t>(kPilotLanes);
 
-// Tile integrated on one grid.
 class PilotIntegration {
   public:
     PilotIntegration(const Pilot& pilot, PhaseGrid grid)
