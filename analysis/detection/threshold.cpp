@@ -61,84 +61,6 @@ double solve_rate(Tail tail, double target) {
     return 0.5 * (bracket.first + bracket.second);
 }
 
-}  // namespace
-
-long threshold_rank(long sample, double false_alarm_rate) {
-    const double exact = static_cast<double>(sample + 1) * (1.0 - false_alarm_rate);
-    return std::max(1L, static_cast<long>(std::ceil(exact - kRounding)));
-}
-
-Interval threshold_rate_interval(long sample, double false_alarm_rate, double confidence) {
-    const long rank = threshold_rank(sample, false_alarm_rate);
-    if (rank > sample) {
-        return {kNan, kNan};
-    }
-    return equal_tails(static_cast<double>(sample + 1 - rank), static_cast<double>(rank),
-                       confidence);
-}
-
-long sample_for_threshold(double false_alarm_rate) {
-    return static_cast<long>(std::ceil(1.0 / false_alarm_rate - 1.0 - kRounding));
-}
-
-long sample_for_rate(double false_alarm_rate, double confidence) {
-    const auto enough = [&](long sample) {
-        return threshold_rate_interval(sample, false_alarm_rate, confidence).upper <=
-               2.0 * false_alarm_rate;
-    };
-    // With k values beyond the threshold the bound falls with the sample, and it jumps where k
-    // grows. The smallest sample of every k is therefore its worst.
-    const auto smallest = [&](long beyond) {
-        return static_cast<long>(
-            std::ceil(static_cast<double>(beyond) / false_alarm_rate - 1.0 - kRounding));
-    };
-    const auto first = [](long low, long high, auto holds) {
-        while (high - low > 1) {
-            const long middle = low + (high - low) / 2;
-            (holds(middle) ? high : low) = middle;
-        }
-        return high;
-    };
-    long most = 1;
-    while (!enough(smallest(most))) {
-        most *= 2;
-    }
-    const long beyond = first(0, most, [&](long k) { return enough(smallest(k)); });
-    return first(smallest(beyond - 1), smallest(beyond), enough);
-}
-
-HealthyRate healthy_rate(long sample, double false_alarm_rate, long alarms, long tested,
-                         double confidence) {
-    const long rank = threshold_rank(sample, false_alarm_rate);
-    if (rank > sample) {
-        return {kNan, {kNan, kNan}};
-    }
-    const auto a = static_cast<double>(sample + 1 - rank + alarms);
-    const auto b = static_cast<double>(rank + tested - alarms);
-    return {a / (a + b), equal_tails(a, b, confidence)};
-}
-
-Interval expected_rate_interval(long sample, long alarms, long tested, double confidence) {
-    if (sample <= 0 || tested <= 0) {
-        return {kNan, kNan};
-    }
-    const double tail = 0.5 * (1.0 - confidence);
-    const auto whole = static_cast<double>(sample + 1);
-    const auto at_most = [&](long k, double q) {
-        return beta_binomial_cdf(k, tested, whole * q, whole * (1.0 - q));
-    };
-    Interval bounds{0.0, 1.0};
-    if (alarms > 0) {
-        bounds.lower = solve_rate([&](double q) { return 1.0 - at_most(alarms - 1, q); }, tail);
-    }
-    if (alarms < tested) {
-        bounds.upper = solve_rate([&](double q) { return at_most(alarms, q); }, tail);
-    }
-    return bounds;
-}
-
-namespace {
-
 constexpr double kTailRounding = 1e-9;
 constexpr long kTailDivisor = 10;  // a tenth of the sample
 // Initial search range of the posterior, in units of the median excess: a shape of 2 has a scale of
@@ -221,6 +143,80 @@ long rank_within(long sample, double rate, double tail, bool below) {
 }
 
 }  // namespace
+
+long threshold_rank(long sample, double false_alarm_rate) {
+    const double exact = static_cast<double>(sample + 1) * (1.0 - false_alarm_rate);
+    return std::max(1L, static_cast<long>(std::ceil(exact - kRounding)));
+}
+
+Interval threshold_rate_interval(long sample, double false_alarm_rate, double confidence) {
+    const long rank = threshold_rank(sample, false_alarm_rate);
+    if (rank > sample) {
+        return {kNan, kNan};
+    }
+    return equal_tails(static_cast<double>(sample + 1 - rank), static_cast<double>(rank),
+                       confidence);
+}
+
+long sample_for_threshold(double false_alarm_rate) {
+    return static_cast<long>(std::ceil(1.0 / false_alarm_rate - 1.0 - kRounding));
+}
+
+long sample_for_rate(double false_alarm_rate, double confidence) {
+    const auto enough = [&](long sample) {
+        return threshold_rate_interval(sample, false_alarm_rate, confidence).upper <=
+               2.0 * false_alarm_rate;
+    };
+    // With k values beyond the threshold the bound falls with the sample, and it jumps where k
+    // grows. The smallest sample of every k is therefore its worst.
+    const auto smallest = [&](long beyond) {
+        return static_cast<long>(
+            std::ceil(static_cast<double>(beyond) / false_alarm_rate - 1.0 - kRounding));
+    };
+    const auto first = [](long low, long high, auto holds) {
+        while (high - low > 1) {
+            const long middle = low + (high - low) / 2;
+            (holds(middle) ? high : low) = middle;
+        }
+        return high;
+    };
+    long most = 1;
+    while (!enough(smallest(most))) {
+        most *= 2;
+    }
+    const long beyond = first(0, most, [&](long k) { return enough(smallest(k)); });
+    return first(smallest(beyond - 1), smallest(beyond), enough);
+}
+
+HealthyRate healthy_rate(long sample, double false_alarm_rate, long alarms, long tested,
+                         double confidence) {
+    const long rank = threshold_rank(sample, false_alarm_rate);
+    if (rank > sample) {
+        return {kNan, {kNan, kNan}};
+    }
+    const auto a = static_cast<double>(sample + 1 - rank + alarms);
+    const auto b = static_cast<double>(rank + tested - alarms);
+    return {a / (a + b), equal_tails(a, b, confidence)};
+}
+
+Interval expected_rate_interval(long sample, long alarms, long tested, double confidence) {
+    if (sample <= 0 || tested <= 0) {
+        return {kNan, kNan};
+    }
+    const double tail = 0.5 * (1.0 - confidence);
+    const auto whole = static_cast<double>(sample + 1);
+    const auto at_most = [&](long k, double q) {
+        return beta_binomial_cdf(k, tested, whole * q, whole * (1.0 - q));
+    };
+    Interval bounds{0.0, 1.0};
+    if (alarms > 0) {
+        bounds.lower = solve_rate([&](double q) { return 1.0 - at_most(alarms - 1, q); }, tail);
+    }
+    if (alarms < tested) {
+        bounds.upper = solve_rate([&](double q) { return at_most(alarms, q); }, tail);
+    }
+    return bounds;
+}
 
 long exceedances_of(long sample) {
     return std::min(kMostExceedances, sample / kTailDivisor);

@@ -101,85 +101,6 @@ InputInfluence influence(const InputColumn& input, const std::vector<Stratum>& s
     return result;
 }
 
-}  // namespace
-
-MissSensitivity miss_sensitivity(std::span<const double> sizes, std::span<const int> hit,
-                                 const std::vector<InputColumn>& inputs, double confidence) {
-    MissSensitivity result;
-    const std::vector<Stratum> strata = strata_of(sizes, hit);
-    if (strata.empty()) {
-        result.refusal = "no fault size at which most, but not all gearboxes are detected";
-        return result;
-    }
-    result.smallest = std::numeric_limits<double>::infinity();
-    for (const Stratum& stratum : strata) {
-        result.hits += static_cast<long>(stratum.hits.size());
-        result.misses += static_cast<long>(stratum.misses.size());
-        for (const auto* rows : {&stratum.hits, &stratum.misses}) {
-            for (const std::size_t row : *rows) {
-                result.smallest = std::min(result.smallest, sizes[row]);
-                result.largest = std::max(result.largest, sizes[row]);
-            }
-        }
-    }
-    if (std::min(result.misses, result.hits) < kFewestOutcomes) {
-        result.refusal = fmt::format("{} misses and {} hits, {} of each are needed", result.misses,
-                                     result.hits, kFewestOutcomes);
-        return result;
-    }
-    std::vector<double> p_values;
-    for (const InputColumn& input : inputs) {
-        if (!varies(input, strata)) {
-            result.left_out.push_back(input.name);
-            continue;
-        }
-        result.inputs.push_back(influence(input, strata, confidence));
-        p_values.push_back(result.inputs.back().p_value);
-    }
-    p_values = holm_adjusted(p_values);
-    for (std::size_t i = 0; i < result.inputs.size(); ++i) {
-        result.inputs[i].p_value = p_values[i];
-    }
-    std::ranges::stable_sort(result.inputs, [](const InputInfluence& a, const InputInfluence& b) {
-        return std::abs(a.larger_in_misses - 0.5) > std::abs(b.larger_in_misses - 0.5);
-    });
-    return result;
-}
-
-InputBins equal_count_bins(std::span<const double> values, std::size_t bins) {
-    EXPECTS(std::ranges::all_of(values, [](double value) { return std::isfinite(value); }));
-    std::vector<std::size_t> order(values.size());
-    std::iota(order.begin(), order.end(), std::size_t{0});
-    std::ranges::stable_sort(order,
-                             [&](std::size_t a, std::size_t b) { return values[a] < values[b]; });
-    std::size_t distinct = 0;
-    for (std::size_t i = 0; i < order.size(); ++i) {
-        distinct += i == 0 || values[order[i]] != values[order[i - 1]] ? 1 : 0;
-    }
-    const bool each = distinct <= bins;
-    InputBins result;
-    result.of.resize(values.size());
-    std::size_t last_share = 0;
-    for (std::size_t first = 0; first < order.size();) {
-        std::size_t end = first;
-        while (end < order.size() && values[order[end]] == values[order[first]]) {
-            ++end;
-        }
-        // Equal values share the bin of the middle one.
-        const std::size_t share = (first + end - 1) * bins / (2 * order.size());
-        if (result.bins == 0 || each || share != last_share) {
-            ++result.bins;
-        }
-        last_share = share;
-        for (; first < end; ++first) {
-            result.of[order[first]] = result.bins - 1;
-        }
-    }
-    return result;
-}
-
-namespace {
-
 using Where = SizeEstimate::Where;
 constexpr std::size_t kBins = 5;
 constexpr std::size_t kFewValues = 9;  // an input with at most this many values has an a90 at each
@@ -409,6 +330,81 @@ double quantile(std::vector<double>& values, double share) {
 }
 
 }  // namespace
+
+MissSensitivity miss_sensitivity(std::span<const double> sizes, std::span<const int> hit,
+                                 const std::vector<InputColumn>& inputs, double confidence) {
+    MissSensitivity result;
+    const std::vector<Stratum> strata = strata_of(sizes, hit);
+    if (strata.empty()) {
+        result.refusal = "no fault size at which most, but not all gearboxes are detected";
+        return result;
+    }
+    result.smallest = std::numeric_limits<double>::infinity();
+    for (const Stratum& stratum : strata) {
+        result.hits += static_cast<long>(stratum.hits.size());
+        result.misses += static_cast<long>(stratum.misses.size());
+        for (const auto* rows : {&stratum.hits, &stratum.misses}) {
+            for (const std::size_t row : *rows) {
+                result.smallest = std::min(result.smallest, sizes[row]);
+                result.largest = std::max(result.largest, sizes[row]);
+            }
+        }
+    }
+    if (std::min(result.misses, result.hits) < kFewestOutcomes) {
+        result.refusal = fmt::format("{} misses and {} hits, {} of each are needed", result.misses,
+                                     result.hits, kFewestOutcomes);
+        return result;
+    }
+    std::vector<double> p_values;
+    for (const InputColumn& input : inputs) {
+        if (!varies(input, strata)) {
+            result.left_out.push_back(input.name);
+            continue;
+        }
+        result.inputs.push_back(influence(input, strata, confidence));
+        p_values.push_back(result.inputs.back().p_value);
+    }
+    p_values = holm_adjusted(p_values);
+    for (std::size_t i = 0; i < result.inputs.size(); ++i) {
+        result.inputs[i].p_value = p_values[i];
+    }
+    std::ranges::stable_sort(result.inputs, [](const InputInfluence& a, const InputInfluence& b) {
+        return std::abs(a.larger_in_misses - 0.5) > std::abs(b.larger_in_misses - 0.5);
+    });
+    return result;
+}
+
+InputBins equal_count_bins(std::span<const double> values, std::size_t bins) {
+    EXPECTS(std::ranges::all_of(values, [](double value) { return std::isfinite(value); }));
+    std::vector<std::size_t> order(values.size());
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    std::ranges::stable_sort(order,
+                             [&](std::size_t a, std::size_t b) { return values[a] < values[b]; });
+    std::size_t distinct = 0;
+    for (std::size_t i = 0; i < order.size(); ++i) {
+        distinct += i == 0 || values[order[i]] != values[order[i - 1]] ? 1 : 0;
+    }
+    const bool each = distinct <= bins;
+    InputBins result;
+    result.of.resize(values.size());
+    std::size_t last_share = 0;
+    for (std::size_t first = 0; first < order.size();) {
+        std::size_t end = first;
+        while (end < order.size() && values[order[end]] == values[order[first]]) {
+            ++end;
+        }
+        // Equal values share the bin of the middle one.
+        const std::size_t share = (first + end - 1) * bins / (2 * order.size());
+        if (result.bins == 0 || each || share != last_share) {
+            ++result.bins;
+        }
+        last_share = share;
+        for (; first < end; ++first) {
+            result.of[order[first]] = result.bins - 1;
+        }
+    }
+    return result;
+}
 
 SizeGroup transition_sizes(const std::vector<DetectionCell>& cells) {
     constexpr double kRare = 0.1, kSure = 0.95;
