@@ -4,9 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "analysis/detection/threshold.hpp"
 #include "analysis/pod/hit_miss_pod.hpp"
-#include "analysis/statistics/interval.hpp"
 
 namespace gearpod::analysis {
 namespace {
@@ -25,8 +23,8 @@ struct TestRows {
                 order.push_back(i);
             }
         }
-        std::sort(order.begin(), order.end(),
-                  [&](std::size_t a, std::size_t b) { return values.size[a] < values.size[b]; });
+        std::ranges::sort(
+            order, [&](std::size_t a, std::size_t b) { return values.size[a] < values.size[b]; });
         for (const std::size_t i : order) {
             size.push_back(values.size[i]);
             value.push_back(values.value[i]);
@@ -95,8 +93,7 @@ void make_monotone(std::vector<RatePoint>& points) {
 }
 
 double share_beyond(std::span<const double> ascending, double threshold) {
-    const auto beyond =
-        ascending.end() - std::upper_bound(ascending.begin(), ascending.end(), threshold);
+    const auto beyond = ascending.end() - std::ranges::upper_bound(ascending, threshold);
     return static_cast<double>(beyond) / static_cast<double>(ascending.size());
 }
 
@@ -166,7 +163,7 @@ std::optional<LeastCost> least_cost(const TestValues& values, const Costs& costs
     if (healthy.empty() || faulty.empty()) {
         return std::nullopt;
     }
-    std::sort(faulty.begin(), faulty.end());
+    std::ranges::sort(faulty);
     const auto cost = [&](double rate, double pd) {
         return (1.0 - costs.fault_share) * rate * costs.alarm +
                costs.fault_share * (1.0 - pd) * costs.miss;

@@ -5,8 +5,6 @@
 #include <numeric>
 #include <stdexcept>
 
-#include "analysis/detection/detection.hpp"
-#include "analysis/pod/hit_miss_pod.hpp"
 #include "analysis/statistics/every_nth.hpp"
 #include "machine/team.hpp"
 
@@ -114,6 +112,40 @@ FeatureRanking ranking_at(const ReliabilityData& data, std::size_t level, std::s
     return rank_features(ranked, confidence);
 }
 
+using Where = SizeEstimate::Where;
+
+std::optional<SmallestFault> single_feature_fault(const std::string& feature,
+                                                  const LevelReliability& reliability) {
+    const HitMissPod& pod = reliability.hit_miss;
+    const SmallestFault::Source source{feature, reliability.noise_level};
+    if (pod.refusal.empty() && !pod.doubtful && pod.a90.upper.where != Where::not_reached) {
+        const bool inside = pod.a90.upper.where == Where::reached;
+        return SmallestFault{feature, inside ? pod.a90.upper.size : pod.smallest, true, source};
+    }
+    if (std::isnan(reliability.demonstrated_size)) {
+        return std::nullopt;
+    }
+    return SmallestFault{feature, reliability.demonstrated_size, false, source};
+}
+
+// True if `a` finds at least as many faults as `b` in every size group, and both tested the same
+// groups, at least one.
+bool finds_no_less(const LevelReliability& a, const LevelReliability& b) {
+    bool any = false;
+    for (std::size_t i = 0; i < a.pd.size(); ++i) {
+        if (std::isnan(a.pd[i]) != std::isnan(b.pd[i]) || a.pd[i] < b.pd[i]) {
+            return false;
+        }
+        any |= !std::isnan(a.pd[i]);
+    }
+    return any;
+}
+
+double found(const LevelReliability& reliability) {
+    return std::accumulate(reliability.pd.begin(), reliability.pd.end(), 0.0,
+                           [](double sum, double pd) { return sum + (std::isnan(pd) ? 0.0 : pd); });
+}
+
 }  // namespace
 
 std::vector<LevelReliability> assess_pairs(const ReliabilityData& data,
@@ -189,44 +221,6 @@ std::vector<std::size_t> in_rank_order(const Reliability& reliability, std::size
     }
     return order;
 }
-
-namespace {
-
-using Where = SizeEstimate::Where;
-
-std::optional<SmallestFault> single_feature_fault(const std::string& feature,
-                                                  const LevelReliability& reliability) {
-    const HitMissPod& pod = reliability.hit_miss;
-    const SmallestFault::Source source{feature, reliability.noise_level};
-    if (pod.refusal.empty() && !pod.doubtful && pod.a90.upper.where != Where::not_reached) {
-        const bool inside = pod.a90.upper.where == Where::reached;
-        return SmallestFault{feature, inside ? pod.a90.upper.size : pod.smallest, true, source};
-    }
-    if (std::isnan(reliability.demonstrated_size)) {
-        return std::nullopt;
-    }
-    return SmallestFault{feature, reliability.demonstrated_size, false, source};
-}
-
-// True if `a` finds at least as many faults as `b` in every size group, and both tested the same
-// groups, at least one.
-bool finds_no_less(const LevelReliability& a, const LevelReliability& b) {
-    bool any = false;
-    for (std::size_t i = 0; i < a.pd.size(); ++i) {
-        if (std::isnan(a.pd[i]) != std::isnan(b.pd[i]) || a.pd[i] < b.pd[i]) {
-            return false;
-        }
-        any |= !std::isnan(a.pd[i]);
-    }
-    return any;
-}
-
-double found(const LevelReliability& reliability) {
-    return std::accumulate(reliability.pd.begin(), reliability.pd.end(), 0.0,
-                           [](double sum, double pd) { return sum + (std::isnan(pd) ? 0.0 : pd); });
-}
-
-}  // namespace
 
 std::optional<SmallestFault> smallest_fault(const Reliability& reliability, std::size_t level,
                                             std::size_t feature) {

@@ -11,7 +11,6 @@
 #include <random>
 
 #include "analysis/pod/response_bounds.hpp"
-#include "analysis/statistics/interval.hpp"
 #include "analysis/statistics/link.hpp"
 
 namespace gearpod::analysis {

@@ -74,7 +74,6 @@ void lose_unwritable_text() {
     replace(stdout, write_lossily<STDOUT_FILENO>, isatty(STDOUT_FILENO) == 1 ? _IOLBF : _IOFBF);
 }
 
-// Sets the width of reports to the width of the terminal.
 void fit_terminal() {
     winsize size{};
     if (ioctl(STDOUT_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 0) {

@@ -2,20 +2,15 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdint>
 #include <limits>
 #include <random>
-#include <span>
 #include <stdexcept>
 #include <utility>
-#include <vector>
 
-#include "analysis/detection/detection.hpp"
 #include "analysis/detection/detection_table.hpp"
 #include "analysis/detection/threshold.hpp"
 #include "analysis/pod/hit_miss_pod.hpp"
 #include "analysis/pod/pod_curve.hpp"
-#include "analysis/statistics/interval.hpp"
 #include "analysis/statistics/link.hpp"
 #include "analysis/statistics/rank_statistics.hpp"
 #include "machine/team.hpp"
@@ -87,15 +82,68 @@ class Resampling {
     // Detection of one resample, given the number of times each gearbox is drawn. Fits the
     // POD curve `form`, or no curve if it is null.
     ResampledDetection detect(const std::vector<int>& healthy, const std::vector<int>& test,
-                              const PodForm* form) const;
+                              const PodForm* form) const {
+        const double limit = threshold(healthy);
+        std::vector<double> tested(groups_, 0.0), found(groups_, 0.0);
+        HitMissTable table;
+        for (const TestValue& row : test_) {
+            const double weight = test[row.gearbox];
+            const double hits = row.value > limit ? weight : 0.0;
+            if (row.group != kNoGroup) {
+                tested[row.group] += weight;
+                found[row.group] += hits;
+            }
+            if (row.size > 0.0 && weight > 0.0) {
+                if (table.empty() || table.back().size != row.size) {
+                    table.push_back({row.size, 0.0, 0.0});
+                }
+                table.back().hits += hits;
+                table.back().tests += weight;
+            }
+        }
+        ResampledDetection result;
+        for (std::size_t g = 0; g < groups_; ++g) {
+            result.pd.push_back(tested[g] > 0.0 && !std::isnan(limit) ? found[g] / tested[g]
+                                                                      : kNan);
+        }
+        result.a90 = form == nullptr || std::isnan(limit) ? kNan : a90_of(table, *form);
+        return result;
+    }
 
   private:
     struct TestValue {
         double size, value;
         std::size_t gearbox, group;
     };
-    double threshold(const std::vector<int>& counts) const;
-    double beyond(const std::vector<int>& counts, long sample) const;
+
+    double threshold(const std::vector<int>& counts) const {
+        long sample = 0, passed = 0;
+        for (const auto& [value, gearbox] : healthy_) {
+            sample += counts[gearbox];
+        }
+        const long rank = threshold_rank(sample, false_alarm_rate_);
+        for (const auto& [value, gearbox] : healthy_) {
+            passed += counts[gearbox];
+            if (passed >= rank) {
+                return value;
+            }
+        }
+        return tail_reaches(sample, false_alarm_rate_) ? beyond(counts, sample) : kNan;
+    }
+
+    double beyond(const std::vector<int>& counts, long sample) const {
+        const auto needed = static_cast<std::size_t>(exceedances_of(sample)) + 1;
+        std::vector<double> largest;
+        for (auto entry = healthy_.rbegin(); entry != healthy_.rend() && largest.size() < needed;
+             ++entry) {
+            const auto left = needed - largest.size();
+            largest.insert(largest.end(), std::min<std::size_t>(left, counts[entry->second]),
+                           entry->first);
+        }
+        std::ranges::reverse(largest);
+        const TailFit tail(largest, sample);
+        return tail.refusal().empty() ? tail.threshold(false_alarm_rate_) : kNan;
+    }
 
     double false_alarm_rate_;
     std::size_t groups_;
@@ -103,63 +151,6 @@ class Resampling {
     std::vector<std::pair<double, std::size_t>> healthy_;  // value and gearbox, ascending
     std::vector<TestValue> test_;                          // ascending size
 };
-
-double Resampling::threshold(const std::vector<int>& counts) const {
-    long sample = 0, passed = 0;
-    for (const auto& [value, gearbox] : healthy_) {
-        sample += counts[gearbox];
-    }
-    const long rank = threshold_rank(sample, false_alarm_rate_);
-    for (const auto& [value, gearbox] : healthy_) {
-        passed += counts[gearbox];
-        if (passed >= rank) {
-            return value;
-        }
-    }
-    return tail_reaches(sample, false_alarm_rate_) ? beyond(counts, sample) : kNan;
-}
-
-double Resampling::beyond(const std::vector<int>& counts, long sample) const {
-    const auto needed = static_cast<std::size_t>(exceedances_of(sample)) + 1;
-    std::vector<double> largest;
-    for (auto entry = healthy_.rbegin(); entry != healthy_.rend() && largest.size() < needed;
-         ++entry) {
-        const auto left = needed - largest.size();
-        largest.insert(largest.end(), std::min<std::size_t>(left, counts[entry->second]),
-                       entry->first);
-    }
-    std::reverse(largest.begin(), largest.end());
-    const TailFit tail(largest, sample);
-    return tail.refusal().empty() ? tail.threshold(false_alarm_rate_) : kNan;
-}
-
-ResampledDetection Resampling::detect(const std::vector<int>& healthy, const std::vector<int>& test,
-                                      const PodForm* form) const {
-    const double limit = threshold(healthy);
-    std::vector<double> tested(groups_, 0.0), found(groups_, 0.0);
-    HitMissTable table;
-    for (const TestValue& row : test_) {
-        const double weight = test[row.gearbox];
-        const double hits = row.value > limit ? weight : 0.0;
-        if (row.group != kNoGroup) {
-            tested[row.group] += weight;
-            found[row.group] += hits;
-        }
-        if (row.size > 0.0 && weight > 0.0) {
-            if (table.empty() || table.back().size != row.size) {
-                table.push_back({row.size, 0.0, 0.0});
-            }
-            table.back().hits += hits;
-            table.back().tests += weight;
-        }
-    }
-    ResampledDetection result;
-    for (std::size_t g = 0; g < groups_; ++g) {
-        result.pd.push_back(tested[g] > 0.0 && !std::isnan(limit) ? found[g] / tested[g] : kNan);
-    }
-    result.a90 = form == nullptr || std::isnan(limit) ? kNan : a90_of(table, *form);
-    return result;
-}
 
 // Detection of one sample with the methods of the report.
 struct Detected {
@@ -224,7 +215,7 @@ Interval percentiles(std::vector<double> values, double confidence) {
     if (values.empty()) {
         return {kNan, kNan};
     }
-    std::sort(values.begin(), values.end());
+    std::ranges::sort(values);
     const double tail = 0.5 * (1.0 - confidence) * static_cast<double>(values.size() + 1);
     const auto least = static_cast<std::size_t>(std::max(1.0, std::floor(tail))) - 1;
     return {values[least], values[values.size() - 1 - least]};

@@ -6,7 +6,6 @@
 #include <cmath>
 #include <set>
 #include <stdexcept>
-#include <vector>
 
 #include "analysis/detection/threshold.hpp"
 #include "analysis/statistics/every_nth.hpp"
@@ -247,6 +246,61 @@ void warn(const LevelDetection& level, std::size_t healthy, double rate,
     }
 }
 
+// True if all values equal to the threshold belong to one gearbox. Noise-free records of one
+// gearbox are equal, which does not make the feature a constant.
+bool tied_within_one(std::span<const double> values, std::span<const std::size_t> gearbox,
+                     double threshold) {
+    std::set<std::size_t> tied;
+    for (std::size_t i = 0; i < values.size(); ++i) {
+        if (values[i] == threshold) {
+            tied.insert(gearbox[i]);
+        }
+    }
+    return tied.size() == 1;
+}
+
+constexpr std::size_t kMostConditions = 50;
+
+ConditionThreshold threshold_of(double condition, const FeatureSample& healthy,
+                                const ConditionColumn& column, std::size_t level, Alarm alarm,
+                                const DetectionRequest& request) {
+    std::vector<double> values;
+    std::vector<std::size_t> gearbox;
+    const std::size_t levels = request.noise_levels.size();
+    for (std::size_t i = 0; i < column.healthy.size(); ++i) {
+        if (column.healthy[i] == condition) {
+            values.push_back(healthy.values[i * levels + level]);
+            gearbox.push_back(column.gearbox.empty() ? i : column.gearbox[i]);
+        }
+    }
+    const HealthyThresholds sample({values, gearbox}, alarm);
+    const Threshold threshold = sample.at(request.false_alarm_rate, request.confidence);
+    return {condition, threshold.value, threshold.sample, threshold.alarms,
+            sample.rate_bounds(threshold, request.false_alarm_rate, request.confidence)};
+}
+
+void warn(const ConditionLevel& level, const ConditionColumn& column,
+          const DetectionRequest& request, std::vector<std::string>& warnings) {
+    const auto small = std::count_if(
+        level.thresholds.begin(), level.thresholds.end(), [&](const ConditionThreshold& threshold) {
+            return !(threshold.rate.upper <= 2.0 * request.false_alarm_rate);
+        });
+    if (small > 0) {
+        warnings.push_back(
+            fmt::format("noise level {:g}: {} of {} values of {} have too few healthy gearboxes "
+                        "for a false-alarm rate of {:g}; each needs {}",
+                        level.noise_level, small, level.thresholds.size(), column.name,
+                        request.false_alarm_rate,
+                        sample_for_rate(request.false_alarm_rate, request.confidence)));
+    }
+    if (level.without > 0) {
+        warnings.push_back(
+            fmt::format("noise level {:g}: {} test gearboxes have a value of {} without a "
+                        "threshold and are not counted",
+                        level.noise_level, level.without, column.name));
+    }
+}
+
 }  // namespace
 
 FeatureDetection detect(const std::string& feature, Alarm alarm, const FeatureSample& healthy,
@@ -304,23 +358,6 @@ FeatureDetection detect(const std::string& feature, Alarm alarm, const FeatureSa
     }
     return result;
 }
-
-namespace {
-
-// True if all values equal to the threshold belong to one gearbox. Noise-free records of one
-// gearbox are equal, which does not make the feature a constant.
-bool tied_within_one(std::span<const double> values, std::span<const std::size_t> gearbox,
-                     double threshold) {
-    std::set<std::size_t> tied;
-    for (std::size_t i = 0; i < values.size(); ++i) {
-        if (values[i] == threshold) {
-            tied.insert(gearbox[i]);
-        }
-    }
-    return tied.size() == 1;
-}
-
-}  // namespace
 
 FeatureDetection detect_clustered(const std::string& feature, Alarm alarm,
                                   const FeatureSample& healthy,
@@ -424,52 +461,6 @@ double demonstrated_size(const LevelDetection& level, std::span<const double> si
     const auto group = reliable_size(level, pd);
     return group ? std::fmin(group->high, single) : single;
 }
-
-namespace {
-
-constexpr std::size_t kMostConditions = 50;
-
-ConditionThreshold threshold_of(double condition, const FeatureSample& healthy,
-                                const ConditionColumn& column, std::size_t level, Alarm alarm,
-                                const DetectionRequest& request) {
-    std::vector<double> values;
-    std::vector<std::size_t> gearbox;
-    const std::size_t levels = request.noise_levels.size();
-    for (std::size_t i = 0; i < column.healthy.size(); ++i) {
-        if (column.healthy[i] == condition) {
-            values.push_back(healthy.values[i * levels + level]);
-            gearbox.push_back(column.gearbox.empty() ? i : column.gearbox[i]);
-        }
-    }
-    const HealthyThresholds sample({values, gearbox}, alarm);
-    const Threshold threshold = sample.at(request.false_alarm_rate, request.confidence);
-    return {condition, threshold.value, threshold.sample, threshold.alarms,
-            sample.rate_bounds(threshold, request.false_alarm_rate, request.confidence)};
-}
-
-void warn(const ConditionLevel& level, const ConditionColumn& column,
-          const DetectionRequest& request, std::vector<std::string>& warnings) {
-    const auto small = std::count_if(
-        level.thresholds.begin(), level.thresholds.end(), [&](const ConditionThreshold& threshold) {
-            return !(threshold.rate.upper <= 2.0 * request.false_alarm_rate);
-        });
-    if (small > 0) {
-        warnings.push_back(
-            fmt::format("noise level {:g}: {} of {} values of {} have too few healthy gearboxes "
-                        "for a false-alarm rate of {:g}; each needs {}",
-                        level.noise_level, small, level.thresholds.size(), column.name,
-                        request.false_alarm_rate,
-                        sample_for_rate(request.false_alarm_rate, request.confidence)));
-    }
-    if (level.without > 0) {
-        warnings.push_back(
-            fmt::format("noise level {:g}: {} test gearboxes have a value of {} without a "
-                        "threshold and are not counted",
-                        level.noise_level, level.without, column.name));
-    }
-}
-
-}  // namespace
 
 ConditionDetection detect_by_condition(const std::string& feature, Alarm alarm,
                                        const FeatureSample& healthy, const FeatureSample& test,

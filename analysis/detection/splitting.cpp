@@ -127,7 +127,6 @@ std::vector<double> SplitTail::split(double limit, const std::vector<double>& va
     return found_values;
 }
 
-// Sum of the squared shares of the families among the members.
 double SplitTail::squared_shares(std::span<const LevelMember> members) {
     std::map<std::uint64_t, double> shares;
     for (const LevelMember& member : members) {

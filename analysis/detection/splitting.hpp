@@ -105,7 +105,6 @@ class SplitTail {
     explicit SplitTail(const Settings& settings) : settings_(settings) {}
     static SplitTail until(const Settings& settings, const SplitValues& values,
                            const std::function<bool(const Level&)>& last);
-    // Adds the members' values as the next level.
     void add_level(double rate, const std::vector<double>& values);
     // Creates the next level's members from those of the last level beyond `limit`, and returns
     // their values.

@@ -6,17 +6,14 @@
 #include <limits>
 #include <map>
 #include <numeric>
-#include <optional>
 #include <utility>
 
 #include "analysis/statistics/distributions.hpp"
-#include "analysis/statistics/interval.hpp"
 #include "analysis/statistics/quiet_policy.hpp"
 #include "analysis/statistics/rank_statistics.hpp"
 #include "machine/contracts.hpp"
 
 namespace gearpod::analysis {
-
 namespace {
 
 // (n+1)(1-rate) is a whole number for the usual rates; this keeps rounding from adding one to it.
@@ -62,6 +59,87 @@ double solve_rate(Tail tail, double target) {
     const auto bracket = boost::math::tools::toms748_solve(
         miss, low, high, boost::math::tools::eps_tolerance<double>(40), steps, QuietPolicy());
     return 0.5 * (bracket.first + bracket.second);
+}
+
+constexpr double kTailRounding = 1e-9;
+constexpr long kTailDivisor = 10;  // a tenth of the sample
+// Initial search range of the posterior, in units of the median excess: a shape of 2 has a scale of
+// 2/3 there, a shape of -1/2 one of 1.7.
+constexpr double kLargestShapeOverScale = 3.0, kLogScales = 2.0;
+constexpr int kTailNodes = 81;
+constexpr double kNodeRange = 6.0;  // standard deviations of the posterior covered by the nodes
+
+// Survival function at x, with shape = shape_over_scale * scale.
+double survival_function(double shape_over_scale, double scale, double x) {
+    const double argument = shape_over_scale * x;
+    if (argument <= -1.0) {
+        return 0.0;
+    }
+    constexpr double kExponentialLimit = 1e-9;  // exponential to rounding
+    return std::abs(argument) < kExponentialLimit
+               ? std::exp(-x / scale)
+               : std::exp(-std::log1p(argument) / (shape_over_scale * scale));
+}
+
+struct Moments {
+    double mean = 0.0, deviation = 0.0;
+};
+
+template <typename Nodes, typename Of>
+Moments moments(const Nodes& nodes, Of of) {
+    Moments m;
+    for (const auto& node : nodes) {
+        m.mean += node.weight * of(node);
+    }
+    for (const auto& node : nodes) {
+        m.deviation += node.weight * (of(node) - m.mean) * (of(node) - m.mean);
+    }
+    m.deviation = std::sqrt(m.deviation);
+    return m;
+}
+
+struct Weighted {
+    double value, weight;
+};
+
+// Value at which the cumulative weight, with half of each value's own weight, passes a share of the
+// total.
+double quantile(const std::vector<Weighted>& ascending, double share) {
+    double sum = 0.0, before = 0.0, last = ascending.front().value;
+    for (const Weighted& member : ascending) {
+        const double here = sum + 0.5 * member.weight;
+        if (here >= share) {
+            const double part = here > before ? (share - before) / (here - before) : 1.0;
+            return last + std::clamp(part, 0.0, 1.0) * (member.value - last);
+        }
+        sum += member.weight;
+        before = here;
+        last = member.value;
+    }
+    return ascending.back().value;
+}
+
+Interval middle_of(std::vector<Weighted>& values, double weight, double confidence) {
+    std::sort(values.begin(), values.end(),
+              [](const Weighted& a, const Weighted& b) { return a.value < b.value; });
+    const double tail = 0.5 * (1.0 - confidence);
+    return {quantile(values, tail * weight), quantile(values, (1.0 - tail) * weight)};
+}
+
+// Smallest rank of a healthy value for which, with the confidence 1 - tail, fewer than `rate` of
+// all gearboxes lie beyond that value. With `below`, the largest rank for which more than `rate`
+// do. n + 1 or 0 if there is none.
+long rank_within(long sample, double rate, double tail, bool below) {
+    long low = 0, high = sample + 1;
+    while (high - low > 1) {
+        const long middle = low + (high - low) / 2;
+        // Probability that at most `rate` of all gearboxes lie beyond the value of rank `middle`.
+        // It increases with the rank.
+        const double p =
+            beta_cdf(static_cast<double>(sample + 1 - middle), static_cast<double>(middle), rate);
+        ((below ? p <= tail : p < 1.0 - tail) ? low : high) = middle;
+    }
+    return below ? low : high;
 }
 
 }  // namespace
@@ -139,75 +217,6 @@ Interval expected_rate_interval(long sample, long alarms, long tested, double co
     }
     return bounds;
 }
-
-namespace {
-
-constexpr double kTailRounding = 1e-9;
-constexpr long kTailDivisor = 10;  // a tenth of the sample
-// Initial search range of the posterior, in units of the median excess: a shape of 2 has a scale of
-// 2/3 there, a shape of -1/2 one of 1.7.
-constexpr double kLargestShapeOverScale = 3.0, kLogScales = 2.0;
-constexpr int kTailNodes = 81;
-constexpr double kNodeRange = 6.0;  // standard deviations of the posterior covered by the nodes
-
-// Survival function at x, with shape = shape_over_scale * scale.
-double survival_function(double shape_over_scale, double scale, double x) {
-    const double argument = shape_over_scale * x;
-    if (argument <= -1.0) {
-        return 0.0;
-    }
-    constexpr double kExponentialLimit = 1e-9;  // exponential to rounding
-    return std::abs(argument) < kExponentialLimit
-               ? std::exp(-x / scale)
-               : std::exp(-std::log1p(argument) / (shape_over_scale * scale));
-}
-
-struct Moments {
-    double mean = 0.0, deviation = 0.0;
-};
-
-template <typename Nodes, typename Of>
-Moments moments(const Nodes& nodes, Of of) {
-    Moments m;
-    for (const auto& node : nodes) {
-        m.mean += node.weight * of(node);
-    }
-    for (const auto& node : nodes) {
-        m.deviation += node.weight * (of(node) - m.mean) * (of(node) - m.mean);
-    }
-    m.deviation = std::sqrt(m.deviation);
-    return m;
-}
-
-struct Weighted {
-    double value, weight;
-};
-
-// Value at which the cumulative weight, with half of each value's own weight, passes a share of the
-// total.
-double quantile(const std::vector<Weighted>& ascending, double share) {
-    double sum = 0.0, before = 0.0, last = ascending.front().value;
-    for (const Weighted& member : ascending) {
-        const double here = sum + 0.5 * member.weight;
-        if (here >= share) {
-            const double part = here > before ? (share - before) / (here - before) : 1.0;
-            return last + std::clamp(part, 0.0, 1.0) * (member.value - last);
-        }
-        sum += member.weight;
-        before = here;
-        last = member.value;
-    }
-    return ascending.back().value;
-}
-
-Interval middle_of(std::vector<Weighted>& values, double weight, double confidence) {
-    std::sort(values.begin(), values.end(),
-              [](const Weighted& a, const Weighted& b) { return a.value < b.value; });
-    const double tail = 0.5 * (1.0 - confidence);
-    return {quantile(values, tail * weight), quantile(values, (1.0 - tail) * weight)};
-}
-
-}  // namespace
 
 long exceedances_of(long sample) {
     return std::min(kMostExceedances, sample / kTailDivisor);
@@ -402,26 +411,6 @@ HealthyRate rate_of(const Threshold& threshold, Alarm alarm, double false_alarm_
                : healthy_rate(threshold.sample, false_alarm_rate, alarms, tested, confidence);
 }
 
-namespace {
-
-// Smallest rank of a healthy value for which, with the confidence 1 - tail, fewer than `rate` of
-// all gearboxes lie beyond that value. With `below`, the largest rank for which more than `rate`
-// do. n + 1 or 0 if there is none.
-long rank_within(long sample, double rate, double tail, bool below) {
-    long low = 0, high = sample + 1;
-    while (high - low > 1) {
-        const long middle = low + (high - low) / 2;
-        // Probability that at most `rate` of all gearboxes lie beyond the value of rank `middle`.
-        // It increases with the rank.
-        const double p =
-            beta_cdf(static_cast<double>(sample + 1 - middle), static_cast<double>(middle), rate);
-        ((below ? p <= tail : p < 1.0 - tail) ? low : high) = middle;
-    }
-    return below ? low : high;
-}
-
-}  // namespace
-
 Threshold alarm_threshold(std::vector<double> healthy, Alarm alarm, double false_alarm_rate) {
     return SortedSample(std::move(healthy), alarm).threshold(false_alarm_rate);
 }
@@ -595,6 +584,17 @@ std::optional<Interval> rare_interval(const Gearboxes& gearboxes, double rate, d
                               std::min(scatter_sample, alarming_now), rate, tail);
 }
 
+// All values, or the first of each gearbox of an importance-sampled sample.
+std::vector<double> plain_values(const HealthyValues& sample) {
+    std::vector<double> plain;
+    for (std::size_t i = 0; i < sample.values.size(); ++i) {
+        if (sample.weights.empty() || i == 0 || sample.gearbox[i] != sample.gearbox[i - 1]) {
+            plain.push_back(sample.values[i]);
+        }
+    }
+    return plain;
+}
+
 }  // namespace
 
 Interval clustered_rate_interval(std::span<const double> values,
@@ -628,21 +628,6 @@ Interval clustered_rate_interval(std::span<const double> values,
             beta_quantile(std::max(1.0, all.gearboxes + 1.0 - rank), std::min(rank, all.gearboxes),
                           1.0 - tail)};
 }
-
-namespace {
-
-// All values, or the first of each gearbox of an importance-sampled sample.
-std::vector<double> plain_values(const HealthyValues& sample) {
-    std::vector<double> plain;
-    for (std::size_t i = 0; i < sample.values.size(); ++i) {
-        if (sample.weights.empty() || i == 0 || sample.gearbox[i] != sample.gearbox[i - 1]) {
-            plain.push_back(sample.values[i]);
-        }
-    }
-    return plain;
-}
-
-}  // namespace
 
 bool HealthyValues::clustered() const {
     std::vector<std::size_t> sorted(gearbox.begin(), gearbox.end());

@@ -211,7 +211,6 @@ class HealthyThresholds {
     // at().
     Interval value_bounds(const Threshold& threshold, double false_alarm_rate,
                           double confidence) const;
-    // Interval of the rate of that threshold.
     Interval rate_bounds(const Threshold& threshold, double false_alarm_rate,
                          double confidence) const;
 

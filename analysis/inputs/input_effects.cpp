@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numeric>
@@ -10,7 +9,6 @@
 
 #include "analysis/statistics/binary_regression.hpp"
 #include "analysis/statistics/distributions.hpp"
-#include "analysis/statistics/interval.hpp"
 #include "analysis/statistics/link.hpp"
 #include "analysis/statistics/rank_statistics.hpp"
 #include "features/statistics/signal_statistics.hpp"
@@ -18,7 +16,6 @@
 #include "machine/no_value.hpp"
 
 namespace gearpod::analysis {
-
 namespace {
 
 constexpr std::size_t kNeighbours = 100;
@@ -36,8 +33,8 @@ std::vector<Stratum> strata_of(std::span<const double> sizes, std::span<const in
             order.push_back(i);
         }
     }
-    std::stable_sort(order.begin(), order.end(),
-                     [&](std::size_t a, std::size_t b) { return sizes[a] < sizes[b]; });
+    std::ranges::stable_sort(order,
+                             [&](std::size_t a, std::size_t b) { return sizes[a] < sizes[b]; });
     std::vector<Stratum> strata;
     for (std::size_t first = 0; first < order.size();) {
         const auto equal = [&](std::size_t i) { return sizes[order[i]] == sizes[order[first]]; };
@@ -72,9 +69,9 @@ std::vector<double> values_at(const InputColumn& input, const std::vector<std::s
 bool varies(const InputColumn& input, const std::vector<Stratum>& strata) {
     const double first = input.values[strata.front().hits.front()];
     const auto differs = [&](std::size_t row) { return input.values[row] != first; };
-    return std::any_of(strata.begin(), strata.end(), [&](const Stratum& stratum) {
-        return std::any_of(stratum.hits.begin(), stratum.hits.end(), differs) ||
-               std::any_of(stratum.misses.begin(), stratum.misses.end(), differs);
+    return std::ranges::any_of(strata, [&](const Stratum& stratum) {
+        return std::ranges::any_of(stratum.hits, differs) ||
+               std::ranges::any_of(stratum.misses, differs);
     });
 }
 
@@ -103,87 +100,6 @@ InputInfluence influence(const InputColumn& input, const std::vector<Stratum>& s
                          : kNan;
     return result;
 }
-
-}  // namespace
-
-MissSensitivity miss_sensitivity(std::span<const double> sizes, std::span<const int> hit,
-                                 const std::vector<InputColumn>& inputs, double confidence) {
-    MissSensitivity result;
-    const std::vector<Stratum> strata = strata_of(sizes, hit);
-    if (strata.empty()) {
-        result.refusal = "no fault size at which most, but not all gearboxes are detected";
-        return result;
-    }
-    result.smallest = std::numeric_limits<double>::infinity();
-    for (const Stratum& stratum : strata) {
-        result.hits += static_cast<long>(stratum.hits.size());
-        result.misses += static_cast<long>(stratum.misses.size());
-        for (const auto* rows : {&stratum.hits, &stratum.misses}) {
-            for (const std::size_t row : *rows) {
-                result.smallest = std::min(result.smallest, sizes[row]);
-                result.largest = std::max(result.largest, sizes[row]);
-            }
-        }
-    }
-    if (std::min(result.misses, result.hits) < kFewestOutcomes) {
-        result.refusal = fmt::format("{} misses and {} hits, {} of each are needed", result.misses,
-                                     result.hits, kFewestOutcomes);
-        return result;
-    }
-    std::vector<double> p_values;
-    for (const InputColumn& input : inputs) {
-        if (!varies(input, strata)) {
-            result.left_out.push_back(input.name);
-            continue;
-        }
-        result.inputs.push_back(influence(input, strata, confidence));
-        p_values.push_back(result.inputs.back().p_value);
-    }
-    p_values = holm_adjusted(p_values);
-    for (std::size_t i = 0; i < result.inputs.size(); ++i) {
-        result.inputs[i].p_value = p_values[i];
-    }
-    std::stable_sort(result.inputs.begin(), result.inputs.end(),
-                     [](const InputInfluence& a, const InputInfluence& b) {
-                         return std::abs(a.larger_in_misses - 0.5) >
-                                std::abs(b.larger_in_misses - 0.5);
-                     });
-    return result;
-}
-
-InputBins equal_count_bins(std::span<const double> values, std::size_t bins) {
-    EXPECTS(std::ranges::all_of(values, [](double value) { return std::isfinite(value); }));
-    std::vector<std::size_t> order(values.size());
-    std::iota(order.begin(), order.end(), std::size_t{0});
-    std::stable_sort(order.begin(), order.end(),
-                     [&](std::size_t a, std::size_t b) { return values[a] < values[b]; });
-    std::size_t distinct = 0;
-    for (std::size_t i = 0; i < order.size(); ++i) {
-        distinct += i == 0 || values[order[i]] != values[order[i - 1]] ? 1 : 0;
-    }
-    const bool each = distinct <= bins;
-    InputBins result;
-    result.of.resize(values.size());
-    std::size_t last_share = 0;
-    for (std::size_t first = 0; first < order.size();) {
-        std::size_t end = first;
-        while (end < order.size() && values[order[end]] == values[order[first]]) {
-            ++end;
-        }
-        // Equal values share the bin of the middle one.
-        const std::size_t share = (first + end - 1) * bins / (2 * order.size());
-        if (result.bins == 0 || each || share != last_share) {
-            ++result.bins;
-        }
-        last_share = share;
-        for (; first < end; ++first) {
-            result.of[order[first]] = result.bins - 1;
-        }
-    }
-    return result;
-}
-
-namespace {
 
 using Where = SizeEstimate::Where;
 constexpr std::size_t kBins = 5;
@@ -215,7 +131,7 @@ struct Outcomes {
 };
 
 std::vector<double> sorted(std::vector<double> values) {
-    std::sort(values.begin(), values.end());
+    std::ranges::sort(values);
     return values;
 }
 
@@ -276,45 +192,42 @@ struct CovariateCurve {
     double target = 0.0;  // eta at POD 0.9
 
     // Size at which the POD is 0.9, for a value of the input.
-    SizeBounds a90(double value, double smallest, double largest, double confidence) const;
+    SizeBounds a90(double value, double smallest, double largest, double confidence) const {
+        const Eigen::VectorXd& b = fit.coefficients;
+        const double z = input(value);
+        Eigen::VectorXd level = Eigen::VectorXd::Zero(b.size());  // eta(u) = b . (level + u e_1)
+        level[0] = 1.0;
+        level[2] = z;
+        if (b.size() > 3) {
+            level[3] = z * z;
+        }
+        const double slope = b[1];
+        const double away = b.dot(level) - target;  // eta - target at u = 0
+        const auto estimate = [&](double u) {
+            return estimate_within(form.size(size.back(u)), smallest, largest);
+        };
+        if (!(slope > 0.0)) {
+            const SizeEstimate never{Where::not_reached, kNan};
+            return {never, {Where::below_tested, kNan}, never};
+        }
+        const double q = link_quantile(Link::probit, confidence);
+        const double v_level = level.dot(fit.covariance * level);
+        const double v_cross = level.dot(fit.covariance.col(1));
+        const double v_slope = fit.covariance(1, 1);
+        // (away + slope u)^2 = q^2 var(away + slope u)
+        const double a = slope * slope - q * q * v_slope;
+        const double half = away * slope - q * q * v_cross;
+        const double c = away * away - q * q * v_level;
+        SizeBounds bounds{estimate(-away / slope), {Where::below_tested, kNan}, {}};
+        bounds.upper = {Where::not_reached, kNan};
+        if (a > 0.0) {
+            const double root = std::sqrt(std::max(0.0, half * half - a * c));
+            bounds.lower = estimate((-half - root) / a);
+            bounds.upper = estimate((-half + root) / a);
+        }
+        return bounds;
+    }
 };
-
-SizeBounds CovariateCurve::a90(double value, double smallest, double largest,
-                               double confidence) const {
-    const Eigen::VectorXd& b = fit.coefficients;
-    const double z = input(value);
-    Eigen::VectorXd level = Eigen::VectorXd::Zero(b.size());  // eta(u) = b . (level + u e_1)
-    level[0] = 1.0;
-    level[2] = z;
-    if (b.size() > 3) {
-        level[3] = z * z;
-    }
-    const double slope = b[1];
-    const double away = b.dot(level) - target;  // eta - target at u = 0
-    const auto estimate = [&](double u) {
-        return estimate_within(form.size(size.back(u)), smallest, largest);
-    };
-    if (!(slope > 0.0)) {
-        const SizeEstimate never{Where::not_reached, kNan};
-        return {never, {Where::below_tested, kNan}, never};
-    }
-    const double q = link_quantile(Link::probit, confidence);
-    const double v_level = level.dot(fit.covariance * level);
-    const double v_cross = level.dot(fit.covariance.col(1));
-    const double v_slope = fit.covariance(1, 1);
-    // (away + slope u)^2 = q^2 var(away + slope u)
-    const double a = slope * slope - q * q * v_slope;
-    const double half = away * slope - q * q * v_cross;
-    const double c = away * away - q * q * v_level;
-    SizeBounds bounds{estimate(-away / slope), {Where::below_tested, kNan}, {}};
-    bounds.upper = {Where::not_reached, kNan};
-    if (a > 0.0) {
-        const double root = std::sqrt(std::max(0.0, half * half - a * c));
-        bounds.lower = estimate((-half - root) / a);
-        bounds.upper = estimate((-half + root) / a);
-    }
-    return bounds;
-}
 
 Eigen::MatrixXd design_of(const Eigen::VectorXd& x, const Scale& size, const Eigen::VectorXd& z,
                           const Scale& input, int powers) {
@@ -381,7 +294,117 @@ void fit_input(InputEffect& effect, const std::vector<double>& values, const Out
     }
 }
 
+constexpr double kFound = 0.9;  // POD
+
+// Standardises the columns of a design to mean 0 and standard deviation 1 and keeps the scales.
+struct Standard {
+    Eigen::RowVectorXd centre, spread;
+
+    Eigen::MatrixXd operator()(const Eigen::MatrixXd& values) {
+        centre = values.colwise().mean();
+        const Eigen::MatrixXd away = values.rowwise() - centre;
+        spread = (away.array().square().colwise().mean()).sqrt();
+        return away.array().rowwise() / spread.array();
+    }
+};
+
+// The inputs and, for those with more than two values, their squares.
+Eigen::MatrixXd covariates(const Eigen::MatrixXd& scaled) {
+    Eigen::MatrixXd all(scaled.rows(), 2 * scaled.cols());
+    Eigen::Index count = 0;
+    for (Eigen::Index c = 0; c < scaled.cols(); ++c) {
+        const auto column = scaled.col(c);
+        all.col(count++) = column;
+        if (std::set<double>(column.begin(), column.end()).size() > 2) {
+            all.col(count++) = column.array().square();
+        }
+    }
+    return all.leftCols(count);
+}
+
+double quantile(std::vector<double>& values, double share) {
+    const auto at =
+        static_cast<std::ptrdiff_t>(std::lround(share * static_cast<double>(values.size() - 1)));
+    std::nth_element(values.begin(), values.begin() + at, values.end());
+    return values[static_cast<std::size_t>(at)];
+}
+
 }  // namespace
+
+MissSensitivity miss_sensitivity(std::span<const double> sizes, std::span<const int> hit,
+                                 const std::vector<InputColumn>& inputs, double confidence) {
+    MissSensitivity result;
+    const std::vector<Stratum> strata = strata_of(sizes, hit);
+    if (strata.empty()) {
+        result.refusal = "no fault size at which most, but not all gearboxes are detected";
+        return result;
+    }
+    result.smallest = std::numeric_limits<double>::infinity();
+    for (const Stratum& stratum : strata) {
+        result.hits += static_cast<long>(stratum.hits.size());
+        result.misses += static_cast<long>(stratum.misses.size());
+        for (const auto* rows : {&stratum.hits, &stratum.misses}) {
+            for (const std::size_t row : *rows) {
+                result.smallest = std::min(result.smallest, sizes[row]);
+                result.largest = std::max(result.largest, sizes[row]);
+            }
+        }
+    }
+    if (std::min(result.misses, result.hits) < kFewestOutcomes) {
+        result.refusal = fmt::format("{} misses and {} hits, {} of each are needed", result.misses,
+                                     result.hits, kFewestOutcomes);
+        return result;
+    }
+    std::vector<double> p_values;
+    for (const InputColumn& input : inputs) {
+        if (!varies(input, strata)) {
+            result.left_out.push_back(input.name);
+            continue;
+        }
+        result.inputs.push_back(influence(input, strata, confidence));
+        p_values.push_back(result.inputs.back().p_value);
+    }
+    p_values = holm_adjusted(p_values);
+    for (std::size_t i = 0; i < result.inputs.size(); ++i) {
+        result.inputs[i].p_value = p_values[i];
+    }
+    std::ranges::stable_sort(result.inputs, [](const InputInfluence& a, const InputInfluence& b) {
+        return std::abs(a.larger_in_misses - 0.5) > std::abs(b.larger_in_misses - 0.5);
+    });
+    return result;
+}
+
+InputBins equal_count_bins(std::span<const double> values, std::size_t bins) {
+    EXPECTS(std::ranges::all_of(values, [](double value) { return std::isfinite(value); }));
+    std::vector<std::size_t> order(values.size());
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    std::ranges::stable_sort(order,
+                             [&](std::size_t a, std::size_t b) { return values[a] < values[b]; });
+    std::size_t distinct = 0;
+    for (std::size_t i = 0; i < order.size(); ++i) {
+        distinct += i == 0 || values[order[i]] != values[order[i - 1]] ? 1 : 0;
+    }
+    const bool each = distinct <= bins;
+    InputBins result;
+    result.of.resize(values.size());
+    std::size_t last_share = 0;
+    for (std::size_t first = 0; first < order.size();) {
+        std::size_t end = first;
+        while (end < order.size() && values[order[end]] == values[order[first]]) {
+            ++end;
+        }
+        // Equal values share the bin of the middle one.
+        const std::size_t share = (first + end - 1) * bins / (2 * order.size());
+        if (result.bins == 0 || each || share != last_share) {
+            ++result.bins;
+        }
+        last_share = share;
+        for (; first < end; ++first) {
+            result.of[order[first]] = result.bins - 1;
+        }
+    }
+    return result;
+}
 
 SizeGroup transition_sizes(const std::vector<DetectionCell>& cells) {
     constexpr double kRare = 0.1, kSure = 0.95;
@@ -441,45 +464,6 @@ InputEffects input_effects(std::span<const double> sizes, std::span<const int> h
     }
     return result;
 }
-
-namespace {
-
-constexpr double kFound = 0.9;  // POD
-
-// Standardises the columns of a design to mean 0 and standard deviation 1 and keeps the scales.
-struct Standard {
-    Eigen::RowVectorXd centre, spread;
-
-    Eigen::MatrixXd operator()(const Eigen::MatrixXd& values) {
-        centre = values.colwise().mean();
-        const Eigen::MatrixXd away = values.rowwise() - centre;
-        spread = (away.array().square().colwise().mean()).sqrt();
-        return away.array().rowwise() / spread.array();
-    }
-};
-
-// The inputs and, for those with more than two values, their squares.
-Eigen::MatrixXd covariates(const Eigen::MatrixXd& scaled) {
-    Eigen::MatrixXd all(scaled.rows(), 2 * scaled.cols());
-    Eigen::Index count = 0;
-    for (Eigen::Index c = 0; c < scaled.cols(); ++c) {
-        const auto column = scaled.col(c);
-        all.col(count++) = column;
-        if (std::set<double>(column.begin(), column.end()).size() > 2) {
-            all.col(count++) = column.array().square();
-        }
-    }
-    return all.leftCols(count);
-}
-
-double quantile(std::vector<double>& values, double share) {
-    const auto at =
-        static_cast<std::ptrdiff_t>(std::lround(share * static_cast<double>(values.size() - 1)));
-    std::nth_element(values.begin(), values.begin() + at, values.end());
-    return values[static_cast<std::size_t>(at)];
-}
-
-}  // namespace
 
 EpistemicBand epistemic_band(std::span<const double> sizes, std::span<const int> hit,
                              const std::vector<InputColumn>& inputs, const HitMissPod& pod) {

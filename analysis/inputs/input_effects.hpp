@@ -7,7 +7,6 @@
 #include <string>
 #include <vector>
 
-#include "analysis/detection/detection.hpp"
 #include "analysis/pod/hit_miss_pod.hpp"
 #include "analysis/statistics/interval.hpp"
 #include "machine/fields.hpp"

@@ -5,8 +5,6 @@
 #include <numeric>
 #include <stdexcept>
 
-#include "analysis/statistics/interval.hpp"
-
 namespace gearpod::analysis {
 namespace {
 
@@ -134,8 +132,7 @@ std::vector<double> fused_deviations(const std::vector<std::vector<double>>& val
             throw std::invalid_argument("baseline: needs as many values of every feature");
         }
         auto part = residuals(values[f], condition, baseline, alarms[f]);
-        if (std::any_of(part.begin(), part.end(),
-                        [](double value) { return !std::isnan(value); })) {
+        if (std::ranges::any_of(part, [](double value) { return !std::isnan(value); })) {
             parts.push_back(std::move(part));
         }
     }

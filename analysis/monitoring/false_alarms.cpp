@@ -7,7 +7,6 @@
 
 #include "analysis/detection/threshold.hpp"
 #include "analysis/statistics/distributions.hpp"
-#include "analysis/statistics/interval.hpp"
 #include "features/statistics/signal_statistics.hpp"
 #include "machine/contracts.hpp"
 

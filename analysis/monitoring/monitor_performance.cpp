@@ -6,7 +6,6 @@
 #include <limits>
 #include <tuple>
 #include <utility>
-#include <vector>
 
 #include "analysis/statistics/distributions.hpp"
 #include "analysis/statistics/interval.hpp"
@@ -34,48 +33,6 @@ std::vector<std::pair<double, double>> sizes_and_values(std::span<const CrackedL
     std::ranges::stable_sort(all, {}, &std::pair<double, double>::first);
     return all;
 }
-
-}  // namespace
-
-double effect_size(std::span<const HealthyLife> healthy, std::span<const CrackedLife> cracked,
-                   bool two_sided) {
-    constexpr std::size_t kMostGroups = 20, kLeastRecords = 40;
-    std::vector<double> normal;
-    for (const HealthyLife& life : healthy) {
-        std::ranges::copy_if(life.values, std::back_inserter(normal),
-                             [](double value) { return !std::isnan(value); });
-    }
-    if (normal.empty()) {
-        return kNan;
-    }
-    const double deviation = 0.5 * (quantile_of(normal, 0.84) - quantile_of(normal, 0.16)),
-                 median = quantile_of(normal, 0.5), high = quantile_of(normal, 0.9),
-                 low = quantile_of(normal, 0.1);
-    const auto records = sizes_and_values(cracked);
-    const std::size_t groups =
-        std::clamp<std::size_t>(records.size() / kLeastRecords, 1, kMostGroups);
-    double smallest = std::numeric_limits<double>::infinity();
-    for (std::size_t g = groups; g-- > 0 && !records.empty();) {
-        const std::size_t begin = g * records.size() / groups,
-                          end = (g + 1) * records.size() / groups;
-        std::vector<double> values;
-        for (std::size_t i = begin; i < end; ++i) {
-            values.push_back(records[i].second);
-        }
-        const double shift = quantile_of(values, 0.5) - median;
-        double moved = std::max(shift, quantile_of(values, 0.9) - high);
-        if (two_sided) {
-            moved = std::max({moved, -shift, low - quantile_of(values, 0.1)});
-        }
-        if (!(moved > 0.0 && moved >= kEffectDeviations * deviation)) {
-            break;
-        }
-        smallest = records[begin].first;
-    }
-    return smallest;
-}
-
-namespace {
 
 constexpr double kNeverSeen = std::numeric_limits<double>::infinity();
 
@@ -134,7 +91,59 @@ double share_by_chance(const Detector& detector, std::span<const HealthyLife> he
     return pairs > 0 ? static_cast<double>(found) / static_cast<double>(pairs) : kNan;
 }
 
+// Values that do not exist come last.
+double or_last(double value) {
+    return std::isnan(value) ? std::numeric_limits<double>::infinity() : value;
+}
+
+// Probability that chance finds as many cracks or more.
+double chance_of(const MonitorPerformance& performance) {
+    const double share = std::fmax(performance.share_by_chance, performance.share_at_stated_rate);
+    return performance.found == 0
+               ? 1.0
+               : 1.0 - binomial_cdf(static_cast<double>(performance.ended), share,
+                                    static_cast<double>(performance.found - 1));
+}
+
 }  // namespace
+
+double effect_size(std::span<const HealthyLife> healthy, std::span<const CrackedLife> cracked,
+                   bool two_sided) {
+    constexpr std::size_t kMostGroups = 20, kLeastRecords = 40;
+    std::vector<double> normal;
+    for (const HealthyLife& life : healthy) {
+        std::ranges::copy_if(life.values, std::back_inserter(normal),
+                             [](double value) { return !std::isnan(value); });
+    }
+    if (normal.empty()) {
+        return kNan;
+    }
+    const double deviation = 0.5 * (quantile_of(normal, 0.84) - quantile_of(normal, 0.16)),
+                 median = quantile_of(normal, 0.5), high = quantile_of(normal, 0.9),
+                 low = quantile_of(normal, 0.1);
+    const auto records = sizes_and_values(cracked);
+    const std::size_t groups =
+        std::clamp<std::size_t>(records.size() / kLeastRecords, 1, kMostGroups);
+    double smallest = std::numeric_limits<double>::infinity();
+    for (std::size_t g = groups; g-- > 0 && !records.empty();) {
+        const std::size_t begin = g * records.size() / groups,
+                          end = (g + 1) * records.size() / groups;
+        std::vector<double> values;
+        for (std::size_t i = begin; i < end; ++i) {
+            values.push_back(records[i].second);
+        }
+        const double shift = quantile_of(values, 0.5) - median;
+        double moved = std::max(shift, quantile_of(values, 0.9) - high);
+        if (two_sided) {
+            moved = std::max({moved, -shift, low - quantile_of(values, 0.1)});
+        }
+        if (!(moved > 0.0 && moved >= kEffectDeviations * deviation)) {
+            break;
+        }
+        smallest = records[begin].first;
+    }
+    return smallest;
+}
 
 double quantile_bound(std::vector<double> values, double quantile, double confidence) {
     std::sort(values.begin(), values.end());
@@ -206,24 +215,6 @@ MonitorPerformance monitor_performance(const Detector& detector,
     performance.warning_90 = sample_quantile(warnings, 0.1);
     return performance;
 }
-
-namespace {
-
-// Values that do not exist come last.
-double or_last(double value) {
-    return std::isnan(value) ? std::numeric_limits<double>::infinity() : value;
-}
-
-// Probability that chance finds as many cracks or more.
-double chance_of(const MonitorPerformance& performance) {
-    const double share = std::fmax(performance.share_by_chance, performance.share_at_stated_rate);
-    return performance.found == 0
-               ? 1.0
-               : 1.0 - binomial_cdf(static_cast<double>(performance.ended), share,
-                                    static_cast<double>(performance.found - 1));
-}
-
-}  // namespace
 
 double net_share(const MonitorPerformance& performance) {
     const double chance = std::isnan(performance.share_by_chance) ? performance.share_at_stated_rate

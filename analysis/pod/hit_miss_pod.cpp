@@ -5,12 +5,10 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
-#include <optional>
 #include <random>
 #include <stdexcept>
 
 #include "analysis/detection/threshold.hpp"
-#include "analysis/pod/pod_curve.hpp"
 #include "machine/no_value.hpp"
 
 namespace gearpod::analysis {

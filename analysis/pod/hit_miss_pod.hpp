@@ -16,7 +16,6 @@
 #include "analysis/pod/pod_bounds.hpp"
 #include "analysis/pod/pod_curve.hpp"
 #include "analysis/pod/pod_likelihood.hpp"
-#include "analysis/statistics/interval.hpp"
 #include "machine/fields.hpp"
 
 namespace gearpod::analysis {

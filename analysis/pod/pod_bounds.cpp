@@ -7,7 +7,6 @@
 #include <limits>
 #include <utility>
 
-#include "analysis/statistics/interval.hpp"
 #include "analysis/statistics/quiet_policy.hpp"
 
 namespace gearpod::analysis {

@@ -21,14 +21,12 @@ SizeEstimate size_bound(const HitMissTable& table, const PodLikelihood& likeliho
                         const PodLikelihood::Maximum& maximum, double pod, const BoundRule& rule,
                         Side side);
 
-// Both bounds with the estimate.
 SizeBounds size_bounds(const HitMissTable& table, const PodLikelihood& likelihood,
                        const PodLikelihood::Maximum& maximum, double pod, const BoundRule& rule);
 
 // Estimate of `a` with the lower of the lower bounds and the upper of the upper bounds.
 SizeBounds widest(const SizeBounds& a, const SizeBounds& b);
 
-// Curve with its bounds at `sizes`.
 std::vector<PodPoint> pod_band(const PodLikelihood& likelihood,
                                const PodLikelihood::Maximum& maximum,
                                const std::vector<double>& sizes, const BoundRule& rule);

@@ -5,21 +5,21 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <map>
 #include <set>
 
 #include "analysis/statistics/distributions.hpp"
-#include "analysis/statistics/interval.hpp"
-#include "analysis/statistics/link.hpp"
 #include "machine/contracts.hpp"
 
 namespace gearpod::analysis {
-
 namespace {
 
 double square(double value) {
     return value * value;
+}
+
+double eta_of(const PodForm& form, double pod) {
+    return link_quantile(form.link, (pod - form.floor) / (1.0 - form.floor));
 }
 
 }  // namespace
@@ -126,14 +126,6 @@ Eigen::Matrix2d curve_covariance(std::span<const ClusteredOutcome> outcomes, con
     const auto clusters = static_cast<double>(scores.size());
     return clusters / (clusters - 1.0) * inverse * middle * inverse;
 }
-
-namespace {
-
-double eta_of(const PodForm& form, double pod) {
-    return link_quantile(form.link, (pod - form.floor) / (1.0 - form.floor));
-}
-
-}  // namespace
 
 double LocationScale::at(double eta, double z) const {
     const double variance =

@@ -177,6 +177,73 @@ SizeNodes condensed(const SizeNodes& all, double low, double range, Eigen::Index
     return out;
 }
 
+constexpr double kInTransition = 1e-6;
+// Half-width of a cell of sizes in units of eta, at most. The singularities of the links nearest to
+// the real axis are at a distance of pi for the logit, about 2 with a usual floor for the probit,
+// and pi / 2 for the others.
+constexpr double kHalfCellLogit = 2.0, kHalfCell = 1.0;
+
+constexpr double kPenaltyStep = 1e-4;
+
+// Share of the own probability below which the curve is flat in double precision.
+constexpr double kFlat = 1e-17;
+
+// Range of eta, -low to high, outside which the probability of this outcome is constant. Infinite
+// where that probability is 0 and its logarithm still varies.
+struct Transition {
+    double low = 0.0, high = 0.0;
+
+    Transition(Link link, double at_floor, double at_ceiling, double rise) {
+        const double bottom = std::min(0.5, kFlat * at_floor / rise);
+        const double top = std::min(0.5, kFlat * at_ceiling / rise);
+        // A normal deviate x is exceeded at a rate of at most exp(-x^2 / 2) / 2.
+        const auto normal = [](double rate) { return std::sqrt(-2.0 * std::log(2.0 * rate)); };
+        low = link == Link::probit ? normal(bottom) : -link_quantile(link, bottom);
+        high = link == Link::probit ? normal(top) : link_upper_quantile(link, top);
+    }
+};
+
+constexpr double kReplicates = 5.0;  // mean number of gearboxes per size to count as replicated
+constexpr int kGroups = 10;
+
+double excess(double count, double expected) {
+    return count > 0.0 ? count * std::log(count / expected) : 0.0;
+}
+
+double saturated_statistic(const HitMissTable& table, const PodCurve& curve) {
+    double sum = 0.0;
+    for (const HitMissRow& row : table) {
+        const double pod = curve.pod(row.size);
+        sum += excess(row.hits, row.tests * pod) +
+               excess(row.tests - row.hits, row.tests * (1.0 - pod));
+    }
+    return 2.0 * sum;
+}
+
+// Hosmer-Lemeshow statistic. A size is never split, so that the groups do not depend on the order
+// of its gearboxes.
+double grouped_statistic(const HitMissTable& table, const PodCurve& curve, int& groups) {
+    const double tests = total_tests(table);
+    double statistic = 0.0;
+    double seen = 0.0, hits = 0.0, expected = 0.0, count = 0.0;
+    groups = 0;
+    for (std::size_t i = 0; i < table.size(); ++i) {
+        hits += table[i].hits;
+        expected += table[i].tests * curve.pod(table[i].size);
+        count += table[i].tests;
+        seen += table[i].tests;
+        if (seen >= (groups + 1) * tests / kGroups || i + 1 == table.size()) {
+            const double variance = expected * (1.0 - expected / count);
+            if (variance > 0.0) {
+                statistic += (hits - expected) * (hits - expected) / variance;
+            }
+            ++groups;
+            hits = expected = count = 0.0;
+        }
+    }
+    return statistic;
+}
+
 }  // namespace
 
 StandardisedSizes::StandardisedSizes(const HitMissTable& table, bool log_size)
@@ -237,36 +304,6 @@ const SizeNodes& StandardisedSizes::nodes(double widest_cell) const {
     }
     return all_;
 }
-
-namespace {
-
-constexpr double kInTransition = 1e-6;
-// Half-width of a cell of sizes in units of eta, at most. The singularities of the links nearest to
-// the real axis are at a distance of pi for the logit, about 2 with a usual floor for the probit,
-// and pi / 2 for the others.
-constexpr double kHalfCellLogit = 2.0, kHalfCell = 1.0;
-
-constexpr double kPenaltyStep = 1e-4;
-
-// Share of the own probability below which the curve is flat in double precision.
-constexpr double kFlat = 1e-17;
-
-// Range of eta, -low to high, outside which the probability of this outcome is constant. Infinite
-// where that probability is 0 and its logarithm still varies.
-struct Transition {
-    double low = 0.0, high = 0.0;
-
-    Transition(Link link, double at_floor, double at_ceiling, double rise) {
-        const double bottom = std::min(0.5, kFlat * at_floor / rise);
-        const double top = std::min(0.5, kFlat * at_ceiling / rise);
-        // A normal deviate x is exceeded at a rate of at most exp(-x^2 / 2) / 2.
-        const auto normal = [](double rate) { return std::sqrt(-2.0 * std::log(2.0 * rate)); };
-        low = link == Link::probit ? normal(bottom) : -link_quantile(link, bottom);
-        high = link == Link::probit ? normal(top) : link_upper_quantile(link, top);
-    }
-};
-
-}  // namespace
 
 PodLikelihood::PodLikelihood(std::shared_ptr<const StandardisedSizes> sizes, const PodForm& form)
     : sizes_(std::move(sizes)), form_(form) {
@@ -580,51 +617,6 @@ int PodLikelihood::sizes_in_transition(const Parameters& parameters) const {
     const Eigen::ArrayXd eta = parameters[0] + parameters[1] * sizes_->sizes();
     return static_cast<int>((eta > low && eta < high).count());
 }
-
-namespace {
-
-constexpr double kReplicates = 5.0;  // mean number of gearboxes per size to count as replicated
-constexpr int kGroups = 10;
-
-double excess(double count, double expected) {
-    return count > 0.0 ? count * std::log(count / expected) : 0.0;
-}
-
-double saturated_statistic(const HitMissTable& table, const PodCurve& curve) {
-    double sum = 0.0;
-    for (const HitMissRow& row : table) {
-        const double pod = curve.pod(row.size);
-        sum += excess(row.hits, row.tests * pod) +
-               excess(row.tests - row.hits, row.tests * (1.0 - pod));
-    }
-    return 2.0 * sum;
-}
-
-// Hosmer-Lemeshow statistic. A size is never split, so that the groups do not depend on the order
-// of its gearboxes.
-double grouped_statistic(const HitMissTable& table, const PodCurve& curve, int& groups) {
-    const double tests = total_tests(table);
-    double statistic = 0.0;
-    double seen = 0.0, hits = 0.0, expected = 0.0, count = 0.0;
-    groups = 0;
-    for (std::size_t i = 0; i < table.size(); ++i) {
-        hits += table[i].hits;
-        expected += table[i].tests * curve.pod(table[i].size);
-        count += table[i].tests;
-        seen += table[i].tests;
-        if (seen >= (groups + 1) * tests / kGroups || i + 1 == table.size()) {
-            const double variance = expected * (1.0 - expected / count);
-            if (variance > 0.0) {
-                statistic += (hits - expected) * (hits - expected) / variance;
-            }
-            ++groups;
-            hits = expected = count = 0.0;
-        }
-    }
-    return statistic;
-}
-
-}  // namespace
 
 GoodnessOfFit goodness_of_fit(const HitMissTable& table, const PodCurve& curve) {
     GoodnessOfFit fit;

@@ -11,13 +11,11 @@
 #include <utility>
 
 #include "analysis/pod/pod_bounds.hpp"
-#include "analysis/statistics/interval.hpp"
 #include "analysis/statistics/link.hpp"
 #include "analysis/statistics/noncentral_distributions.hpp"
 #include "analysis/statistics/quiet_policy.hpp"
 
 namespace gearpod::analysis {
-
 namespace {
 
 using Where = SizeEstimate::Where;
@@ -213,6 +211,28 @@ class BoundsOfLikelihood : public ResponseBounds {
     double threshold_, side_, limit_;
 };
 
+constexpr double kGridDistances[] = {-2.5, -1.2815515655446004, 0.0, 1.2815515655446004, 2.5};
+
+class NormalVariates {
+  public:
+    double operator()() {
+        constexpr double kUnit = 0x1p-53;
+        return link_quantile(Link::probit, (static_cast<double>(engine_() >> 11) + 0.5) * kUnit);
+    }
+
+  private:
+    std::mt19937_64 engine_{20230417};
+};
+
+// Interpolated quantile of the sorted values, at the position share (n + 1).
+double sorted_quantile(const std::vector<double>& values, double share) {
+    const auto n = static_cast<double>(values.size());
+    const double position = std::clamp(share * (n + 1.0) - 1.0, 0.0, n - 1.0);
+    const auto low = static_cast<std::size_t>(position);
+    const std::size_t high = std::min(low + 1, values.size() - 1);
+    return values[low] + (position - static_cast<double>(low)) * (values[high] - values[low]);
+}
+
 }  // namespace
 
 LocationScale curve_of(const SignalResponseFit& fit, double threshold) {
@@ -247,32 +267,6 @@ std::unique_ptr<ResponseBounds> bounds_of_likelihood(const SignalResponseFit& fi
                                                      Alarm alarm, double limit) {
     return std::make_unique<BoundsOfLikelihood>(fit, threshold, alarm, limit);
 }
-
-namespace {
-
-constexpr double kGridDistances[] = {-2.5, -1.2815515655446004, 0.0, 1.2815515655446004, 2.5};
-
-class NormalVariates {
-  public:
-    double operator()() {
-        constexpr double kUnit = 0x1p-53;
-        return link_quantile(Link::probit, (static_cast<double>(engine_() >> 11) + 0.5) * kUnit);
-    }
-
-  private:
-    std::mt19937_64 engine_{20230417};
-};
-
-// Interpolated quantile of the sorted values, at the position share (n + 1).
-double sorted_quantile(const std::vector<double>& values, double share) {
-    const auto n = static_cast<double>(values.size());
-    const double position = std::clamp(share * (n + 1.0) - 1.0, 0.0, n - 1.0);
-    const auto low = static_cast<std::size_t>(position);
-    const std::size_t high = std::min(low + 1, values.size() - 1);
-    return values[low] + (position - static_cast<double>(low)) * (values[high] - values[low]);
-}
-
-}  // namespace
 
 LineDistance line_distance(const SignalResponseFit& fit, double size, double threshold,
                            Alarm alarm) {
@@ -325,8 +319,7 @@ void simulate_responses(const ResponseRows& rows, bool by_specimen, const Signal
             }
             drawn.value[i] = truth.scale.value(y);
         }
-        if (!std::all_of(drawn.value.begin(), drawn.value.end(),
-                         [](double value) { return std::isfinite(value); })) {
+        if (!std::ranges::all_of(drawn.value, [](double value) { return std::isfinite(value); })) {
             continue;
         }
         const auto fits = fit_scales(drawn, by_specimen, request, true);
@@ -376,7 +369,7 @@ SimulatedLimits::SimulatedLimits(const ResponseRows& rows, bool by_specimen,
     for (int i = 0; i < kSizes; ++i) {
         for (int j = 0; j < kDistances; ++j) {
             std::vector<double>& values = errors[i][j];
-            std::sort(values.begin(), values.end());
+            std::ranges::sort(values);
             // Distances that the scale of the response does not have take the limits of others.
             const bool none = values.empty();
             const double share = request.confidence;
@@ -422,8 +415,6 @@ double SimulatedLimits::at(double size, double u, int bound) const {
 }
 
 namespace {
-
-using Where = SizeEstimate::Where;
 
 // Bounds by a test of every size and distance u: a pair is on the inner side of the bound if the
 // table does not reject it.

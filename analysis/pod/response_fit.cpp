@@ -14,11 +14,8 @@
 #include <utility>
 
 #include "analysis/statistics/gauss_rule.hpp"
-#include "analysis/statistics/interval.hpp"
-#include "analysis/statistics/numeric_maximum.hpp"
 
 namespace gearpod::analysis {
-
 namespace {
 
 const double kLogRootTwoPi = 0.5 * std::log(2.0 * std::numbers::pi);
@@ -55,6 +52,97 @@ std::pair<double, double> moments(const std::vector<Response>& responses, Get ge
         squares += std::pow(get(response) - sum / count, 2);
     }
     return {sum / count, std::sqrt(squares / count)};
+}
+
+struct Scaled {
+    std::vector<double> x, y;  // uncensored values
+    std::vector<Response> all;
+    double jacobian = 0.0;  // log Jacobian of the density of the values relative to that of y
+};
+
+Scaled scaled(const ResponseRows& rows, const ResponseScale& scale, const CensoringLimits& limits) {
+    Scaled out;
+    for (std::size_t i = 0; i < rows.size.size(); ++i) {
+        const double x = scale.log_size ? std::log(rows.size[i]) : rows.size[i];
+        const int censored = limits.of(rows.value[i]);
+        const double value = std::clamp(rows.value[i], limits.left, limits.right);
+        out.all.push_back(
+            {x, scale.y(value), censored, rows.specimen.empty() ? 0 : rows.specimen[i]});
+        if (censored == 0) {
+            out.x.push_back(x);
+            out.y.push_back(out.all.back().y);
+            out.jacobian += scale.power == 1.0 ? 0.0 : (scale.power - 1.0) * std::log(value);
+        }
+    }
+    return out;
+}
+
+double lowest(const ResponseRows& rows, const CensoringLimits& limits) {
+    return std::max(limits.left, *std::min_element(rows.value.begin(), rows.value.end()));
+}
+
+ResponseModel least_squares_model(const RegressionLine& line) {
+    ResponseModel model;
+    model.intercept = line.intercept;
+    model.slope = line.slope;
+    model.sigma = model.within = line.sigma;
+    const double variance = line.sigma * line.sigma;
+    const double of_slope = variance / line.sum_xx;
+    model.covariance(0, 0) =
+        variance / static_cast<double>(line.count) + line.mean_x * line.mean_x * of_slope;
+    model.covariance(0, 1) = model.covariance(1, 0) = -line.mean_x * of_slope;
+    model.covariance(1, 1) = of_slope;
+    model.covariance(2, 2) = variance / (2.0 * (static_cast<double>(line.count) - 2.0));
+    return model;
+}
+
+// Means of specimens, because values that share a random effect are not independent.
+Scaled specimen_means(const Scaled& points) {
+    std::map<long, std::array<double, 3>> sums;  // count, x, y
+    for (const Response& response : points.all) {
+        if (response.censored == 0) {
+            auto& sum = sums.try_emplace(response.specimen).first->second;
+            sum[0] += 1.0;
+            sum[1] += response.x;
+            sum[2] += response.y;
+        }
+    }
+    Scaled means;
+    for (const auto& [specimen, sum] : sums) {
+        means.x.push_back(sum[1] / sum[0]);
+        means.y.push_back(sum[2] / sum[0]);
+    }
+    return means;
+}
+
+void add_checks(SignalResponseFit& fit, const Scaled& points) {
+    fit.checks = {linearity_check(points.x, points.y, fit.line),
+                  constant_variance_check(points.x, points.y, fit.line),
+                  normality_check(points.x, points.y, fit.line)};
+    const char* what[] = {"not linear", "variance not constant", "residuals not normal"};
+    for (std::size_t c = 0; c < fit.checks.size(); ++c) {
+        if (!(fit.checks[c].p_value >= kCheckLevel)) {
+            fit.doubts.push_back(fmt::format("{} ({}: p = {:.2g})", what[c], fit.checks[c].test,
+                                             fit.checks[c].p_value));
+        }
+    }
+}
+
+void fit_by_likelihood(SignalResponseFit& fit, const Scaled& points, bool by_specimen,
+                       bool coarse) {
+    auto likelihood = std::make_shared<const ResponseLikelihood>(points.all, by_specimen, coarse);
+    fit.maximum = likelihood->maximise();
+    if (by_specimen && !likelihood->has_between(fit.maximum)) {
+        likelihood = std::make_shared<const ResponseLikelihood>(points.all, false);
+        fit.maximum = likelihood->maximise();
+    }
+    fit.likelihood = likelihood;
+    fit.model = likelihood->model(fit.maximum);
+    fit.log_likelihood = fit.maximum.log_likelihood + points.jacobian;
+    fit.aic = 2.0 * static_cast<double>(fit.maximum.parameters.size()) - 2.0 * fit.log_likelihood;
+    if (!fit.maximum.converged || !fit.model.covariance.allFinite()) {
+        fit.refusals.push_back("the maximum-likelihood fit does not converge");
+    }
 }
 
 }  // namespace
@@ -288,101 +376,6 @@ ResponseModel ResponseLikelihood::model(const Maximum& maximum) const {
     model.covariance = by * solver.inverse() * by.transpose();
     return model;
 }
-
-namespace {
-
-struct Scaled {
-    std::vector<double> x, y;  // uncensored values
-    std::vector<Response> all;
-    double jacobian = 0.0;  // log Jacobian of the density of the values relative to that of y
-};
-
-Scaled scaled(const ResponseRows& rows, const ResponseScale& scale, const CensoringLimits& limits) {
-    Scaled out;
-    for (std::size_t i = 0; i < rows.size.size(); ++i) {
-        const double x = scale.log_size ? std::log(rows.size[i]) : rows.size[i];
-        const int censored = limits.of(rows.value[i]);
-        const double value = std::clamp(rows.value[i], limits.left, limits.right);
-        out.all.push_back(
-            {x, scale.y(value), censored, rows.specimen.empty() ? 0 : rows.specimen[i]});
-        if (censored == 0) {
-            out.x.push_back(x);
-            out.y.push_back(out.all.back().y);
-            out.jacobian += scale.power == 1.0 ? 0.0 : (scale.power - 1.0) * std::log(value);
-        }
-    }
-    return out;
-}
-
-double lowest(const ResponseRows& rows, const CensoringLimits& limits) {
-    return std::max(limits.left, *std::min_element(rows.value.begin(), rows.value.end()));
-}
-
-ResponseModel least_squares_model(const RegressionLine& line) {
-    ResponseModel model;
-    model.intercept = line.intercept;
-    model.slope = line.slope;
-    model.sigma = model.within = line.sigma;
-    const double variance = line.sigma * line.sigma;
-    const double of_slope = variance / line.sum_xx;
-    model.covariance(0, 0) =
-        variance / static_cast<double>(line.count) + line.mean_x * line.mean_x * of_slope;
-    model.covariance(0, 1) = model.covariance(1, 0) = -line.mean_x * of_slope;
-    model.covariance(1, 1) = of_slope;
-    model.covariance(2, 2) = variance / (2.0 * (static_cast<double>(line.count) - 2.0));
-    return model;
-}
-
-// Means of specimens, because values that share a random effect are not independent.
-Scaled specimen_means(const Scaled& points) {
-    std::map<long, std::array<double, 3>> sums;  // count, x, y
-    for (const Response& response : points.all) {
-        if (response.censored == 0) {
-            auto& sum = sums.try_emplace(response.specimen).first->second;
-            sum[0] += 1.0;
-            sum[1] += response.x;
-            sum[2] += response.y;
-        }
-    }
-    Scaled means;
-    for (const auto& [specimen, sum] : sums) {
-        means.x.push_back(sum[1] / sum[0]);
-        means.y.push_back(sum[2] / sum[0]);
-    }
-    return means;
-}
-
-void add_checks(SignalResponseFit& fit, const Scaled& points) {
-    fit.checks = {linearity_check(points.x, points.y, fit.line),
-                  constant_variance_check(points.x, points.y, fit.line),
-                  normality_check(points.x, points.y, fit.line)};
-    const char* what[] = {"not linear", "variance not constant", "residuals not normal"};
-    for (std::size_t c = 0; c < fit.checks.size(); ++c) {
-        if (!(fit.checks[c].p_value >= kCheckLevel)) {
-            fit.doubts.push_back(fmt::format("{} ({}: p = {:.2g})", what[c], fit.checks[c].test,
-                                             fit.checks[c].p_value));
-        }
-    }
-}
-
-void fit_by_likelihood(SignalResponseFit& fit, const Scaled& points, bool by_specimen,
-                       bool coarse) {
-    auto likelihood = std::make_shared<const ResponseLikelihood>(points.all, by_specimen, coarse);
-    fit.maximum = likelihood->maximise();
-    if (by_specimen && !likelihood->has_between(fit.maximum)) {
-        likelihood = std::make_shared<const ResponseLikelihood>(points.all, false);
-        fit.maximum = likelihood->maximise();
-    }
-    fit.likelihood = likelihood;
-    fit.model = likelihood->model(fit.maximum);
-    fit.log_likelihood = fit.maximum.log_likelihood + points.jacobian;
-    fit.aic = 2.0 * static_cast<double>(fit.maximum.parameters.size()) - 2.0 * fit.log_likelihood;
-    if (!fit.maximum.converged || !fit.model.covariance.allFinite()) {
-        fit.refusals.push_back("the maximum-likelihood fit does not converge");
-    }
-}
-
-}  // namespace
 
 bool CensoringLimits::any() const {
     return std::isfinite(left) || std::isfinite(right);

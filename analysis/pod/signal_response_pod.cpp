@@ -6,9 +6,6 @@
 #include <cmath>
 #include <set>
 
-#include "analysis/pod/response_bounds.hpp"
-#include "analysis/statistics/interval.hpp"
-
 namespace gearpod::analysis {
 namespace {
 

@@ -11,14 +11,12 @@
 // likelihood-ratio bounds of the size.
 #pragma once
 
-#include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
 #include "analysis/pod/response_bounds.hpp"
 #include "analysis/pod/response_fit.hpp"
-#include "analysis/statistics/interval.hpp"
 #include "machine/fields.hpp"
 
 namespace gearpod::analysis {

@@ -22,7 +22,7 @@ std::vector<double> from_alarm_side(std::span<const double> values, bool high) {
             sorted.push_back(high ? value : -value);
         }
     }
-    std::sort(sorted.begin(), sorted.end(), std::greater<>());
+    std::ranges::sort(sorted, std::greater<>());
     return sorted;
 }
 
@@ -69,27 +69,11 @@ std::vector<RocPoint> thinned(const std::vector<RocPoint>& points, std::size_t m
     return kept;
 }
 
-}  // namespace
-
-std::vector<RocPoint> roc_curve(std::span<const double> healthy, std::span<const double> faulty,
-                                bool high, std::size_t most_points) {
-    EXPECTS(most_points >= 2);
-    const std::vector<double> below = from_alarm_side(healthy, high);
-    const std::vector<double> beyond = from_alarm_side(faulty, high);
-    if (below.empty() || beyond.empty()) {
-        return {};
-    }
-    const std::vector<RocPoint> points = corners(below, beyond);
-    return points.size() <= most_points ? points : thinned(points, most_points);
-}
-
-namespace {
-
 std::vector<std::size_t> complete_rows(const std::vector<const RankedFeature*>& features,
                                        std::span<const double> RankedFeature::*group) {
     std::vector<std::size_t> rows;
     for (std::size_t i = 0; i < (features.front()->*group).size(); ++i) {
-        if (std::all_of(features.begin(), features.end(), [&](const RankedFeature* feature) {
+        if (std::ranges::all_of(features, [&](const RankedFeature* feature) {
                 return std::isfinite((feature->*group)[i]);
             })) {
             rows.push_back(i);
@@ -123,6 +107,18 @@ double paired_p_value(const AucComponents& a, const AucComponents& b) {
 
 }  // namespace
 
+std::vector<RocPoint> roc_curve(std::span<const double> healthy, std::span<const double> faulty,
+                                bool high, std::size_t most_points) {
+    EXPECTS(most_points >= 2);
+    const std::vector<double> below = from_alarm_side(healthy, high);
+    const std::vector<double> beyond = from_alarm_side(faulty, high);
+    if (below.empty() || beyond.empty()) {
+        return {};
+    }
+    const std::vector<RocPoint> points = corners(below, beyond);
+    return points.size() <= most_points ? points : thinned(points, most_points);
+}
+
 FeatureRanking rank_features(const std::vector<RankedFeature>& features, double confidence) {
     EXPECTS(std::ranges::all_of(features, [&](const RankedFeature& feature) {
         return feature.healthy.size() == features.front().healthy.size() &&
@@ -132,8 +128,7 @@ FeatureRanking rank_features(const std::vector<RankedFeature>& features, double 
     std::vector<const RankedFeature*> used;
     for (const RankedFeature& feature : features) {
         const auto finite = [](std::span<const double> values) {
-            return std::count_if(values.begin(), values.end(),
-                                 [](double value) { return std::isfinite(value); });
+            return std::ranges::count_if(values, [](double value) { return std::isfinite(value); });
         };
         const auto all = static_cast<long>(feature.healthy.size() + feature.faulty.size());
         const long missing = all - finite(feature.healthy) - finite(feature.faulty);
@@ -164,9 +159,8 @@ FeatureRanking rank_features(const std::vector<RankedFeature>& features, double 
     }
     std::vector<std::size_t> order(used.size());
     std::iota(order.begin(), order.end(), std::size_t{0});
-    std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
-        return components[a].auc > components[b].auc;
-    });
+    std::ranges::stable_sort(
+        order, [&](std::size_t a, std::size_t b) { return components[a].auc > components[b].auc; });
     std::vector<double> p_values;
     for (std::size_t i = 0; i < order.size(); ++i) {
         for (std::size_t j = i + 1; j < order.size(); ++j) {

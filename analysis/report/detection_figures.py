@@ -2,8 +2,8 @@
 
 import math
 
-from charts import (GAP, INK, MUTED, PAPER, RULE, between, cell, colour, dash, legend_below,
-                    map_axes, marker, panel, shade, to_svg)
+from charts import (DASHED, GAP, RULE, between, cell, colour, dash, legend_below, map_axes, mark_size, marker, marks,
+                    panel, shade, to_svg)
 from words import joined, noise, number, percent, rate
 
 REJECTED = "Dotted: curves that do not fit the hits and misses, without bounds."
@@ -44,16 +44,16 @@ def _open(axes, report, level, paint):
                           linewidth=0, alpha=0.6)
 
 
-def _rates(axes, report, cells, paint, mark, label=None, bars=True):
-    points = [c for c in cells if c["pd"] is not None]
+def _rates(axes, report, f, n, paint, mark, label=None, bars=True):
+    """Draws the detection rates of a feature's fault sizes at a noise level."""
+    points = [c for c in report.cells(f, n) if c["size_high"] > 0 and c["pd"] is not None]
     x = [report.sizes.shown(0.5 * (c["size_low"] + c["size_high"])) for c in points]
     y = [c["pd"] for c in points]
     if bars:
         axes.errorbar(x, y, yerr=[[max(0.0, c["pd"] - c["lower"]) for c in points],
                                   [max(0.0, c["upper"] - c["pd"]) for c in points]],
                       fmt="none", ecolor=paint, elinewidth=1, capsize=0)
-    axes.plot(x, y, linestyle="none", marker=mark, markersize=4.5, color=paint, label=label,
-              markeredgewidth=0)
+    marks(axes, list(zip(x, y)), mark, markersize=4.5, color=paint, label=label, markeredgewidth=0)
 
 
 def _state(report, f, n):
@@ -61,24 +61,12 @@ def _state(report, f, n):
     pod = report.reliable(f, n)["hit_miss"]
     if pod["refusal"]:
         return f"{report.names[f]}: no curve ({pod['refusal']})"
-    return f"{report.names[f]}: 90 % at {_size(report, pod['a90']['estimate'], pod)}"
-
-
-def _size(report, estimate, pod):
-    if estimate["where"] == "reached":
-        return report.sizes.text(estimate["size"])
-    if estimate["where"] == "below_tested":
-        return "< " + report.sizes.text(pod["smallest"])
-    return "> " + report.sizes.text(pod["largest"])
+    return f"{report.names[f]}: 90 % at {report.sizes.estimate(pod['a90']['estimate'], pod, report.sizes.text)}"
 
 
 def _found(axes, report, found):
     """Draws the smallest fault found."""
-    x = report.sizes.shown(found["size"])
-    axes.plot([x, x], [-0.02, 0.9], color=INK, linewidth=1)
-    axes.annotate(report.sizes.text(found["size"]), (x, 0.02), xytext=(4, 0),
-                  textcoords="offset points", fontsize=9, color=INK,
-                  bbox={"facecolor": PAPER, "edgecolor": "none", "pad": 1.2, "alpha": 0.85})
+    mark_size(axes, report.sizes.shown(found["size"]), report.sizes.text(found["size"]), 0.02)
 
 
 def best(report):
@@ -90,12 +78,12 @@ def headline(report, page):
     """POD curve with its bounds of the feature in the answer, at the reference level."""
     n, f = report.reference, best(report)
     figure, axes = panel(2.5)
-    axes.axhline(0.9, color=MUTED, linewidth=0.9, linestyle=(0, (4, 3)))
+    axes.axhline(0.9, **DASHED)
     if report.curves:
         level = report.reliable(f, n)
         _curve(axes, report, level["hit_miss"], colour(0), "-", None, band=True)
         _open(axes, report, level, colour(0))
-    _rates(axes, report, [c for c in report.cells(f, n) if c["size_high"] > 0], colour(0), "o")
+    _rates(axes, report, f, n, colour(0), "o")
     if report.smallest[n]:
         _found(axes, report, report.smallest[n])
     _limits(axes, report)
@@ -109,14 +97,14 @@ def _comparison(report, page):
               for f, name in enumerate(report.names)]
     columns = 2 if max(map(len, labels)) < 20 else 1
     figure, axes = panel(3.3 + 0.2 * math.ceil(len(report.names) / columns))
-    axes.axhline(0.9, color=MUTED, linewidth=0.9, linestyle=(0, (4, 3)))
+    axes.axhline(0.9, **DASHED)
     for position, f in enumerate(report.order(n)):
         level = report.reliable(f, n)
         drawn = _curve(axes, report, level["hit_miss"], colour(f), dash(f), report.names[f],
                        band=position < 3)
         if position == 0:
             _open(axes, report, level, colour(f))
-        _rates(axes, report, [c for c in report.cells(f, n) if c["size_high"] > 0], colour(f),
+        _rates(axes, report, f, n, colour(f),
                marker(f), None if drawn else report.names[f] + " (rates)", bars=not drawn)
     found = report.smallest[n]
     if found:
@@ -143,14 +131,14 @@ def _comparison(report, page):
 
 def of_feature(axes, report, f):
     """Draws the rates of a feature at all noise levels, with the curves where they exist."""
-    axes.axhline(0.9, color=MUTED, linewidth=0.9, linestyle=(0, (4, 3)))
+    axes.axhline(0.9, **DASHED)
     for n, level in enumerate(report.levels):
         paint = shade(n / max(1, len(report.levels) - 1))
         if report.reliability:
             reliable = report.reliable(f, n)
             _curve(axes, report, reliable["hit_miss"], paint, "-", None, band=True)
             _open(axes, report, reliable, paint)
-        _rates(axes, report, [c for c in report.cells(f, n) if c["size_high"] > 0], paint,
+        _rates(axes, report, f, n, paint,
                marker(n), f"× {number(level)}")
     _limits(axes, report)
     axes.set_title(report.names[f], fontsize=10, loc="left")
@@ -176,7 +164,7 @@ def _by_feature(report, page):
            + (f" There is no curve for {joined(refused)}: the reasons are listed with the numbers."
               if refused else ""))
     return page.figure("Probability of detection by feature and noise", charts, how,
-                       "".join(report.table(f"curves.{n}") for n in range(len(report.levels))))
+                       report.tables("curves."))
 
 
 def heat_maps(report, page):
@@ -211,8 +199,7 @@ def roc(report, page):
     for n, level in enumerate(report.levels):
         figure, axes = panel(3.9 if inside else 3.9 + 0.2 * len(report.names))
         axes.plot([0, 1], [0, 1], color=RULE, linewidth=1)
-        axes.axvline(report.data["detection"]["false_alarm_rate"], color=MUTED, linewidth=0.9,
-                     linestyle=(0, (4, 3)))
+        axes.axvline(report.data["detection"]["false_alarm_rate"], **DASHED)
         texts = []
         for f in report.order(n):
             reliable = report.reliable(f, n)
@@ -240,7 +227,7 @@ def roc(report, page):
            "diagonal is guessing; the dashed line is the false-alarm rate of the study. All fault "
            "sizes are combined, so areas compare features but depend on the simulated sizes.")
     return page.figure("Receiver operating characteristic", charts, how,
-                       "".join(report.table(f"curves.{n}") for n in range(len(report.levels))))
+                       report.tables("curves."))
 
 
 def area_text(area):
@@ -256,7 +243,7 @@ def ranking(report, page):
     order = report.order(report.reference)
     levels = len(report.levels)
     figure, axes = panel(1.5 + 0.42 * max(1, len(order)))
-    axes.axvline(0.5, color=MUTED, linewidth=0.9, linestyle=(0, (4, 3)))
+    axes.axvline(0.5, **DASHED)
     for n, level in enumerate(report.levels):
         offset = 0.0 if levels < 2 else 0.56 * (n / (levels - 1) - 0.5)
         points = [(i, report.reliable(f, n)["auc"]) for i, f in enumerate(order)]
@@ -265,9 +252,8 @@ def ranking(report, page):
         for i, auc in points:
             if auc["lower"] is not None:
                 axes.plot([auc["lower"], auc["upper"]], [i + offset] * 2, color=paint, linewidth=1.6)
-        axes.plot([auc["auc"] for _, auc in points], [i + offset for i, _ in points],
-                  linestyle="none", marker=marker(n), markersize=4.5, color=paint,
-                  label=f"× {number(level)}")
+        marks(axes, [(auc["auc"], i + offset) for i, auc in points], marker(n), markersize=4.5, color=paint,
+              label=f"× {number(level)}")
     axes.set_yticks(range(len(order)), [report.names[f] for f in order])
     axes.set(ylim=(len(order) - 0.45, -0.55), xlabel="Area under the ROC")
     if levels:

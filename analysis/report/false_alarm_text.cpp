@@ -12,7 +12,6 @@
 #include "analysis/detection/threshold.hpp"
 #include "analysis/false_alarm_curve.hpp"
 #include "analysis/report/json_values.hpp"
-#include "analysis/report/wording.hpp"
 #include "features/feature.hpp"
 
 namespace gearpod::analysis {

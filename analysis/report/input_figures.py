@@ -96,15 +96,6 @@ def a90_maps(report, page):
                        "".join(report.table(f"a90_map.{name}") for name in shown))
 
 
-def _estimate(report, estimate, f, n):
-    pod = report.reliable(f, n)["hit_miss"]
-    if estimate["where"] == "reached":
-        return number(report.sizes.shown(estimate["size"]))
-    sign, size = (("<", pod["smallest"]) if estimate["where"] == "below_tested"
-                  else (">", pod["largest"]))
-    return f"{sign} {number(report.sizes.shown(size))}"
-
-
 def _map_chart(report, page, f, name, entry):
     levels = entry["features"][f]["levels"]
     values = max((level["values"] for level in levels), key=len)
@@ -116,7 +107,8 @@ def _map_chart(report, page, f, name, entry):
         fills = [GAP] * len(values)
         for i, found in enumerate(level["a90"]):
             estimate = found["estimate"]
-            row[i] = _estimate(report, estimate, f, n)
+            row[i] = report.sizes.estimate(estimate, report.reliable(f, n)["hit_miss"],
+                                           lambda size: number(report.sizes.shown(size)))
             fills[i] = between(SMALL, LARGE, {"below_tested": 0.0, "not_reached": 1.0}.get(
                 estimate["where"], (estimate["size"] or 0.0) / largest))
         for i, (fill, text) in enumerate(zip(fills, row)):

@@ -7,9 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
-#include "analysis/inspection.hpp"
 #include "analysis/pod/pod_curve.hpp"
-#include "analysis/report/detection_json.hpp"
 #include "analysis/report/json_values.hpp"
 #include "analysis/report/wording.hpp"
 

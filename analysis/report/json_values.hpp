@@ -3,7 +3,6 @@
 
 #include <cmath>
 #include <nlohmann/json.hpp>
-#include <optional>
 #include <string>
 #include <string_view>
 #include <type_traits>
@@ -128,7 +127,6 @@ void add_field(Json& json, std::string_view name, const Value& value) {
     }
 }
 
-// Object with the fields of a struct.
 template <class Structure>
 Json fields_json(const Structure& structure) {
     Json json = Json::object();

@@ -158,7 +158,6 @@ std::size_t line_count(const std::string& text) {
     return static_cast<std::size_t>(std::ranges::count(text, '\n'));
 }
 
-// The first lines of a text.
 std::string first_lines(const std::string& text, std::size_t lines) {
     std::size_t end = 0;
     for (; lines > 0; --lines) {

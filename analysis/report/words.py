@@ -91,10 +91,6 @@ def noise(level):
     return f"noise ×\u00a0{number(level)}"
 
 
-def _suffix(unit):
-    return "_" + unit.replace("^", "").replace("/", "_").replace(" ", "_")
-
-
 def input_name(name, unit):
     """Name of an input without its unit: planet_bearing_stiffness_N_m gives planet bearing
     stiffness."""
@@ -134,6 +130,12 @@ class Sizes:
 
     def text(self, value, digits=3):
         return with_unit(number(self.shown(value), digits), self.unit)
+
+    def estimate(self, found, pod, text):
+        """Size in words, or the smallest or largest tested size that it is beyond; text(size) words a size."""
+        where = found["where"]
+        return (text(found["size"]) if where == "reached" else
+                f"< {text(pod['smallest'])}" if where == "below_tested" else f"> {text(pod['largest'])}")
 
     def group(self, low, high):
         if low == high:

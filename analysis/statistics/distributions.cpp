@@ -23,6 +23,14 @@ using Beta = boost::math::beta_distribution<double, QuietPolicy>;
 using Gamma = boost::math::gamma_distribution<double, QuietPolicy>;
 using Binomial = boost::math::binomial_distribution<double, QuietPolicy>;
 
+template <typename Law>
+double upper_tail(const Law& law, double statistic) {
+    if (!(statistic > 0.0)) {
+        return std::isnan(statistic) ? statistic : 1.0;
+    }
+    return std::isinf(statistic) ? 0.0 : boost::math::cdf(boost::math::complement(law, statistic));
+}
+
 }  // namespace
 
 double normal_cdf(double value) {
@@ -83,18 +91,6 @@ double binomial_cdf(double tried, double rate, double found) {
 double log_gamma(double value) {
     return boost::math::lgamma(value, QuietPolicy());
 }
-
-namespace {
-
-template <typename Law>
-double upper_tail(const Law& law, double statistic) {
-    if (!(statistic > 0.0)) {
-        return std::isnan(statistic) ? statistic : 1.0;
-    }
-    return std::isinf(statistic) ? 0.0 : boost::math::cdf(boost::math::complement(law, statistic));
-}
-
-}  // namespace
 
 double chi_squared_upper_tail(double statistic, double degrees) {
     return upper_tail(boost::math::chi_squared_distribution<double, QuietPolicy>(degrees),

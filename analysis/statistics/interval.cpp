@@ -6,7 +6,6 @@
 
 #include "analysis/statistics/distributions.hpp"
 #include "analysis/statistics/link.hpp"
-#include "machine/no_value.hpp"
 
 namespace gearpod::analysis {
 

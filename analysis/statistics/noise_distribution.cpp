@@ -116,12 +116,12 @@ const char* noise_distribution_name(Kind kind) {
 }
 
 std::vector<NoiseDistribution> fit_noise_distributions(std::span<const double> values) {
-    if (values.size() < 3 || !(*std::max_element(values.begin(), values.end()) >
-                               *std::min_element(values.begin(), values.end()))) {
+    if (values.size() < 3 ||
+        !(*std::ranges::max_element(values) > *std::ranges::min_element(values))) {
         return {};
     }
     std::vector<NoiseDistribution> laws{normal_law(values, Kind::normal, 0.0)};
-    if (*std::min_element(values.begin(), values.end()) > 0.0) {
+    if (*std::ranges::min_element(values) > 0.0) {
         std::vector<double> logs;
         double jacobian = 0.0;
         for (const double value : values) {
@@ -132,9 +132,8 @@ std::vector<NoiseDistribution> fit_noise_distributions(std::span<const double> v
         laws.push_back(exponential_law(values));
         laws.push_back(weibull_law(values));
     }
-    std::stable_sort(
-        laws.begin(), laws.end(),
-        [](const NoiseDistribution& a, const NoiseDistribution& b) { return a.aic < b.aic; });
+    std::ranges::stable_sort(
+        laws, [](const NoiseDistribution& a, const NoiseDistribution& b) { return a.aic < b.aic; });
     return laws;
 }
 

@@ -23,7 +23,6 @@ GEARPOD_INLINE LinkValues lane_cloglog(double eta) {
     return {machine::lane_one_minus_exp(rate), down, rate * down};
 }
 
-// Computes link_values().
 template <Link kLink>
 GEARPOD_INLINE LinkValues lane_link(double eta) {
     if constexpr (kLink == Link::cloglog) {

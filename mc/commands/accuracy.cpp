@@ -2,10 +2,9 @@
 
 #include "mc/commands/commands.hpp"
 #include "mc/commands/options/options.hpp"
-#include "mc/files/input/problems.hpp"
+#include "mc/commands/output_folder.hpp"
 #include "mc/library/run/command_files.hpp"
 #include "mc/numerics/accuracy/report.hpp"
-#include "mc/report/page.hpp"
 
 namespace gearpod::mc {
 
@@ -55,8 +54,8 @@ int accuracy_command(const AccuracyOptions& options) {
         return kBadInput;
     }
     write_report_page(json, options.html, options.figures);
-    if (!options.html.empty() && !terminal) {
-        fmt::print("\npage: {}\n", options.html);
+    if (!terminal) {
+        print_written("page", options.html);
     }
     return kDone;
 }

@@ -152,13 +152,8 @@ int compare_command(const CompareOptions& options) {
         return kBadInput;
     }
     if (options.json != "-") {
-        const analysis::Report report = comparison_report(results);
-        fmt::print("{}", options.full
-                             ? report_text(report)
-                             : screen_text(report, {"All findings: the same command with --full"}));
-        if (!options.html.empty()) {
-            fmt::print("\npage: {}\n", options.html);
-        }
+        print_findings(comparison_report(results), options.full);
+        print_written("page", options.html);
     }
     return kDone;
 }

@@ -81,7 +81,6 @@ void print_text(const SignalFeatures& found) {
     }
 }
 
-// Comparison of the features with the healthy gearboxes of --against.
 std::string decisions_text(const PopulationDecisions& against, const SignalFeatures& found) {
     std::string text = fmt::format("\n{:<22}{:>13}{:>13}{:>8}{:>24}\n", "feature", "value",
                                    "threshold", "", "healthy less extreme");
@@ -155,7 +154,6 @@ int features_command(const FeaturesOptions& options) {
     return kDone;
 }
 
-// Problems with the combination of options.
 Problems option_problems(const FeaturesOptions& options) {
     Problems problems;
     const auto reject = [&](const char* what, const char* remedy) {
@@ -200,7 +198,6 @@ bool can_write_all(const FeaturesOptions& options, const RecordingList& list) {
            out_good;
 }
 
-// Prints one sentence for each recording.
 void print_decisions(const FeaturesOptions& options, const Population& population,
                      std::span<const features::Feature* const> features, const RecordingList& list,
                      const std::vector<MeasuredRecording>& measured) {
@@ -217,9 +214,8 @@ void print_decisions(const FeaturesOptions& options, const Population& populatio
 
 // Prints the recordings without features and the files written. Returns the exit code.
 int summary(const FeaturesOptions& options, const std::vector<MeasuredRecording>& measured) {
-    const auto bad = std::count_if(
-        measured.begin(), measured.end(),
-        [](const MeasuredRecording& recording) { return !recording.problem.empty(); });
+    const auto bad = std::ranges::count_if(
+        measured, [](const MeasuredRecording& recording) { return !recording.problem.empty(); });
     for (const MeasuredRecording& recording : measured) {
         if (!recording.problem.empty()) {
             fmt::print(stderr, "{}\n", printable(recording.problem));

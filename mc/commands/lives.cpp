@@ -8,18 +8,14 @@
 #include <map>
 #include <memory>
 #include <nlohmann/json.hpp>
-#include <string>
-#include <vector>
 
 #include "analysis/report/json_values.hpp"
-#include "machine/clocks.hpp"
 #include "mc/commands/commands.hpp"
 #include "mc/commands/options/options.hpp"
 #include "mc/commands/output_folder.hpp"
 #include "mc/ensemble/run_store.hpp"
 #include "mc/files/atomic_file.hpp"
 #include "mc/files/input/problems.hpp"
-#include "mc/files/input/terminal_text.hpp"
 #include "mc/library/run/command_files.hpp"
 #include "mc/library/run/run.hpp"
 #include "mc/library/run/run_preparation.hpp"
@@ -83,12 +79,8 @@ int write_outputs(const CampaignPlan& plan, const Results& frame, const RowSourc
         if (!print_report(outputs, lives_report(monitor, outputs.shows_withheld), false)) {
             return kBadInput;
         }
-        if (!outputs.html.empty()) {
-            fmt::print("\npage: {}\n", outputs.html);
-        }
-        if (!outputs.evidence.empty()) {
-            fmt::print("\nevidence: {}\n", outputs.evidence);
-        }
+        print_written("page", outputs.html);
+        print_written("evidence", outputs.evidence);
     }
     return withheld.empty() ? kDone : kBadInput;
 }

@@ -11,7 +11,6 @@
 #include "mc/commands/options/options.hpp"
 #include "mc/ensemble/results_check.hpp"
 #include "mc/ensemble/run_store.hpp"
-#include "mc/files/atomic_file.hpp"
 #include "mc/files/input/problems.hpp"
 #include "mc/files/input/terminal_text.hpp"
 #include "mc/library/run/command_files.hpp"
@@ -87,7 +86,6 @@ class Merge {
         return problems.empty() ? gaps() : problems;
     }
 
-    // Text of the study that all files share.
     std::string study() const { return files_.front().frame.provenance_value("study"); }
 
     BatchPlan whole() const { return files_.front().ensemble.batches(); }

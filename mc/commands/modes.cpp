@@ -137,9 +137,7 @@ int modes_command(const ModesOptions& options) {
         print_frequencies(" of the train with its elastic shafts", modes.train_Hz);
     }
     print_critical_speeds(modes);
-    if (!options.html.empty()) {
-        fmt::print("\npage: {}\n", options.html);
-    }
+    print_written("page", options.html);
     return kDone;
 }
 

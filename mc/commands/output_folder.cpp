@@ -11,7 +11,6 @@
 #include "mc/files/atomic_file.hpp"
 #include "mc/files/input/terminal_text.hpp"
 #include "mc/files/json_text.hpp"
-#include "mc/library/run/command_files.hpp"
 
 namespace gearpod::mc {
 namespace {
@@ -44,6 +43,17 @@ bool write_json_and_page(const nlohmann::json& json, const std::string& file,
     }
     write_report_page(json_text(json), html, figures);
     return true;
+}
+
+void print_findings(const analysis::Report& report, bool full) {
+    fmt::print("{}", full ? report_text(report)
+                          : screen_text(report, {"All findings: the same command with --full"}));
+}
+
+void print_written(const char* what, const std::string& path) {
+    if (!path.empty()) {
+        fmt::print("\n{}: {}\n", what, path);
+    }
 }
 
 std::string columns_csv(const std::vector<SignalColumn>& columns, int digits, bool units) {

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "analysis/report/report.hpp"
 #include "mc/ensemble/gearbox/simulation.hpp"
 #include "mc/library/run/command_files.hpp"
 #include "mc/report/page.hpp"
@@ -14,6 +15,12 @@ namespace gearpod::mc {
 // "": none. Returns false after printing a problem with the JSON; throws like write_report_page().
 bool write_json_and_page(const nlohmann::json& json, const std::string& file,
                          const std::string& html, const std::string& figures = "");
+
+// Prints all findings, or the first screen of them with a hint at --full.
+void print_findings(const analysis::Report& report, bool full);
+
+// Prints "page: F.html" after an empty line, for an output that was written; "": none.
+void print_written(const char* what, const std::string& path);
 
 // Signals of equal length as CSV with so many digits. With `units` the header is "name [unit]".
 std::string columns_csv(const std::vector<SignalColumn>& columns, int digits, bool units);

@@ -56,19 +56,11 @@ int pod_command(const PodOptions& options) {
     if (!options.json.empty()) {
         return kDone;
     }
-    if (options.full) {
-        fmt::print("{}", inspection_text(inspected));
-    } else {
-        fmt::print("{}", screen_text(analysis::inspection_report(inspected.request,
-                                                                 inspected.result, inspected.names),
-                                     {"All findings: the same command with --full"}));
-    }
-    if (!options.html.empty()) {
-        fmt::print("\npage: {}\n", options.html);
-    }
-    if (!options.evidence.empty()) {
-        fmt::print("\nevidence: {}\n", options.evidence);
-    }
+    print_findings(
+        analysis::inspection_report(inspected.request, inspected.result, inspected.names),
+        options.full);
+    print_written("page", options.html);
+    print_written("evidence", options.evidence);
     return kDone;
 }
 

@@ -93,7 +93,6 @@ std::string unknown_rate_text(const RareRateRequest& question, const RareRateRes
                      question.gearboxes, analysis::kLeastFamilies);
 }
 
-// The request and its result.
 std::string rate_text(const PreparedRare& prepared, const RareRateResult& result) {
     const RareRateRequest& q = prepared.question;
     std::string text =
@@ -170,25 +169,29 @@ std::string rare_text(const PreparedRare& prepared, const RareRateResult& result
 nlohmann::json rare_json(const RareOptions& options, const PreparedRare& prepared,
                          const RareRateResult& result) {
     const RareRateRequest& q = prepared.question;
-    nlohmann::json json{{"kind", q.rate ? "rare-false-alarms" : "rare-misses"},
-                        {"results", options.results},
-                        {"feature", q.feature},
-                        {"noise_level", q.noise_level},
-                        {"confidence", prepared.confidence},
-                        {"gearboxes_a_level", q.gearboxes},
-                        {"gearboxes", result.computed},
-                        {"failed", result.failed},
-                        {"levels", result.levels},
-                        {"last_rate", result.last_rate},
-                        {"least_kept", result.least_kept},
-                        {"shifted_inputs", analysis::json_of(result.shifted)},
-                        {"threshold", nullptr},
-                        {"rate", nullptr},
-                        {"lower", nullptr},
-                        {"upper", nullptr},
-                        {"families", nullptr},
-                        {"relative_error", nullptr},
-                        {"counted_gearboxes", nullptr}};
+    const auto found = [&](auto value) {
+        return result.estimate ? nlohmann::json(value(*result.estimate)) : nlohmann::json(nullptr);
+    };
+    nlohmann::json json{
+        {"kind", q.rate ? "rare-false-alarms" : "rare-misses"},
+        {"results", options.results},
+        {"feature", q.feature},
+        {"noise_level", q.noise_level},
+        {"confidence", prepared.confidence},
+        {"gearboxes_a_level", q.gearboxes},
+        {"gearboxes", result.computed},
+        {"failed", result.failed},
+        {"levels", result.levels},
+        {"last_rate", result.last_rate},
+        {"least_kept", result.least_kept},
+        {"shifted_inputs", analysis::json_of(result.shifted)},
+        {"threshold", found([](const auto& of) { return of.threshold; })},
+        {"rate", found([](const auto& of) { return of.expected; })},
+        {"lower", found([](const auto& of) { return of.rate.lower; })},
+        {"upper", found([](const auto& of) { return of.rate.upper; })},
+        {"families", found([](const auto& of) { return of.families; })},
+        {"relative_error", found([](const auto& of) { return std::sqrt(of.variance); })},
+        {"counted_gearboxes", analysis::number(result.counted)}};
     if (q.rate) {
         json["rate_asked"] = *q.rate;
         json["threshold_lower"] = analysis::number(result.threshold.lower);
@@ -197,15 +200,6 @@ nlohmann::json rare_json(const RareOptions& options, const PreparedRare& prepare
         json["size"] = *options.size;
         json["size_unit"] = prepared.size.unit;
         json["threshold"] = q.threshold;
-    }
-    if (result.estimate) {
-        json["threshold"] = result.estimate->threshold;
-        json["rate"] = result.estimate->expected;
-        json["lower"] = result.estimate->rate.lower;
-        json["upper"] = result.estimate->rate.upper;
-        json["families"] = result.estimate->families;
-        json["relative_error"] = std::sqrt(result.estimate->variance);
-        json["counted_gearboxes"] = analysis::number(result.counted);
     }
     return json;
 }

@@ -140,9 +140,7 @@ int report_command(const ReportOptions& options) {
         return kBadInput;
     }
     for (const auto& [what, where] : outputs) {
-        if (!where.empty()) {
-            fmt::print("\n{}: {}\n", what, where);
-        }
+        print_written(what, where);
     }
     return kDone;
 }

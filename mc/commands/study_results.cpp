@@ -5,18 +5,12 @@
 #include <algorithm>
 #include <cmath>
 #include <exception>
-#include <nlohmann/json.hpp>
 #include <stdexcept>
 
-#include "mc/commands/commands.hpp"
 #include "mc/ensemble/results_check.hpp"
-#include "mc/files/input/problems.hpp"
 #include "mc/files/json_text.hpp"
-#include "mc/library/run/command_files.hpp"
 #include "mc/results/reliability_of_results.hpp"
 #include "mc/results/result_rows.hpp"
-#include "mc/study/schema/schema.hpp"
-#include "mc/study/schema/sizes.hpp"
 
 namespace gearpod::mc {
 

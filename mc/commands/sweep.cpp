@@ -47,7 +47,6 @@ std::string folder_of(const SweepOptions& options) {
                                : options.out;
 }
 
-// Options of the run at a point.
 RunOptions run_of(const SweepOptions& options, const SweepPoint& point) {
     RunOptions run;
     run.study = options.study;
@@ -209,11 +208,8 @@ class Sweep {
             return kBadInput;
         }
         if (options_.json != "-") {
-            fmt::print("{}\nresults: {}\n",
-                       options_.full
-                           ? report_text(report)
-                           : screen_text(report, {"All findings: the same command with --full"}),
-                       folder_of(options_));
+            print_findings(report, options_.full);
+            fmt::print("\nresults: {}\n", folder_of(options_));
             if (!options_.html.empty()) {
                 fmt::print("page: {}\n", options_.html);
             }

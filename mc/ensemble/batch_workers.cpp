@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <exception>
-#include <vector>
 
 #include "machine/clocks.hpp"
 #include "machine/no_value.hpp"

@@ -1,7 +1,6 @@
 // Computes the rows of batches.
 #pragma once
 
-#include <array>
 #include <chrono>
 #include <condition_variable>
 #include <deque>

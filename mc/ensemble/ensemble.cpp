@@ -1,7 +1,5 @@
 #include "mc/ensemble/ensemble.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <memory>
 #include <numeric>
@@ -12,8 +10,6 @@
 #include "machine/clocks.hpp"
 #include "machine/team.hpp"
 #include "mc/ensemble/messages.hpp"
-#include "mc/ensemble/ranks.hpp"
-#include "mc/results/result_rows.hpp"
 
 namespace gearpod::mc {
 namespace {

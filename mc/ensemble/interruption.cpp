@@ -5,9 +5,7 @@
 #include <array>
 #include <charconv>
 #include <csignal>
-#include <cstring>
 #include <ctime>
-#include <string_view>
 
 #include "machine/stop_signals.hpp"
 

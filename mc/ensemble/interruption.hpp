@@ -34,7 +34,6 @@ class Interruption final : public machine::CancellationSource {
     // Reason to stop, or "". `ahead`: time needed for finishing and saving.
     std::string reason(std::chrono::duration<double> ahead) const;
 
-    // True if a signal was received.
     bool signalled() const;
 
     // Cancels computations after `grace`, or earlier if that was decided before.

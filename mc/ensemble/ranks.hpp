@@ -28,7 +28,6 @@ class Ranks {
     int rank() const { return rank_; }
     int size() const { return size_; }
     bool leads() const { return rank_ == 0; }
-    // Number of ranks on this machine.
     int on_this_machine() const { return on_this_machine_; }
     // True for the lowest rank of each machine. Only these ranks have the number of machines, and
     // the number of their own machine; rank 0 is on machine 0.

@@ -5,7 +5,6 @@
 #include <stdexcept>
 
 #include "machine/no_value.hpp"
-#include "mc/ensemble/ensemble.hpp"
 #include "mc/ensemble/messages.hpp"
 
 namespace gearpod::mc {
@@ -42,55 +41,6 @@ std::string failure_reason(const EnsembleOutcome& outcome) {
 double equivalent_sample_size(double rate, double variance) {
     return rate < 1.0 ? (1.0 - rate) / (rate * variance) : kNan;
 }
-
-}  // namespace
-
-MissRateResult estimate_miss_rate(const TilePlan& tile, const EnsemblePlan& ensemble,
-                                  const MissRateRequest& request, const Ranks& ranks,
-                                  Progress& progress, const Interruption* interruption) {
-    const auto records = static_cast<std::size_t>(request.records);
-    const BatchPlan plan(0, request.gearboxes);
-    MemoryRows store(ranks.leads() ? plan.batches() : 0);
-    const EnsembleOutcome outcome = run_batches(
-        ensemble, plan,
-        {.ranks = ranks, .store = store, .progress = progress, .interruption = interruption},
-        [&]() -> BatchComputers {
-            const auto task = std::make_shared<BatchTask>(tile, ensemble);
-            task->test_noise = NoiseSampling::towards_misses;
-            return [task, records]() -> BatchComputer {
-                const auto worker = std::make_shared<BatchWorker>(*task);
-                return [task, worker, records](Batch batch, Seconds& seconds) {
-                    batch.records = records;
-                    return worker->compute(batch, seconds);
-                };
-            };
-        });
-    MissRateResult result;
-    if (!ranks.leads()) {
-        return result;
-    }
-    if (const std::string why = failure_reason(outcome); !why.empty()) {
-        throw std::runtime_error(why);
-    }
-    const RowShape& shape = ensemble.shape;
-    MissRecords all;
-    for (std::size_t batch = 0; batch < plan.batches(); ++batch) {
-        all.add(store.read(batch), shape, records);
-    }
-    const analysis::ImportanceSample sample(
-        all.values, all.weights, all.gearbox,
-        analysis::opposite(features::find_feature(request.feature)->alarm));
-    result.misses = sample.at(request.threshold, ensemble.request.confidence);
-    result.gearboxes = all.gearboxes;
-    result.failed = all.failed;
-    result.records = static_cast<long>(all.values.size());
-    result.counted = result.misses
-                         ? equivalent_sample_size(result.misses->expected, result.misses->variance)
-                         : kNan;
-    return result;
-}
-
-namespace {
 
 Group group_of(const RareRateRequest& request) {
     return request.rate ? Group::threshold : Group::test;
@@ -223,6 +173,51 @@ analysis::SplitTail::Settings settings_of(const RareRateRequest& request) {
 }
 
 }  // namespace
+
+MissRateResult estimate_miss_rate(const TilePlan& tile, const EnsemblePlan& ensemble,
+                                  const MissRateRequest& request, const Ranks& ranks,
+                                  Progress& progress, const Interruption* interruption) {
+    const auto records = static_cast<std::size_t>(request.records);
+    const BatchPlan plan(0, request.gearboxes);
+    MemoryRows store(ranks.leads() ? plan.batches() : 0);
+    const EnsembleOutcome outcome = run_batches(
+        ensemble, plan,
+        {.ranks = ranks, .store = store, .progress = progress, .interruption = interruption},
+        [&]() -> BatchComputers {
+            const auto task = std::make_shared<BatchTask>(tile, ensemble);
+            task->test_noise = NoiseSampling::towards_misses;
+            return [task, records]() -> BatchComputer {
+                const auto worker = std::make_shared<BatchWorker>(*task);
+                return [task, worker, records](Batch batch, Seconds& seconds) {
+                    batch.records = records;
+                    return worker->compute(batch, seconds);
+                };
+            };
+        });
+    MissRateResult result;
+    if (!ranks.leads()) {
+        return result;
+    }
+    if (const std::string why = failure_reason(outcome); !why.empty()) {
+        throw std::runtime_error(why);
+    }
+    const RowShape& shape = ensemble.shape;
+    MissRecords all;
+    for (std::size_t batch = 0; batch < plan.batches(); ++batch) {
+        all.add(store.read(batch), shape, records);
+    }
+    const analysis::ImportanceSample sample(
+        all.values, all.weights, all.gearbox,
+        analysis::opposite(features::find_feature(request.feature)->alarm));
+    result.misses = sample.at(request.threshold, ensemble.request.confidence);
+    result.gearboxes = all.gearboxes;
+    result.failed = all.failed;
+    result.records = static_cast<long>(all.values.size());
+    result.counted = result.misses
+                         ? equivalent_sample_size(result.misses->expected, result.misses->variance)
+                         : kNan;
+    return result;
+}
 
 long largest_gearbox_count(const RareRateRequest& request) {
     return analysis::SplitTail::values_for(settings_of(request),

@@ -10,8 +10,6 @@
 #include "mc/ensemble/gearbox/realization_features.hpp"
 #include "mc/files/atomic_file.hpp"
 #include "mc/results/provenance.hpp"
-#include "mc/results/result_rows.hpp"
-#include "mc/results/results_file.hpp"
 
 namespace gearpod::mc {
 

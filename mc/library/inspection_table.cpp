@@ -8,7 +8,6 @@
 #include <nlohmann/json.hpp>
 #include <span>
 
-#include "analysis/report/inspection_report.hpp"
 #include "machine/no_value.hpp"
 #include "mc/files/input/file_text.hpp"
 #include "mc/files/input/problems.hpp"
@@ -272,8 +271,7 @@ InspectionRequest request_of(const InspectionOptions& options, const Columns& ch
     if (!options.links.empty()) {
         request.links.clear();
         for (const analysis::Link link : analysis::kLinks) {
-            if (std::find(options.links.begin(), options.links.end(), link_name(link)) !=
-                options.links.end()) {
+            if (std::ranges::find(options.links, link_name(link)) != options.links.end()) {
                 request.links.push_back(link);
             }
         }

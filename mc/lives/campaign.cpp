@@ -9,7 +9,6 @@
 #include <stdexcept>
 
 #include "machine/no_value.hpp"
-#include "mc/ensemble/ensemble.hpp"
 
 namespace gearpod::mc {
 namespace {
@@ -34,6 +33,52 @@ constexpr std::array<RecordColumn, 5> kRecordColumns{{{"crack_depth", "m", &Life
                                                       {"record_speed", "", &LifeRecord::speed},
                                                       {"record_gain", "", &LifeRecord::gain},
                                                       {"record_noise", "", &LifeRecord::noise}}};
+
+// Names of entries in a lives file that describe the cost of its rows.
+constexpr const char *kGearboxTime = "gearboxes_processor_s", *kRecordTime = "records_processor_s",
+                     *kGearboxCount = "gearboxes_computed", *kRecordCount = "records_computed",
+                     *kRecordText = "record", *kInterpolationError = "interpolation_error";
+
+// NaN if the file does not contain it.
+double error_in(const Results& frame) {
+    const std::string text = frame.provenance_value(kInterpolationError);
+    double error = kNan;
+    std::from_chars(text.data(), text.data() + text.size(), error);
+    return error;
+}
+
+long count_in(const Results& frame, const char* name) {
+    const std::string text = frame.provenance_value(name);
+    long count = 0;
+    std::from_chars(text.data(), text.data() + text.size(), count);
+    return count;
+}
+
+BatchRows life_rows(const LifeTiles& tiles, const Batch& batch, Seconds& seconds) {
+    std::vector<Realization> gearboxes;
+    for (std::size_t i = 0; i < batch.gearboxes; ++i) {
+        gearboxes.push_back(tiles.draw({batch.group, batch.first_index + i}));
+    }
+    BatchRows rows;
+    LifeCosts costs;
+    for (std::size_t first = 0; first < gearboxes.size(); first += tiles.lanes()) {
+        const auto part =
+            std::span(gearboxes).subspan(first, std::min(tiles.lanes(), gearboxes.size() - first));
+        std::vector<InterpolationErrors> errors(part.size());
+        const auto measured_count = static_cast<std::size_t>(
+            std::ranges::count_if(part, measures_interpolation, &Realization::id));
+        const auto lives = tiles.run(part, batch.group == Group::test, costs,
+                                     std::span(errors).first(measured_count));
+        for (LaneId lane{0}; lane < part.size(); ++lane) {
+            add_life(tiles.plan().campaign, part[lane], lives[lane], errors[lane], rows);
+        }
+    }
+    seconds.integration += costs.gearboxes;
+    seconds.features += costs.records;
+    seconds.gearboxes += costs.gearbox_count;
+    seconds.records += costs.record_count;
+    return rows;
+}
 
 }  // namespace
 
@@ -134,56 +179,6 @@ LifeRow life_of_row(const CampaignPlan& plan, const Results& frame, const Result
     }
     return result;
 }
-
-namespace {
-
-// Names of entries in a lives file that describe the cost of its rows.
-constexpr const char *kGearboxTime = "gearboxes_processor_s", *kRecordTime = "records_processor_s",
-                     *kGearboxCount = "gearboxes_computed", *kRecordCount = "records_computed",
-                     *kRecordText = "record", *kInterpolationError = "interpolation_error";
-
-// NaN if the file does not contain it.
-double error_in(const Results& frame) {
-    const std::string text = frame.provenance_value(kInterpolationError);
-    double error = kNan;
-    std::from_chars(text.data(), text.data() + text.size(), error);
-    return error;
-}
-
-long count_in(const Results& frame, const char* name) {
-    const std::string text = frame.provenance_value(name);
-    long count = 0;
-    std::from_chars(text.data(), text.data() + text.size(), count);
-    return count;
-}
-
-BatchRows life_rows(const LifeTiles& tiles, const Batch& batch, Seconds& seconds) {
-    std::vector<Realization> gearboxes;
-    for (std::size_t i = 0; i < batch.gearboxes; ++i) {
-        gearboxes.push_back(tiles.draw({batch.group, batch.first_index + i}));
-    }
-    BatchRows rows;
-    LifeCosts costs;
-    for (std::size_t first = 0; first < gearboxes.size(); first += tiles.lanes()) {
-        const auto part =
-            std::span(gearboxes).subspan(first, std::min(tiles.lanes(), gearboxes.size() - first));
-        std::vector<InterpolationErrors> errors(part.size());
-        const auto measured_count = static_cast<std::size_t>(
-            std::ranges::count_if(part, measures_interpolation, &Realization::id));
-        const auto lives = tiles.run(part, batch.group == Group::test, costs,
-                                     std::span(errors).first(measured_count));
-        for (LaneId lane{0}; lane < part.size(); ++lane) {
-            add_life(tiles.plan().campaign, part[lane], lives[lane], errors[lane], rows);
-        }
-    }
-    seconds.integration += costs.gearboxes;
-    seconds.features += costs.records;
-    seconds.gearboxes += costs.gearbox_count;
-    seconds.records += costs.record_count;
-    return rows;
-}
-
-}  // namespace
 
 EnsembleOutcome run_lives(const LifeTiles& tiles, const BatchPlan& plan, const EnsembleRun& run) {
     const BatchComputer compute = [&tiles](const Batch& batch, Seconds& seconds) {

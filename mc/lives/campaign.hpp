@@ -22,10 +22,8 @@ Results lives_frame(const CampaignPlan& plan);
 // check_results() does.
 CampaignPlan check_lives(const std::string& path, const Results& frame, const RowSource& rows);
 
-// True if the interpolation errors of a gearbox are measured.
 bool measures_interpolation(const GearboxId& id);
 
-// Appends the row of a gearbox's life.
 void add_life(const CampaignPlan& plan, const Realization& gearbox, const GearboxLife& life,
               const InterpolationErrors& errors, BatchRows& rows);
 

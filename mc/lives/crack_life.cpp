@@ -8,7 +8,6 @@
 #include <numbers>
 
 #include "mc/study/random/philox.hpp"
-#include "stiffness/growth/crack_growth.hpp"
 
 namespace gearpod::mc {
 namespace {

@@ -1,8 +1,6 @@
 // Chooses the number of torques and speeds at which the gearboxes of lives are integrated.
 #pragma once
 
-#include <string>
-
 #include "machine/no_value.hpp"
 #include "mc/lives/life_tile.hpp"
 

@@ -5,16 +5,15 @@
 #include <numeric>
 
 #include "analysis/monitoring/baseline_deviations.hpp"
-#include "analysis/monitoring/monitor_performance.hpp"
 
 namespace gearpod::mc {
 
 // A feature of all lives, or the combination of several features.
 class LifeMonitor::MonitoredDeviations {
   public:
-    MonitoredDeviations(const CampaignPlan& plan, const Campaign& campaign,
+    MonitoredDeviations(std::string given, const CampaignPlan& plan, const Campaign& campaign,
                         std::vector<std::size_t> features)
-        : plan_(plan), features_(std::move(features)) {
+        : name(std::move(given)), plan_(plan), features_(std::move(features)) {
         for (const features::Feature* feature : plan.ensemble.features) {
             alarms_.push_back(feature->alarm);
         }
@@ -23,13 +22,15 @@ class LifeMonitor::MonitoredDeviations {
         cracked_ = cracked(campaign.cracked);
     }
 
+    const std::string name;
+
     analysis::MonitorPerformance performance(const analysis::Detector& detector,
                                              double per_1000_h) const {
         return analysis::monitor_performance(detector, threshold_lives_, healthy_, cracked_,
                                              per_1000_h, plan_.ensemble.request.confidence);
     }
 
-    FeatureQuantiles quantiles(const std::string& name) const {
+    FeatureQuantiles quantiles() const {
         constexpr std::size_t kPlottedLives = 32;
         FeatureQuantiles result{name, {}, {}, {}, {}};
         for (std::size_t r = 0; r < static_cast<std::size_t>(plan_.records); ++r) {
@@ -110,11 +111,6 @@ class LifeMonitor::MonitoredDeviations {
     std::vector<analysis::CrackedLife> cracked_;
 };
 
-struct LifeMonitor::NamedDeviations {
-    std::string name;
-    MonitoredDeviations deviations_of;
-};
-
 bool ranks_before(const MonitoredFeature& a, const MonitoredFeature& b) {
     return a.unranked.empty() != b.unranked.empty()
                ? a.unranked.empty()
@@ -126,18 +122,17 @@ LifeMonitor::LifeMonitor(const CampaignPlan& plan, const Campaign& campaign)
     std::vector<std::size_t> all(plan.ensemble.features.size());
     std::iota(all.begin(), all.end(), std::size_t{0});
     for (const std::size_t f : all) {
-        monitored_.push_back({std::string(plan.ensemble.features[f]->name),
-                              MonitoredDeviations(plan, campaign, {f})});
+        monitored_.emplace_back(std::string(plan.ensemble.features[f]->name), plan, campaign,
+                                std::vector<std::size_t>{f});
     }
     if (all.size() > 1 && plan.baseline_records > 0) {
-        monitored_.push_back({"fused", MonitoredDeviations(plan, campaign, all)});
+        monitored_.emplace_back("fused", plan, campaign, all);
     }
     const double rate = plan.false_alarms_per_1000_h;
-    for (const NamedDeviations& monitored : monitored_) {
+    for (const MonitoredDeviations& monitored : monitored_) {
         for (const std::string& text : plan.detectors) {
-            results_.push_back(
-                {monitored.name, text,
-                 monitored.deviations_of.performance(*analysis::parse_detector(text), rate)});
+            results_.push_back({monitored.name, text,
+                                monitored.performance(*analysis::parse_detector(text), rate)});
             results_.back().unranked = analysis::why_unranked(results_.back().performance, rate);
         }
     }
@@ -165,15 +160,15 @@ LifeMonitor::~LifeMonitor() = default;
 
 std::vector<TradeOff> LifeMonitor::trade_offs() const {
     std::vector<TradeOff> all;
-    for (const NamedDeviations& monitored : monitored_) {
+    for (const MonitoredDeviations& monitored : monitored_) {
         const auto best = std::ranges::find_if(results_, [&](const MonitoredFeature& candidate) {
             return candidate.feature == monitored.name && candidate.best_of_feature;
         });
         TradeOff trade{monitored.name, best->detector, {}};
         for (const double factor : {0.25, 0.5, 1.0, 2.0, 5.0, 10.0, 20.0}) {
             const double rate = factor * plan_.false_alarms_per_1000_h;
-            const auto performance = monitored.deviations_of.performance(
-                *analysis::parse_detector(best->detector), rate);
+            const auto performance =
+                monitored.performance(*analysis::parse_detector(best->detector), rate);
             if (!std::isnan(performance.threshold.value)) {
                 trade.points.push_back({rate, performance.false_alarms.per_1000_h,
                                         performance.share, performance.size_50.value,
@@ -187,8 +182,8 @@ std::vector<TradeOff> LifeMonitor::trade_offs() const {
 
 std::vector<FeatureQuantiles> LifeMonitor::feature_quantiles() const {
     std::vector<FeatureQuantiles> all;
-    for (const NamedDeviations& monitored : monitored_) {
-        all.push_back(monitored.deviations_of.quantiles(monitored.name));
+    for (const MonitoredDeviations& monitored : monitored_) {
+        all.push_back(monitored.quantiles());
     }
     return all;
 }

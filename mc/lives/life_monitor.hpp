@@ -1,7 +1,6 @@
 // Applies the monitoring to the lives of a campaign.
 #pragma once
 
-#include <memory>
 #include <string>
 #include <vector>
 
@@ -63,11 +62,10 @@ class LifeMonitor {
 
   private:
     class MonitoredDeviations;
-    struct NamedDeviations;
 
     const CampaignPlan& plan_;
     const Campaign& campaign_;
-    std::vector<NamedDeviations> monitored_;
+    std::vector<MonitoredDeviations> monitored_;
     std::vector<MonitoredFeature> results_;
     std::vector<std::size_t> ranking_;
 };

@@ -10,7 +10,6 @@
 #include "machine/team.hpp"
 #include "mc/ensemble/gearbox/realization_features.hpp"
 #include "mc/ensemble/gearbox/realization_signals.hpp"
-#include "mc/lives/superposition.hpp"
 #include "mc/plan/record_plan.hpp"
 #include "mc/study/noise.hpp"
 #include "signals/noise/normals.hpp"
@@ -206,7 +205,6 @@ class LifeTiles::Lane {
         return {id.group, id.index + ((2 * record + (change ? 1 : 0)) << kRecordShift)};
     }
 
-    // Coefficients of a record's signals.
     std::vector<double> coefficients_of(const LifeRecord& record, double low, double high,
                                         std::size_t parts) const {
         const std::vector<double> load_weights = tiles_.load_weights({record.torque, record.speed});
@@ -224,7 +222,6 @@ class LifeTiles::Lane {
         return coefficients;
     }
 
-    // Inputs of a record, with the noise of its sensor.
     InstanceInputs inputs_of(const LifeRecord& record) const {
         InstanceInputs inputs = inputs_;
         if (tiles_.plan_.distributions.sensor_noise_only) {
@@ -347,7 +344,6 @@ class LifeTiles::Lane {
         return starts;
     }
 
-    // Signals folded over all recordings of a record.
     LaneSignals fold_record(const SuperposedSignals& superposed,
                             std::span<const double> coefficients,
                             const std::vector<std::size_t>& starts) const {
@@ -368,7 +364,6 @@ class LifeTiles::Lane {
         return sum;
     }
 
-    // Appends the samples of all recordings.
     void add_samples(const SuperposedSignals& superposed, std::span<const double> coefficients,
                      const std::vector<std::size_t>& starts, std::vector<double>& samples) const {
         for (int i = 0; i < span_.recordings; ++i) {

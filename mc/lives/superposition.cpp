@@ -6,13 +6,22 @@
 #include "signals/spectra/synchronous_average.hpp"
 
 namespace gearpod::mc {
-
 namespace {
 
 constexpr double kPolynomialReach = 2.5;  // standard deviations
 // Where the error of linear interpolation between -1.5 and 1.5 is as large as in the middle, for a
 // quadratic function.
 constexpr double kExtrapolated = 2.1213203435596424;
+
+void add(std::span<const double> values, double factor, std::vector<double>& sum) {
+    if (factor == 0.0 || values.empty()) {
+        return;
+    }
+    sum.resize(values.size(), 0.0);
+    for (std::size_t i = 0; i < values.size(); ++i) {
+        sum[i] += factor * values[i];
+    }
+}
 
 }  // namespace
 
@@ -129,20 +138,6 @@ std::vector<double> LoadAxis::weights(double factor) const {
     }
     return all;
 }
-
-namespace {
-
-void add(std::span<const double> values, double factor, std::vector<double>& sum) {
-    if (factor == 0.0 || values.empty()) {
-        return;
-    }
-    sum.resize(values.size(), 0.0);
-    for (std::size_t i = 0; i < values.size(); ++i) {
-        sum[i] += factor * values[i];
-    }
-}
-
-}  // namespace
 
 SuperposedSignals::SuperposedSignals(std::span<const LaneSignals* const> basis, std::size_t bins,
                                      bool folds)

@@ -78,6 +78,36 @@ class ParameterReader {
     Problems& problems_;
 };
 
+// Parts of a study that calibration does not simulate.
+Problems unsupported_parts(const Study& study, const std::string& path) {
+    if (study.effects.quasi_static()) {
+        return {{path, 0, "effects.motion",
+                 "a quasi-static study has no acceleration signal to calibrate",
+                 "choose a motion with inertia, e.g. \"translational-torsional\""}};
+    }
+    Problems problems;
+    if (!study.sensor.additional.empty()) {
+        problems.push_back(
+            {path, 0, "sensor.additional", "calibration has one sensor", "remove them"});
+    }
+    if (has_housing(study)) {
+        problems.push_back({path, 0, "sensor.housing_modes",
+                            "calibration does not simulate the housing",
+                            "remove them, and a measured response (sensor.response_Hz)"});
+    }
+    if (has_range(study)) {
+        problems.push_back(
+            {path, 0, "sensor.range_m_s2", "calibration does not clip the samples", "remove it"});
+    }
+    if (has_other_sources(study)) {
+        problems.push_back({path, 0, "sensor.bearings",
+                            "calibration simulates neither faulty bearings nor neighbouring "
+                            "stages (sensor.stages)",
+                            "use recordings without them, and remove the keys"});
+    }
+    return problems;
+}
+
 }  // namespace
 
 double CalibratedInput::at(double unit) const {
@@ -115,40 +145,6 @@ std::string text_without_distributions(Study study, std::span<const CalibratedIn
     });
     return resolved_text(study);
 }
-
-namespace {
-
-// Parts of a study that calibration does not simulate.
-Problems unsupported_parts(const Study& study, const std::string& path) {
-    if (study.effects.quasi_static()) {
-        return {{path, 0, "effects.motion",
-                 "a quasi-static study has no acceleration signal to calibrate",
-                 "choose a motion with inertia, e.g. \"translational-torsional\""}};
-    }
-    Problems problems;
-    if (!study.sensor.additional.empty()) {
-        problems.push_back(
-            {path, 0, "sensor.additional", "calibration has one sensor", "remove them"});
-    }
-    if (has_housing(study)) {
-        problems.push_back({path, 0, "sensor.housing_modes",
-                            "calibration does not simulate the housing",
-                            "remove them, and a measured response (sensor.response_Hz)"});
-    }
-    if (has_range(study)) {
-        problems.push_back(
-            {path, 0, "sensor.range_m_s2", "calibration does not clip the samples", "remove it"});
-    }
-    if (has_other_sources(study)) {
-        problems.push_back({path, 0, "sensor.bearings",
-                            "calibration simulates neither faulty bearings nor neighbouring "
-                            "stages (sensor.stages)",
-                            "use recordings without them, and remove the keys"});
-    }
-    return problems;
-}
-
-}  // namespace
 
 CalibrationPlan make_calibration_plan(const Study& study, const std::string& path) {
     CalibrationPlan plan;

@@ -336,7 +336,6 @@ class Describer {
             signals::bearing_rms(impulses, study_.sensor.low_pass_Hz));
     }
 
-    // Adds the responses of the first sensor to the forces in bearings.
     void add_bearing_responses(const Sensor& sensor) {
         for (const HousingBearing& bearing : kHousingBearings) {
             const std::string_view shaft = member_name(bearing.shaft);

@@ -2,15 +2,12 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <stdexcept>
 #include <utility>
 
 #include "machine/contracts.hpp"
 #include "mc/study/gears.hpp"
-#include "mc/study/housing.hpp"
 
 namespace gearpod::mc {
 

@@ -72,7 +72,6 @@ std::unique_ptr<const Drivetrain> make_drivetrain(const Study& study);
 // Mesh frequency at the nominal speed of its study, with the sign of mesh_frequency_rad_s().
 double nominal_mesh_frequency_Hz(const Study& study, const Drivetrain& drivetrain);
 
-// Planetary train of a study.
 gears::PlanetaryTrain planetary_train(const Study& study);
 
 class PlanetaryDrivetrain : public Drivetrain {

@@ -98,7 +98,6 @@ class BatchPlan {
     // Number of a batch in the whole ensemble.
     std::size_t number(std::size_t index) const { return part_.index + index * part_.count; }
     std::size_t batch_of_row(std::size_t row) const;
-    // Number of rows in the first `batches` batches.
     std::size_t rows_before(std::size_t batches) const;
 
   private:
@@ -141,7 +140,6 @@ struct EnsemblePlan {
     EnsemblePlan();
     explicit EnsemblePlan(const Study& study);
 
-    // Batches of the ensemble, or of one part of it.
     BatchPlan batches(const Part& part = {}) const {
         return {threshold_gearboxes, test_gearboxes, part, threshold_records};
     }

@@ -2,9 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-
-#include "mc/plan/drivetrain.hpp"
 #include "mc/plan/scene_error.hpp"
 #include "mc/study/gears.hpp"
 #include "mc/study/schema/sizes.hpp"

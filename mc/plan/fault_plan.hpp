@@ -1,12 +1,9 @@
 // Fault of a study: its names, sizes and unit.
 #pragma once
 
-#include <memory>
 #include <string>
 #include <vector>
 
-#include "lockstep/plan/fault_schedule.hpp"
-#include "lockstep/plan/stiffness_nodes.hpp"
 #include "mc/study/faults/fault_kind.hpp"
 #include "mc/study/schema/schema.hpp"
 #include "stiffness/mesh_stiffness.hpp"

@@ -8,7 +8,6 @@ namespace {
 
 using features::SignalSet;
 
-// Signals of folded records.
 constexpr SignalSet kFolded =
     SignalSet::of<features::TeTurn, features::SensorPower, features::ToothRms<Member::planet>,
                   features::TeParts, features::HealthyRecords>();

@@ -9,14 +9,12 @@
 #include "dynamics/gearbox_matrices.hpp"
 #include "machine/contracts.hpp"
 #include "mc/plan/scene_error.hpp"
-#include "mc/plan/scene_stiffness.hpp"
 #include "mc/study/fluctuations.hpp"
 #include "mc/study/gears.hpp"
 #include "mc/study/housing.hpp"
 #include "mc/study/other_sources.hpp"
 
 namespace gearpod::mc {
-
 namespace {
 
 dynamics::PlanetaryLayout planetary_layout(const Study& study) {
@@ -194,6 +192,37 @@ std::optional<ExcitationModel> excitation_model(const Study& study) {
     return model;
 }
 
+// True if the study gives every mass and inertia that the modes need.
+bool has_masses(const Study& study) {
+    const Gearbox& g = study.gearbox;
+    const FixedShaft& f = study.fixed_shaft;
+    const auto has = [&](Member member) { return g.bodies[member].mass_kg.has_value(); };
+    return g.kind == GearboxKind::planetary ? has(Member::sun) && has(Member::planet) &&
+                                                  has(Member::ring) && has(Member::carrier)
+                                            : has(Member::pinion) && has(Member::gear) &&
+                                                  f.motor_inertia_kg_m2 && f.load_inertia_kg_m2;
+}
+
+// End of a shaft at a gearbox. The shaft's positive sense is that in which it turns.
+lockstep::ShaftEnd shaft_end(const GearboxPlan& gearbox, Member shaft) {
+    const auto& layout = gearbox.bodies.layout;
+    const ShaftDegree degree = gearbox.drivetrain->shaft_degree(layout, shaft);
+    const double turning = gearbox.drivetrain->rotation_m_s(gearbox.nominal) *
+                           dynamics::rigid_rotation(layout)(degree.degree);
+    return {degree.degree, std::copysign(1.0 / degree.radius_m, turning)};
+}
+
+// Inertia of the whole nominal gearbox as that shaft feels it while no spring deflects, kg m^2.
+double shaft_inertia_kg_m2(const GearboxPlan& gearbox, Member shaft) {
+    const auto& layout = gearbox.bodies.layout;
+    const lockstep::ShaftEnd end = shaft_end(gearbox, shaft);
+    const auto inputs = gearbox.inputs(gearbox.nominal);
+    const Eigen::VectorXd turn = dynamics::rigid_rotation(layout);
+    const std::vector<double> none(static_cast<std::size_t>(dynamics::pairs(layout)), 0.0);
+    const double rate = end.turn_per_m * turn(end.degree);
+    return turn.dot(dynamics::assemble(layout, inputs, none).mass * turn) / (rate * rate);
+}
+
 }  // namespace
 
 BodyModel::BodyModel(const Study& study)
@@ -258,21 +287,6 @@ signals::BearingImpulses bearing_impulses(const GearboxPlan& gearbox, const Inst
         .damping = bearing.damping};
 }
 
-namespace {
-
-// True if the study gives every mass and inertia that the modes need.
-bool has_masses(const Study& study) {
-    const Gearbox& g = study.gearbox;
-    const FixedShaft& f = study.fixed_shaft;
-    const auto has = [&](Member member) { return g.bodies[member].mass_kg.has_value(); };
-    return g.kind == GearboxKind::planetary ? has(Member::sun) && has(Member::planet) &&
-                                                  has(Member::ring) && has(Member::carrier)
-                                            : has(Member::pinion) && has(Member::gear) &&
-                                                  f.motor_inertia_kg_m2 && f.load_inertia_kg_m2;
-}
-
-}  // namespace
-
 ModalPlan make_modal_plan(const Study& study) {
     if (!has_masses(study)) {
         throw SceneError("gearbox", "masses or inertias are missing, but modes need them",
@@ -289,30 +303,6 @@ ModalPlan make_modal_plan(const Study& study) {
     return {BodyModel(study),      nominal_inputs(study), std::move(mean_pairs),
             std::move(drivetrain), speed_member(study),   is_coupled(study)};
 }
-
-namespace {
-
-// End of a shaft at a gearbox. The shaft's positive sense is that in which it turns.
-lockstep::ShaftEnd shaft_end(const GearboxPlan& gearbox, Member shaft) {
-    const auto& layout = gearbox.bodies.layout;
-    const ShaftDegree degree = gearbox.drivetrain->shaft_degree(layout, shaft);
-    const double turning = gearbox.drivetrain->rotation_m_s(gearbox.nominal) *
-                           dynamics::rigid_rotation(layout)(degree.degree);
-    return {degree.degree, std::copysign(1.0 / degree.radius_m, turning)};
-}
-
-// Inertia of the whole nominal gearbox as that shaft feels it while no spring deflects, kg m^2.
-double shaft_inertia_kg_m2(const GearboxPlan& gearbox, Member shaft) {
-    const auto& layout = gearbox.bodies.layout;
-    const lockstep::ShaftEnd end = shaft_end(gearbox, shaft);
-    const auto inputs = gearbox.inputs(gearbox.nominal);
-    const Eigen::VectorXd turn = dynamics::rigid_rotation(layout);
-    const std::vector<double> none(static_cast<std::size_t>(dynamics::pairs(layout)), 0.0);
-    const double rate = end.turn_per_m * turn(end.degree);
-    return turn.dot(dynamics::assemble(layout, inputs, none).mass * turn) / (rate * rate);
-}
-
-}  // namespace
 
 StageShaft make_shaft(const NeighbourStage& given, const GearboxPlan& other,
                       const GearboxPlan& stage) {

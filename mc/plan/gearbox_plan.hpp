@@ -150,7 +150,6 @@ ModalPlan make_modal_plan(const Study& study);
 // Elastic shafts between a gearbox and its neighbouring stages: ends, torques, natural frequencies
 // and run-in.
 
-// Shaft of a stage between these gearboxes.
 StageShaft make_shaft(const NeighbourStage& given, const GearboxPlan& other,
                       const GearboxPlan& stage);
 

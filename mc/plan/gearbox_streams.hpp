@@ -54,7 +54,6 @@ std::uint64_t source_index(std::uint64_t seed, const GearboxId& id, StreamPurpos
 
 // Random numbers for a purpose that belong to the gearbox, the same in all its records.
 Philox gearbox_stream(std::uint64_t seed, const GearboxId& id, StreamPurpose purpose);
-// Random numbers that belong to one record.
 Philox record_stream(std::uint64_t seed, const GearboxId& id, StreamPurpose purpose);
 // Random numbers of a record's noise: different in every repetition; the first repetition uses
 // record_stream().

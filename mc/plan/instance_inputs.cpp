@@ -1,11 +1,9 @@
 #include "mc/plan/instance_inputs.hpp"
 
 #include <cmath>
-#include <limits>
 #include <map>
 #include <numbers>
 #include <string>
-#include <variant>
 
 #include "mc/study/faults/fault_kind.hpp"
 #include "mc/study/gears.hpp"
@@ -27,22 +25,6 @@ std::optional<InputId> find_input_id(std::string_view key) {
     const auto found = ids.find(key);
     return found == ids.end() ? std::nullopt : std::optional(found->second);
 }
-
-}  // namespace
-
-InputId input_id(std::string_view key) {
-    return find_input_id(key).value();
-}
-
-InputValues::InputValues(const Study& study) {
-    for (const Key& key : schema()) {
-        if (key.may_be_random()) {
-            values_.push_back(std::get<NumberAccess>(key.access).get(study));
-        }
-    }
-}
-
-namespace {
 
 double angle_of(const Gearbox& gearbox, std::size_t planet) {
     return gearbox.planet_positions_rad.empty()
@@ -100,7 +82,6 @@ InputsRecipe::Body body_recipe(const Study& study, Member member) {
     return body;
 }
 
-// Inputs of one gearbox as they are computed from its values.
 class Computation {
   public:
     Computation(const InputsRecipe& recipe, const InputValues& values)
@@ -201,7 +182,6 @@ class Computation {
                 values_.or_0<"operation.speed_noise_band_Hz">()};
     }
 
-    // Speed of speed_member().
     double speed_rad_s() const {
         for (const std::optional<double> given :
              {values_.get<"operation.pinion_speed_rpm">(), values_.get<"operation.sun_speed_rpm">(),
@@ -218,6 +198,18 @@ class Computation {
 };
 
 }  // namespace
+
+InputId input_id(std::string_view key) {
+    return find_input_id(key).value();
+}
+
+InputValues::InputValues(const Study& study) {
+    for (const Key& key : schema()) {
+        if (key.may_be_random()) {
+            values_.push_back(std::get<NumberAccess>(key.access).get(study));
+        }
+    }
+}
 
 InputsRecipe::InputsRecipe(const Study& study)
     : nominal(study), planets(given_planets(study)), noise(noise_model(study)) {

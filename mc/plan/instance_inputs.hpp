@@ -2,7 +2,6 @@
 // random, else nominal.
 #pragma once
 
-#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <functional>
@@ -48,7 +47,6 @@ class InputValues {
     std::vector<std::optional<double>> values_;
 };
 
-// Deviations of each planet of one gearbox.
 using Planets = std::array<dynamics::PlanetDeviations, dynamics::kMaxPlanets>;
 
 // Inputs of one body; all 0 if the gearbox does not have it.
@@ -106,7 +104,6 @@ struct InstanceInputs {
     double paris_factor, paris_exponent, curve_pace;
 };
 
-// Noise of the sensor in a gearbox with these inputs.
 inline SensorNoise noise_of(const InstanceInputs& inputs) {
     return {inputs.noise_m_s2, inputs.white_noise_m_s2, inputs.background_noise_m_s2};
 }

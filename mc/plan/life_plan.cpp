@@ -48,6 +48,76 @@ std::vector<double> means_of_parts(int parts) {
     return means;
 }
 
+int first_step_of(const Life& life) {
+    constexpr double kRounding = 1e-9;
+    const double steps = crack_begin_m(life) / *life.last_depth_m * life.depth_steps;
+    return std::min(static_cast<int>(steps + kRounding), life.depth_steps - 1);
+}
+
+// Study of the gearboxes: inputs that vary by record keep their nominal values.
+Study study_of_gearboxes(const Study& study) {
+    Study all = study;
+    std::erase_if(all.random,
+                  [](const RandomInput& input) { return input.distribution.per_record(); });
+    return all;
+}
+
+double mesh_frequency_Hz(const Drivetrain& drivetrain, double speed_rad_s) {
+    return std::abs(drivetrain.mesh_frequency_rad_s(speed_rad_s)) / (2.0 * std::numbers::pi);
+}
+
+RecordSpan span_of(const RecordLength& length, int recordings, const signals::SpanLayout& span,
+                   double mesh_Hz) {
+    RecordSpan record{span.ring_teeth, span.ring_teeth, recordings};
+    if (length.given()) {
+        check_record_length(length, span, mesh_Hz);
+        record.turns = whole_turns(length, span, mesh_Hz);
+    }
+    return record;
+}
+
+// Length of a recording, s.
+double recording_s(const RecordSpan& record, int planet_teeth, double mesh_Hz) {
+    return record.turns * planet_teeth / mesh_Hz;
+}
+
+std::string record_text(const Study& study, const GearboxPlan& gearbox) {
+    const signals::SpanLayout span = gearbox.drivetrain->span();
+    const double mesh_Hz = mesh_frequency_Hz(*gearbox.drivetrain, gearbox.nominal.speed_rad_s);
+    const RecordSpan record =
+        span_of(life_record_length(study), study.life.recordings, span, mesh_Hz);
+    const int teeth = span.planet_teeth;
+    std::string text = fmt::format("{} turns of {} mesh periods, {:.3g} s", record.turns, teeth,
+                                   recording_s(record, teeth, mesh_Hz));
+    if (record.recordings > 1) {
+        text += fmt::format(", averaged over {} such recordings", record.recordings);
+    }
+    return text +
+           (record.turns >= record.all_turns
+                ? fmt::format(": each of the {} teeth with all {} mating teeth", teeth,
+                              record.all_turns)
+                : fmt::format(
+                      ": each of the {} teeth with {} of its {} mating teeth, chosen at random",
+                      teeth, record.turns, record.all_turns));
+}
+
+CrackedTooth cracked_tooth(const Study& study, const GearboxPlan& gearbox) {
+    const FaultPlace place = fault_places(study.fault).front();
+    const Member member = *study.fault.member;
+    return {gearbox.stiffness->meshes()[place.mesh].geometry.value(), place.gear, profile_of(study),
+            crack_angle_rad(study), study.gearbox.face_width_m.value(), crack_law(study),
+            gearbox.teeth[member],
+            // A tooth of a central gear meets every planet in turn.
+            member == Member::sun ? gearbox.planets : 1};
+}
+
+std::variant<ParisStart, DepthCurve> growth_of(const Life& life) {
+    if (life.curve_h.empty()) {
+        return ParisStart{life.first_depth_m.value()};
+    }
+    return DepthCurve{life.curve_h, life.curve_depth_m};
+}
+
 }  // namespace
 
 RecordDistribution::RecordDistribution(const Study& study, RecordQuantity quantity, double scatter,
@@ -139,25 +209,6 @@ RecordDistributions::RecordDistributions(const Study& study)
           return input.distribution.per_record() && input.quantity == RecordQuantity::noise;
       })) {}
 
-namespace {
-
-// Step of depth in which the crack begins to grow.
-int first_step_of(const Life& life) {
-    constexpr double kRounding = 1e-9;
-    const double steps = crack_begin_m(life) / *life.last_depth_m * life.depth_steps;
-    return std::min(static_cast<int>(steps + kRounding), life.depth_steps - 1);
-}
-
-// Study of the gearboxes: inputs that vary by record keep their nominal values.
-Study study_of_gearboxes(const Study& study) {
-    Study all = study;
-    std::erase_if(all.random,
-                  [](const RandomInput& input) { return input.distribution.per_record(); });
-    return all;
-}
-
-}  // namespace
-
 CampaignPlan make_campaign_plan(const Study& study) {
     EnsemblePlan ensemble(study);
     ensemble.inputs = EnsemblePlan(study_of_gearboxes(study)).inputs;
@@ -183,66 +234,6 @@ std::optional<CampaignPlan> recorded_campaign_plan(const std::string& study_text
     return study && study->life.interval_h ? std::optional(make_campaign_plan(*study))
                                            : std::nullopt;
 }
-
-namespace {
-
-double mesh_frequency_Hz(const Drivetrain& drivetrain, double speed_rad_s) {
-    return std::abs(drivetrain.mesh_frequency_rad_s(speed_rad_s)) / (2.0 * std::numbers::pi);
-}
-
-RecordSpan span_of(const RecordLength& length, int recordings, const signals::SpanLayout& span,
-                   double mesh_Hz) {
-    RecordSpan record{span.ring_teeth, span.ring_teeth, recordings};
-    if (length.given()) {
-        check_record_length(length, span, mesh_Hz);
-        record.turns = whole_turns(length, span, mesh_Hz);
-    }
-    return record;
-}
-
-// Length of a recording, s.
-double recording_s(const RecordSpan& record, int planet_teeth, double mesh_Hz) {
-    return record.turns * planet_teeth / mesh_Hz;
-}
-
-std::string record_text(const Study& study, const GearboxPlan& gearbox) {
-    const signals::SpanLayout span = gearbox.drivetrain->span();
-    const double mesh_Hz = mesh_frequency_Hz(*gearbox.drivetrain, gearbox.nominal.speed_rad_s);
-    const RecordSpan record =
-        span_of(life_record_length(study), study.life.recordings, span, mesh_Hz);
-    const int teeth = span.planet_teeth;
-    std::string text = fmt::format("{} turns of {} mesh periods, {:.3g} s", record.turns, teeth,
-                                   recording_s(record, teeth, mesh_Hz));
-    if (record.recordings > 1) {
-        text += fmt::format(", averaged over {} such recordings", record.recordings);
-    }
-    return text +
-           (record.turns >= record.all_turns
-                ? fmt::format(": each of the {} teeth with all {} mating teeth", teeth,
-                              record.all_turns)
-                : fmt::format(
-                      ": each of the {} teeth with {} of its {} mating teeth, chosen at random",
-                      teeth, record.turns, record.all_turns));
-}
-
-CrackedTooth cracked_tooth(const Study& study, const GearboxPlan& gearbox) {
-    const FaultPlace place = fault_places(study.fault).front();
-    const Member member = *study.fault.member;
-    return {gearbox.stiffness->meshes()[place.mesh].geometry.value(), place.gear, profile_of(study),
-            crack_angle_rad(study), study.gearbox.face_width_m.value(), crack_law(study),
-            gearbox.teeth[member],
-            // A tooth of a central gear meets every planet in turn.
-            member == Member::sun ? gearbox.planets : 1};
-}
-
-std::variant<ParisStart, DepthCurve> growth_of(const Life& life) {
-    if (life.curve_h.empty()) {
-        return ParisStart{life.first_depth_m.value()};
-    }
-    return DepthCurve{life.curve_h, life.curve_depth_m};
-}
-
-}  // namespace
 
 namespace {
 
@@ -272,15 +263,6 @@ LifePlan make_life_plan(const Study& study, const GearboxPlan& gearbox) {
             .tooth = cracked_tooth(study, gearbox),
             .growth = growth_of(life)};
 }
-
-}  // namespace
-
-RecordSpan LifePlan::record_span(double speed_rad_s) const {
-    return span_of(length, recordings, drivetrain->span(),
-                   mesh_frequency_Hz(*drivetrain, speed_rad_s));
-}
-
-namespace {
 
 // Reason why a feature cannot be computed from superposed records; empty if it can.
 std::string feature_problem(const Study& study, const FeaturePlan& plan, const RecordSpan& record,
@@ -382,6 +364,11 @@ std::vector<std::string> keys_without_effect_on_lives(const Study& study) {
 }
 
 }  // namespace
+
+RecordSpan LifePlan::record_span(double speed_rad_s) const {
+    return span_of(length, recordings, drivetrain->span(),
+                   mesh_frequency_Hz(*drivetrain, speed_rad_s));
+}
 
 StudyLives::StudyLives(const Study& study, const FeaturePlan& features, const GearboxPlan& gearbox)
     : requested(study.life.interval_h),

@@ -10,7 +10,6 @@
 #include "machine/contracts.hpp"
 #include "mc/plan/drivetrain.hpp"
 #include "mc/plan/scene_stiffness.hpp"
-#include "stiffness/iso_6336.hpp"
 
 namespace gearpod::mc {
 namespace {

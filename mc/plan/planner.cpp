@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <utility>
 
 #include "mc/plan/feature_plan.hpp"
 #include "mc/study/fluctuations.hpp"

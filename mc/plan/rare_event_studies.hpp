@@ -7,9 +7,7 @@
 #include <vector>
 
 #include "analysis/detection/detection_table.hpp"
-#include "features/feature.hpp"
 #include "mc/plan/fault_plan.hpp"
-#include "mc/study/study.hpp"
 
 namespace gearpod::mc {
 

@@ -11,7 +11,6 @@
 #include "mc/study/keys/key.hpp"
 
 namespace gearpod::mc {
-
 namespace {
 
 std::vector<int> dimensions(const Study& study) {
@@ -95,6 +94,18 @@ std::vector<DrawnInput> drawn_inputs(const Study& study) {
     return inputs;
 }
 
+double standard_normal_quantile(double share) {
+    return -std::numbers::sqrt2 * boost::math::erfc_inv(2.0 * share);
+}
+
+// Record whose random numbers an input has: that of the gearbox is the test record, and that of the
+// baseline's assembly the first baseline record.
+GearboxId owner(GearboxId id, DrawnPer per) {
+    id.record = per == DrawnPer::gearbox ? Record::test : id.record;
+    id.baseline = per == DrawnPer::record ? id.baseline : 0;
+    return id;
+}
+
 }  // namespace
 
 SamplingPlan::SamplingPlan(const Study& study)
@@ -146,24 +157,6 @@ DrawPlan::DrawPlan(const Study& study)
     }
 }
 
-namespace {
-
-// Standard normal quantile at probability `share`.
-double standard_normal_quantile(double share) {
-    return -std::numbers::sqrt2 * boost::math::erfc_inv(2.0 * share);
-}
-
-// Record whose random numbers an input has: that of the gearbox is the test record, and that of the
-// baseline's assembly the first baseline record.
-GearboxId owner(GearboxId id, DrawnPer per) {
-    id.record = per == DrawnPer::gearbox ? Record::test : id.record;
-    id.baseline = per == DrawnPer::record ? id.baseline : 0;
-    return id;
-}
-
-}  // namespace
-
-// Uniform variates of the correlated inputs.
 std::vector<double> Sampler::uniform_variates(const GearboxId& id) const {
     return plan_.copula.uniform_variates([&](std::size_t input) {
         if (plan_.sampling.has(input)) {

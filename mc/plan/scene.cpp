@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <numbers>
 #include <stdexcept>
 
 #include "dynamics/gearbox_matrices.hpp"
@@ -99,22 +98,6 @@ Study stage_study(const Study& study, const NeighbourStage& stage, const Study& 
     return adapted;
 }
 
-}  // namespace
-
-std::vector<Study> stage_studies(const Study& study) {
-    const std::vector<NeighbourStage>& stages = study.sensor.stages;
-    std::vector<Study> studies;
-    for (const NeighbourStage& stage : stages) {
-        check_steady(stage);
-        const auto of = std::ranges::find(stages, stage.of, &NeighbourStage::name) - stages.begin();
-        studies.push_back(stage_study(
-            study, stage, stage.of.empty() ? study : studies[static_cast<std::size_t>(of)]));
-    }
-    return studies;
-}
-
-namespace {
-
 void check_other_fault(const NeighbourStage& stage, const Study& study) {
     if (stage.role == SourceRole::other_fault && !(nominal_inputs(study).fault_size > 0.0) &&
         std::ranges::none_of(study.random, [](const RandomInput& input) {
@@ -160,82 +143,6 @@ std::vector<StagePlan> make_stages(const Study& study, const GearboxPlan& gearbo
     }
     return stages;
 }
-
-}  // namespace
-
-bool share_steps(Numerics a, const Numerics& b) {
-    a.convergence_tolerance = b.convergence_tolerance;
-    a.tolerance = b.tolerance;
-    a.scatter_tolerance = b.scatter_tolerance;
-    return a == b;
-}
-
-Scene::Scene(const Study& study)
-    : ensemble_(std::make_shared<const EnsemblePlan>(with_gears(study))) {
-    tile_.sampler = std::make_shared<const Sampler>(DrawPlan(study));
-    auto gearbox = std::make_shared<GearboxPlan>(study);
-    auto steps = std::make_shared<const ScenePlan>(make_plan(study, sampler(), *gearbox));
-    gearbox->stages = make_stages(study, *gearbox);
-    tile_.gearbox = std::move(gearbox);
-    const Drivetrain& drivetrain = *tile_.gearbox->drivetrain;
-    tile_.features = make_feature_plan(study, drivetrain.span());
-    const int samples = steps->integration.grid.samples;
-    tile_.sensors = std::make_shared<const std::vector<SensorPlan>>(
-        make_sensor_plans(study, drivetrain, samples));
-    tile_.record =
-        make_record_plan(study, *tile_.gearbox, features(), sensors(), samples, steps->te_samples);
-    tile_.solve = std::make_shared<const SolvePlan>(SolveSettings(study), *tile_.gearbox, record(),
-                                                    std::move(steps));
-    lives_ = std::make_shared<const StudyLives>(study, features(), *tile_.gearbox);
-}
-
-const LifePlan& Scene::life() const {
-    if (!lives_->plan) {
-        throw lives_->problems.front();
-    }
-    return *lives_->plan;
-}
-
-Scene Scene::with_numerics_of(const Study& study) const {
-    const Numerics &given = solve().settings.numerics, &numerics = study.numerics;
-    const bool same_stiffness = given.stiffness_tolerance == numerics.stiffness_tolerance;
-    Scene scene = *this;
-    scene.ensemble_ = std::make_shared<const EnsemblePlan>(study);
-    if (!same_stiffness) {
-        auto gearbox = std::make_shared<GearboxPlan>(study);
-        gearbox->stages = this->gearbox().stages;
-        scene.tile_.gearbox = std::move(gearbox);
-    }
-    const auto steps =
-        share_steps(given, numerics)
-            ? solve().steps
-            : std::make_shared<const ScenePlan>(make_plan(study, sampler(), scene.gearbox()));
-    scene.tile_.solve =
-        std::make_shared<const SolvePlan>(SolveSettings(study), scene.gearbox(), record(), steps);
-    return scene;
-}
-
-TilePlan TilePlan::recording_at_most(int meshes) const {
-    TilePlan tile = *this;
-    tile.record.recorded_meshes = std::min(record.signal_meshes, meshes);
-    tile.solve =
-        std::make_shared<const SolvePlan>(solve->settings, *gearbox, tile.record, solve->steps);
-    return tile;
-}
-
-TilePlan TilePlan::of_span() const {
-    if (!record.length) {
-        return *this;
-    }
-    TilePlan tile = *this;
-    tile.record.length.reset();
-    tile.record.signal_meshes = features.signal_meshes;
-    tile.record.same_window = tile.record.same_positions = 1;
-    tile.record.samples_needed = samples_of(*sensors);
-    return tile.recording_at_most(features.signal_meshes);
-}
-
-namespace {
 
 // Longest run-in that is accepted, in recorded mesh periods.
 constexpr double kLongestRunIn = 10.0;
@@ -454,6 +361,90 @@ void check_train(const Study& study, const Scene& scene) {
 }
 
 }  // namespace
+
+std::vector<Study> stage_studies(const Study& study) {
+    const std::vector<NeighbourStage>& stages = study.sensor.stages;
+    std::vector<Study> studies;
+    for (const NeighbourStage& stage : stages) {
+        check_steady(stage);
+        const auto of = std::ranges::find(stages, stage.of, &NeighbourStage::name) - stages.begin();
+        studies.push_back(stage_study(
+            study, stage, stage.of.empty() ? study : studies[static_cast<std::size_t>(of)]));
+    }
+    return studies;
+}
+
+bool share_steps(Numerics a, const Numerics& b) {
+    a.convergence_tolerance = b.convergence_tolerance;
+    a.tolerance = b.tolerance;
+    a.scatter_tolerance = b.scatter_tolerance;
+    return a == b;
+}
+
+Scene::Scene(const Study& study)
+    : ensemble_(std::make_shared<const EnsemblePlan>(with_gears(study))) {
+    tile_.sampler = std::make_shared<const Sampler>(DrawPlan(study));
+    auto gearbox = std::make_shared<GearboxPlan>(study);
+    auto steps = std::make_shared<const ScenePlan>(make_plan(study, sampler(), *gearbox));
+    gearbox->stages = make_stages(study, *gearbox);
+    tile_.gearbox = std::move(gearbox);
+    const Drivetrain& drivetrain = *tile_.gearbox->drivetrain;
+    tile_.features = make_feature_plan(study, drivetrain.span());
+    const int samples = steps->integration.grid.samples;
+    tile_.sensors = std::make_shared<const std::vector<SensorPlan>>(
+        make_sensor_plans(study, drivetrain, samples));
+    tile_.record =
+        make_record_plan(study, *tile_.gearbox, features(), sensors(), samples, steps->te_samples);
+    tile_.solve = std::make_shared<const SolvePlan>(SolveSettings(study), *tile_.gearbox, record(),
+                                                    std::move(steps));
+    lives_ = std::make_shared<const StudyLives>(study, features(), *tile_.gearbox);
+}
+
+const LifePlan& Scene::life() const {
+    if (!lives_->plan) {
+        throw lives_->problems.front();
+    }
+    return *lives_->plan;
+}
+
+Scene Scene::with_numerics_of(const Study& study) const {
+    const Numerics &given = solve().settings.numerics, &numerics = study.numerics;
+    const bool same_stiffness = given.stiffness_tolerance == numerics.stiffness_tolerance;
+    Scene scene = *this;
+    scene.ensemble_ = std::make_shared<const EnsemblePlan>(study);
+    if (!same_stiffness) {
+        auto gearbox = std::make_shared<GearboxPlan>(study);
+        gearbox->stages = this->gearbox().stages;
+        scene.tile_.gearbox = std::move(gearbox);
+    }
+    const auto steps =
+        share_steps(given, numerics)
+            ? solve().steps
+            : std::make_shared<const ScenePlan>(make_plan(study, sampler(), scene.gearbox()));
+    scene.tile_.solve =
+        std::make_shared<const SolvePlan>(SolveSettings(study), scene.gearbox(), record(), steps);
+    return scene;
+}
+
+TilePlan TilePlan::recording_at_most(int meshes) const {
+    TilePlan tile = *this;
+    tile.record.recorded_meshes = std::min(record.signal_meshes, meshes);
+    tile.solve =
+        std::make_shared<const SolvePlan>(solve->settings, *gearbox, tile.record, solve->steps);
+    return tile;
+}
+
+TilePlan TilePlan::of_span() const {
+    if (!record.length) {
+        return *this;
+    }
+    TilePlan tile = *this;
+    tile.record.length.reset();
+    tile.record.signal_meshes = features.signal_meshes;
+    tile.record.same_window = tile.record.same_positions = 1;
+    tile.record.samples_needed = samples_of(*sensors);
+    return tile.recording_at_most(features.signal_meshes);
+}
 
 void check_stages(const Study& study, const Scene& scene) {
     const std::vector<StagePlan>& stages = scene.gearbox().stages;

@@ -2,12 +2,10 @@
 #pragma once
 
 #include <memory>
-#include <optional>
 #include <vector>
 
 #include "mc/plan/ensemble_plan.hpp"
 #include "mc/plan/life_plan.hpp"
-#include "mc/plan/scene_error.hpp"
 #include "mc/plan/tile_plan.hpp"
 #include "mc/study/study.hpp"
 

@@ -1,24 +1,18 @@
 #include "mc/plan/scene_stiffness.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <ranges>
 
 #include "dynamics/helical_pair.hpp"
-#include "gears/tooth_deviations.hpp"
 #include "machine/contracts.hpp"
-#include "mc/plan/drivetrain.hpp"
 #include "mc/plan/scene_error.hpp"
 #include "mc/study/faults/fault_kind.hpp"
-#include "mc/study/gears.hpp"
 #include "mc/study/schema/sizes.hpp"
 #include "stiffness/additive_mesh.hpp"
 #include "stiffness/coupled_mesh.hpp"
 #include "stiffness/gapped_mesh.hpp"
 #include "stiffness/helical_mesh.hpp"
-#include "stiffness/loaded_mesh.hpp"
 #include "stiffness/square_wave_mesh.hpp"
 
 namespace gearpod::mc {
@@ -138,6 +132,71 @@ void add_gaps(const Study& study, double force_N, SceneMesh& mesh) {
                                                                    overlap, gaps, force_N, slices);
 }
 
+gears::DeviationScales grade_5(const Gearbox& gearbox, const gears::Gear& gear) {
+    const double normal_module_m = gear.module_m * normal_over_transverse(gearbox);
+    return gears::scales_of(
+        gears::tooth_tolerances(normal_module_m, 2.0 * gear.pitch_radius(), 5.0), gear.teeth,
+        gear.pressure_angle_rad);
+}
+
+// Stiffness with all tooth pairs in contact that can touch at a position.
+double sum_of_springs(const stiffness::MeshStiffness& mesh, double tau) {
+    std::vector<stiffness::ContactSpring> springs;
+    add_springs(mesh, tau, tau, springs);
+    return secant_stiffness(springs, 0.0);
+}
+
+void check_sizes(const FaultPlan& plan, const stiffness::ToothFaultFamily& family) {
+    for (const double size : plan.sizes) {
+        const std::vector<std::string> problems = family.problems(size);
+        if (!problems.empty()) {
+            throw SceneError(plan.size_key->path(), problems.front(), "");
+        }
+    }
+}
+
+lockstep::PlanetPositions planet_positions(const Study& study) {
+    const gears::PlanetPositions planets = gears::planet_positions(planetary_train(study));
+    lockstep::PlanetPositions turns;
+    for (const int step : planets.step) {
+        turns.position.push_back(static_cast<double>(step) / planets.steps);
+    }
+    return turns;
+}
+
+lockstep::FaultPattern make_pattern(const Study& study, const lockstep::PairSet& pairs) {
+    const Fault& f = study.fault;
+    const int teeth = teeth_of(study, *f.member).value();
+    switch (*f.member) {
+        case Member::sun:
+            return lockstep::sun_fault_pattern(pairs, planet_positions(study), teeth);
+        case Member::ring:
+            return lockstep::ring_fault_pattern(pairs, planet_positions(study), teeth);
+        case Member::planet:
+            return lockstep::planet_fault_pattern(pairs, PlanetId{f.planet - 1}, *f.side, teeth);
+        case Member::pinion:
+        case Member::gear:
+            return lockstep::shaft_fault_pattern(pairs, teeth);
+        case Member::carrier:
+            return {};
+    }
+    return {};
+}
+
+// Pairs in which the flanks of the faulty member meet its mates.
+std::vector<int> pairs_of_member(const Fault& fault, int meshes, const lockstep::PairSet& pairs) {
+    const int per_mesh = pairs.pairs() / meshes;
+    std::vector<int> all;
+    for (const FaultPlace& place : fault_places(fault)) {
+        for (int n = 0; n < per_mesh; ++n) {
+            if (fault.member != Member::planet || n == fault.planet - 1) {
+                all.push_back(static_cast<int>(place.mesh) * per_mesh + n);
+            }
+        }
+    }
+    return all;
+}
+
 }  // namespace
 
 double pitch_error_m(const Study& study, Member member) {
@@ -228,24 +287,6 @@ std::vector<double> constant_pairs(const Study& study) {
     return k;
 }
 
-namespace {
-
-gears::DeviationScales grade_5(const Gearbox& gearbox, const gears::Gear& gear) {
-    const double normal_module_m = gear.module_m * normal_over_transverse(gearbox);
-    return gears::scales_of(
-        gears::tooth_tolerances(normal_module_m, 2.0 * gear.pitch_radius(), 5.0), gear.teeth,
-        gear.pressure_angle_rad);
-}
-
-// Stiffness with all tooth pairs in contact that can touch at a position.
-double sum_of_springs(const stiffness::MeshStiffness& mesh, double tau) {
-    std::vector<stiffness::ContactSpring> springs;
-    add_springs(mesh, tau, tau, springs);
-    return secant_stiffness(springs, 0.0);
-}
-
-}  // namespace
-
 SceneStiffness::SceneStiffness(const Study& study, const Drivetrain& drivetrain)
     : meshes_(make_meshes(study, drivetrain.mesh_force_N(nominal_inputs(study)))),
       pairs_(make_pairs(meshes_, drivetrain)),
@@ -311,61 +352,6 @@ double loaded_approach(const SceneStiffness& stiffness, PairId pair, double phas
     const SceneMesh& mesh = meshes[pair / pairs_per_mesh];
     return mesh.loaded->approach(tau - period, inside - period);
 }
-
-namespace {
-
-void check_sizes(const FaultPlan& plan, const stiffness::ToothFaultFamily& family) {
-    for (const double size : plan.sizes) {
-        const std::vector<std::string> problems = family.problems(size);
-        if (!problems.empty()) {
-            throw SceneError(plan.size_key->path(), problems.front(), "");
-        }
-    }
-}
-
-lockstep::PlanetPositions planet_positions(const Study& study) {
-    const gears::PlanetPositions planets = gears::planet_positions(planetary_train(study));
-    lockstep::PlanetPositions turns;
-    for (const int step : planets.step) {
-        turns.position.push_back(static_cast<double>(step) / planets.steps);
-    }
-    return turns;
-}
-
-lockstep::FaultPattern make_pattern(const Study& study, const lockstep::PairSet& pairs) {
-    const Fault& f = study.fault;
-    const int teeth = teeth_of(study, *f.member).value();
-    switch (*f.member) {
-        case Member::sun:
-            return lockstep::sun_fault_pattern(pairs, planet_positions(study), teeth);
-        case Member::ring:
-            return lockstep::ring_fault_pattern(pairs, planet_positions(study), teeth);
-        case Member::planet:
-            return lockstep::planet_fault_pattern(pairs, PlanetId{f.planet - 1}, *f.side, teeth);
-        case Member::pinion:
-        case Member::gear:
-            return lockstep::shaft_fault_pattern(pairs, teeth);
-        case Member::carrier:
-            return {};
-    }
-    return {};
-}
-
-// Pairs in which the flanks of the faulty member meet its mates.
-std::vector<int> pairs_of_member(const Fault& fault, int meshes, const lockstep::PairSet& pairs) {
-    const int per_mesh = pairs.pairs() / meshes;
-    std::vector<int> all;
-    for (const FaultPlace& place : fault_places(fault)) {
-        for (int n = 0; n < per_mesh; ++n) {
-            if (fault.member != Member::planet || n == fault.planet - 1) {
-                all.push_back(static_cast<int>(place.mesh) * per_mesh + n);
-            }
-        }
-    }
-    return all;
-}
-
-}  // namespace
 
 SceneFault::SceneFault(const Study& study, const std::vector<SceneMesh>& meshes,
                        const lockstep::PairSet& pairs)

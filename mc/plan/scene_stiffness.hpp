@@ -3,8 +3,6 @@
 
 #include <memory>
 #include <optional>
-#include <string>
-#include <string_view>
 #include <vector>
 
 #include "gears/mesh_geometry.hpp"
@@ -15,7 +13,6 @@
 #include "mc/plan/drivetrain.hpp"
 #include "mc/plan/fault_plan.hpp"
 #include "mc/study/gears.hpp"
-#include "mc/study/schema/schema.hpp"
 #include "stiffness/foundation/fillet_foundation.hpp"
 #include "stiffness/loaded_mesh.hpp"
 #include "stiffness/mesh_stiffness.hpp"

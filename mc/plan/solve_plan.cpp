@@ -8,7 +8,6 @@
 #include <numbers>
 #include <stdexcept>
 #include <utility>
-#include <vector>
 
 #include "dynamics/gearbox_matrices.hpp"
 #include "lockstep/integrators/facts.hpp"
@@ -18,9 +17,7 @@
 #include "lockstep/steps/stability.hpp"
 #include "lockstep/tile/superposed_motion.hpp"
 #include "lockstep/tile/tile_integrators.hpp"
-#include "mc/plan/drivetrain.hpp"
 #include "mc/plan/feature_plan.hpp"
-#include "mc/plan/gearbox_plan.hpp"
 #include "mc/plan/scene_error.hpp"
 #include "mc/study/fluctuations.hpp"
 #include "mc/study/gears.hpp"
@@ -29,7 +26,6 @@
 #include "signals/spectra/fourier_transform.hpp"
 
 namespace gearpod::mc {
-
 namespace {
 
 constexpr int kMostSteps = 1'000'000;  // per mesh period
@@ -632,14 +628,6 @@ class PlanBuilder {
     ScenePlan plan_;
 };
 
-}  // namespace
-
-ScenePlan make_plan(const Study& study, const Sampler& sampler, const GearboxPlan& gearbox) {
-    return PlanBuilder(study, sampler, gearbox).make();
-}
-
-namespace {
-
 double resolved_tolerance(const Numerics& numerics) {
     constexpr double kFinestInSingle = 1e-5;
     return numerics.precision == Precision::single_precision
@@ -736,6 +724,10 @@ std::vector<int> part_periods(const GearboxPlan& gearbox) {
 }
 
 }  // namespace
+
+ScenePlan make_plan(const Study& study, const Sampler& sampler, const GearboxPlan& gearbox) {
+    return PlanBuilder(study, sampler, gearbox).make();
+}
 
 SolveSettings::SolveSettings(const Study& study)
     : numerics(study.numerics),

@@ -6,18 +6,14 @@
 #include <memory>
 #include <optional>
 #include <variant>
-#include <vector>
 
 #include "lockstep/plan/integration_plan.hpp"
 #include "lockstep/plan/integrator.hpp"
-#include "lockstep/plan/mode_inertia.hpp"
 #include "lockstep/steps/graded_grid.hpp"
 #include "lockstep/tile/tile.hpp"
-#include "mc/plan/drivetrain.hpp"
 #include "mc/plan/gearbox_plan.hpp"
 #include "mc/plan/record_plan.hpp"
 #include "mc/plan/sampling.hpp"
-#include "mc/plan/scene_stiffness.hpp"
 
 namespace gearpod::mc {
 
@@ -79,7 +75,6 @@ struct CoupledStages {
 using SolutionStrategy =
     std::variant<PeriodicOrbit, EveryMeshPeriod, Superposed, StaticEquilibrium, CoupledStages>;
 
-// Settings of the solution that the study gives.
 struct SolveSettings {
     explicit SolveSettings(const Study& study);
 

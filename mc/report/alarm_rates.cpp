@@ -6,7 +6,6 @@
 #include <cmath>
 #include <limits>
 #include <nlohmann/json.hpp>
-#include <optional>
 #include <set>
 #include <span>
 #include <utility>
@@ -14,7 +13,6 @@
 #include "analysis/detection/threshold.hpp"
 #include "analysis/report/json_values.hpp"
 #include "analysis/report/wording.hpp"
-#include "analysis/statistics/interval.hpp"
 #include "features/feature.hpp"
 #include "features/statistics/signal_statistics.hpp"
 #include "machine/no_value.hpp"

@@ -111,8 +111,7 @@ double worst_position(const GearboxSeries& series, std::size_t i) {
         return kNan;
     }
     const auto& rms = series.teeth[i];
-    return series.first_tooth[i] +
-           static_cast<double>(std::max_element(rms.begin(), rms.end()) - rms.begin());
+    return series.first_tooth[i] + static_cast<double>(std::ranges::max_element(rms) - rms.begin());
 }
 
 std::optional<AlarmTooth> alarm_tooth(const GearboxSeries& series,

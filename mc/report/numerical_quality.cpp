@@ -6,11 +6,8 @@
 #include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
-#include <string>
-#include <utility>
 
 #include "analysis/report/wording.hpp"
-#include "mc/numerics/numerical_error.hpp"
 #include "mc/results/layout.hpp"
 
 namespace gearpod::mc {

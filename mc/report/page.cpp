@@ -1,7 +1,6 @@
 #include "mc/report/page.hpp"
 
 #include <cstdlib>
-#include <filesystem>
 #include <nlohmann/json.hpp>
 #include <span>
 #include <stdexcept>
@@ -30,7 +29,6 @@ std::filesystem::path report_folder() {
                : (program / GEARPOD_REPORT_FROM_PROGRAM).lexically_normal();
 }
 
-// Output of build_page.py for the JSON and further arguments.
 std::string build_page_output(const std::string& json, const std::vector<std::string>& arguments) {
     const char* given = std::getenv("GEARPOD_REPORT_DIR");
     const std::filesystem::path folder =

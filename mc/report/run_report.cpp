@@ -8,9 +8,7 @@
 #include <map>
 #include <nlohmann/json.hpp>
 #include <numbers>
-#include <string>
 #include <utility>
-#include <vector>
 
 #include "analysis/report/detection_json.hpp"
 #include "analysis/report/findings/findings.hpp"
@@ -19,8 +17,6 @@
 #include "features/feature.hpp"
 #include "mc/files/input/terminal_text.hpp"
 #include "mc/report/example_gearboxes.hpp"
-#include "mc/report/gearbox_values.hpp"
-#include "mc/results/layout.hpp"
 #include "mc/results/reliability_of_results.hpp"
 
 namespace gearpod::mc {
@@ -251,7 +247,6 @@ Json numerical_json(const Results& frame, const std::vector<NumericalContributio
     return json;
 }
 
-// Null instead of an empty list.
 Json list_or_null(Json list) {
     return list.empty() ? Json(nullptr) : list;
 }

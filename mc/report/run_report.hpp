@@ -39,12 +39,6 @@ struct RunFindings {
 RunFindings findings_of_run(const Results& frame, const RowSource& rows,
                             const std::optional<analysis::Reliability>& reliability);
 
-// Only the report.
-inline analysis::Report results_report(const Results& frame, const RowSource& rows,
-                                       const std::optional<analysis::Reliability>& reliability) {
-    return findings_of_run(frame, rows, reliability).report;
-}
-
 // Names of all sections that a report of a run can have, in their order.
 inline const std::vector<std::string> kRunSections{
     "state",       "answer",   "limits",       "thresholds", "rates",

@@ -84,50 +84,6 @@ bool all_zero(std::string_view bytes) {
     return bytes.find_first_not_of('\0') == std::string_view::npos;
 }
 
-}  // namespace
-
-Checkpoint::Checkpoint(std::string path, Descriptor file, const RunIdentity& identity,
-                       const BatchPlan& plan)
-    : path_(std::move(path)),
-      file_(std::move(file)),
-      identity_(identity),
-      plan_(plan),
-      header_(header_of(identity)),
-      done_(plan.batches()) {
-    if (file_.get() < 0) {
-        fail(fmt::format("cannot be opened ({})", std::strerror(errno)));
-    }
-    const std::size_t end = header_.size() + kCounterBytes + kWorkerBytes;
-    begin_ = static_cast<off_t>((end + kBlock - 1) / kBlock * kBlock);
-}
-
-void Checkpoint::fail(const std::string& what) const {
-    throw std::runtime_error(path_ + ": " + what);
-}
-
-std::size_t Checkpoint::most_rows(std::size_t batch) const {
-    return kBatchRows * (batch < plan_.threshold_batches() ? plan_.threshold_records() : 1);
-}
-
-std::size_t Checkpoint::record_bytes(std::size_t batch) const {
-    return 8 * (kStatusAt + most_rows(batch) * (1 + identity_.shape.values()) + 1);
-}
-
-off_t Checkpoint::place(std::size_t batch) const {
-    const std::size_t thresholds = std::min(batch, plan_.threshold_batches());
-    const std::size_t before =
-        (thresholds > 0 ? thresholds * record_bytes(0) : 0) +
-        (batch > thresholds ? (batch - thresholds) * record_bytes(batch) : 0);
-    return begin_ + static_cast<off_t>(before);
-}
-
-bool Checkpoint::exists(const std::string& path) {
-    struct stat status {};
-    return ::lstat(path.c_str(), &status) == 0;
-}
-
-namespace {
-
 // Description of the process that holds the lock on a file.
 std::string worker_of(int fd) {
     std::vector<std::byte> head(kMagic.size() + 8), worker(kWorkerBytes);
@@ -184,6 +140,46 @@ std::string worker_text() {
 }
 
 }  // namespace
+
+Checkpoint::Checkpoint(std::string path, Descriptor file, const RunIdentity& identity,
+                       const BatchPlan& plan)
+    : path_(std::move(path)),
+      file_(std::move(file)),
+      identity_(identity),
+      plan_(plan),
+      header_(header_of(identity)),
+      done_(plan.batches()) {
+    if (file_.get() < 0) {
+        fail(fmt::format("cannot be opened ({})", std::strerror(errno)));
+    }
+    const std::size_t end = header_.size() + kCounterBytes + kWorkerBytes;
+    begin_ = static_cast<off_t>((end + kBlock - 1) / kBlock * kBlock);
+}
+
+void Checkpoint::fail(const std::string& what) const {
+    throw std::runtime_error(path_ + ": " + what);
+}
+
+std::size_t Checkpoint::most_rows(std::size_t batch) const {
+    return kBatchRows * (batch < plan_.threshold_batches() ? plan_.threshold_records() : 1);
+}
+
+std::size_t Checkpoint::record_bytes(std::size_t batch) const {
+    return 8 * (kStatusAt + most_rows(batch) * (1 + identity_.shape.values()) + 1);
+}
+
+off_t Checkpoint::place(std::size_t batch) const {
+    const std::size_t thresholds = std::min(batch, plan_.threshold_batches());
+    const std::size_t before =
+        (thresholds > 0 ? thresholds * record_bytes(0) : 0) +
+        (batch > thresholds ? (batch - thresholds) * record_bytes(batch) : 0);
+    return begin_ + static_cast<off_t>(before);
+}
+
+bool Checkpoint::exists(const std::string& path) {
+    struct stat status {};
+    return ::lstat(path.c_str(), &status) == 0;
+}
 
 // Stores a description of this process in the file.
 void Checkpoint::write_worker() {

@@ -128,9 +128,8 @@ analysis::Subject subject_of(const Results& frame) {
 }
 
 std::size_t reference_level(const std::vector<double>& noise_levels) {
-    const auto one = std::find(noise_levels.begin(), noise_levels.end(), 1.0);
-    const auto above = std::find_if(noise_levels.begin(), noise_levels.end(),
-                                    [](double level) { return level > 0.0; });
+    const auto one = std::ranges::find(noise_levels, 1.0);
+    const auto above = std::ranges::find_if(noise_levels, [](double level) { return level > 0.0; });
     const auto found = one != noise_levels.end() ? one : above;
     return found == noise_levels.end() ? 0 : static_cast<std::size_t>(found - noise_levels.begin());
 }

@@ -17,7 +17,6 @@ namespace gearpod::mc {
 // only.
 inline constexpr std::size_t kMostAssessedValues = 50'000'000;
 
-// Columns of some rows of results.
 struct ResultColumns {
     std::vector<std::vector<double>> parameters;
     std::vector<std::vector<double>> features;  // rows x noise levels

@@ -1,9 +1,6 @@
 #include "mc/results/result_rows.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
-#include <charconv>
 #include <iterator>
 #include <map>
 #include <sstream>
@@ -16,7 +13,6 @@
 #include "mc/results/layout.hpp"
 
 namespace gearpod::mc {
-
 namespace {
 
 constexpr std::size_t kBlockRows = 512;
@@ -28,6 +24,30 @@ struct Sample {
     std::vector<std::size_t> row;
     std::vector<double> weight;  // importance weights; empty without tilted records
 };
+
+constexpr std::size_t kFileBlockRows = 4096;
+
+[[noreturn]] void refuse(const std::string& path, const Hdf5Error& error) {
+    throw std::runtime_error(path + ": is damaged or truncated (at \"" + error.what() + "\")");
+}
+
+RowBlock read_block(hid_t root, const Results& frame, std::size_t rows, RowRange range) {
+    RowBlock block;
+    block.first = range.first;
+    std::vector<std::int64_t> integers;
+    read_rows(root, "instances/group", {rows}, range, integers);
+    block.group.assign(integers.begin(), integers.end());
+    read_rows(root, "status", {rows}, range, integers);
+    block.status.assign(integers.begin(), integers.end());
+    block.values.resize(range.count * row_shape(frame).values());
+    std::vector<double> values;
+    for_each_column(frame, [&](const auto& column) {
+        read_rows(root, column.dataset, column.by_level ? Shape{rows, column.width} : Shape{rows},
+                  range, values);
+        block.put(values.data(), column.first, column.width);
+    });
+    return block;
+}
 
 }  // namespace
 
@@ -170,34 +190,6 @@ std::vector<analysis::FeatureDetection> detect_all(const Results& frame, const R
     }
     return all;
 }
-
-namespace {
-
-constexpr std::size_t kFileBlockRows = 4096;
-
-[[noreturn]] void refuse(const std::string& path, const Hdf5Error& error) {
-    throw std::runtime_error(path + ": is damaged or truncated (at \"" + error.what() + "\")");
-}
-
-RowBlock read_block(hid_t root, const Results& frame, std::size_t rows, RowRange range) {
-    RowBlock block;
-    block.first = range.first;
-    std::vector<std::int64_t> integers;
-    read_rows(root, "instances/group", {rows}, range, integers);
-    block.group.assign(integers.begin(), integers.end());
-    read_rows(root, "status", {rows}, range, integers);
-    block.status.assign(integers.begin(), integers.end());
-    block.values.resize(range.count * row_shape(frame).values());
-    std::vector<double> values;
-    for_each_column(frame, [&](const auto& column) {
-        read_rows(root, column.dataset, column.by_level ? Shape{rows, column.width} : Shape{rows},
-                  range, values);
-        block.put(values.data(), column.first, column.width);
-    });
-    return block;
-}
-
-}  // namespace
 
 FileRows::FileRows(const std::string& path, const Results& frame) : path_(path), frame_(frame) {
     try {

@@ -3,9 +3,7 @@
 #pragma once
 
 #include <cstddef>
-#include <cstdint>
 #include <functional>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -35,7 +33,6 @@ class RowStore {
     virtual void sync() {}
 };
 
-// Batches in memory.
 class MemoryRows final : public RowStore {
   public:
     explicit MemoryRows(std::size_t batches) : batches_(batches) {}
@@ -57,7 +54,6 @@ struct RowBlock {
     std::vector<double> values;
 
     std::size_t count() const { return status.size(); }
-    // Number of values in a row.
     std::size_t row_values() const { return count() == 0 ? 0 : values.size() / count(); }
     // Copies a column's values, `width` for each row, to the positions from `first_value` on in the
     // rows.
@@ -72,7 +68,6 @@ class RowSource {
     virtual void visit(const std::function<void(const RowBlock&)>& use) const = 0;
 };
 
-// One row.
 struct ResultRow {
     std::size_t index;
     int group, status;     // Group and Status
@@ -105,7 +100,6 @@ class StoredRows final : public RowSource {
     std::size_t batches_;
 };
 
-// Columns of results in memory.
 class ColumnRows final : public RowSource {
   public:
     explicit ColumnRows(const Results& results) : results_(results) {}

@@ -111,7 +111,6 @@ struct Timing {
     const char* unit = "s";  // or "1" for a count
 };
 
-// Signals of one row.
 struct RowSignals {
     std::size_t row = 0;
     std::vector<SignalColumn> columns;
@@ -173,7 +172,6 @@ struct Results {
 
     // Value of a provenance entry, "" if absent.
     std::string provenance_value(const std::string& name) const;
-    // Index of a parameter, if there is one of this name.
     std::optional<std::size_t> parameter_index(const std::string& name) const;
 };
 

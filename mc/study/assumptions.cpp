@@ -47,6 +47,16 @@ std::string baseline_differences(const Study& study) {
                          : fmt::format("that differs in {}", fmt::join(names, ", "));
 }
 
+constexpr double kYear_h = 8760.0;
+
+std::string alarms_text(double count) {
+    return fmt::format("{:.3g} false alarm{}", count, count == 1.0 ? "" : "s");
+}
+
+std::string machines_text(int machines) {
+    return machines == 1 ? "of a machine" : fmt::format("of {} machines together", machines);
+}
+
 }  // namespace
 
 std::string assumptions(const Study& study, bool lives) {
@@ -78,9 +88,8 @@ std::string assumptions(const Study& study, bool lives) {
                         : "a healthy record",
             100.0 * study.features.baseline_torque_scatter, baseline_differences(study));
     }
-    const bool alike =
-        std::all_of(study.random.begin(), study.random.end(),
-                    [](const RandomInput& input) { return input.kind == InputKind::fault_size; });
+    const bool alike = std::ranges::all_of(
+        study.random, [](const RandomInput& input) { return input.kind == InputKind::fault_size; });
     if (alike) {
         text += " Only the fault and the noise vary.";
     }
@@ -94,20 +103,6 @@ std::string assumptions(const Study& study, bool lives) {
     }
     return text;
 }
-
-namespace {
-
-constexpr double kYear_h = 8760.0;
-
-std::string alarms_text(double count) {
-    return fmt::format("{:.3g} false alarm{}", count, count == 1.0 ? "" : "s");
-}
-
-std::string machines_text(int machines) {
-    return machines == 1 ? "of a machine" : fmt::format("of {} machines together", machines);
-}
-
-}  // namespace
 
 bool has_alarm_target(const Study& study) {
     return study.detection.false_alarms_per_1000_h.has_value();

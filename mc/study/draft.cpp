@@ -1,6 +1,5 @@
 #include "mc/study/draft.hpp"
 
-
 namespace gearpod::mc {
 
 Position StudyDraft::position(const std::string& path) const {

@@ -6,7 +6,6 @@
 #include <string>
 #include <vector>
 
-#include "mc/files/input/document.hpp"
 #include "mc/study/study.hpp"
 
 namespace gearpod::mc {

@@ -21,6 +21,41 @@ constexpr std::array kPlanetaryMeshes{
 constexpr std::array kFixedShaftMeshes{
     MeshMembers{MeshKind::pinion_gear, Member::pinion, Member::gear}};
 
+bool any_random(const Study& study, std::initializer_list<const char*> keys) {
+    return std::ranges::any_of(keys,
+                               [&](const char* key) { return study.find_random(key) != nullptr; });
+}
+
+gears::Gear standard_gear(const Study& study, Member member) {
+    const Gearbox& gearbox = study.gearbox;
+    gears::Gear gear;
+    gear.teeth = teeth_of(study, member).value();
+    gear.internal = member == Member::ring;
+    gear.module_m = gearbox.transverse_module_m().value();
+    gear.pressure_angle_rad = transverse_pressure_angle_rad(gearbox);
+    gear.addendum_coefficient = gearbox.addendum_coefficient * normal_over_transverse(gearbox);
+    gear.dedendum_coefficient = gearbox.dedendum_coefficient * normal_over_transverse(gearbox);
+    return gear;
+}
+
+// Pinion and gear of a fixed-shaft gearbox, or sun and planet.
+std::pair<Member, Member> shifted_pair(const Study& study) {
+    const MeshMembers& mesh = meshes_of(study.gearbox.kind).front();
+    return {mesh.member_1, mesh.member_2};
+}
+
+std::vector<FaultPlace> places_on_planet(FaultSide side) {
+    switch (side) {
+        case FaultSide::sun:
+            return {{0, 2}};
+        case FaultSide::ring:
+            return {{1, 1}};
+        case FaultSide::both:
+            return {{0, 2}, {1, 1}};
+    }
+    return {};
+}
+
 }  // namespace
 
 std::string_view member_name(Member member) {
@@ -81,7 +116,7 @@ std::string mesh_name(const MeshMembers& mesh) {
 
 bool has_toothed_member(GearboxKind kind, Member member) {
     const auto meshes = meshes_of(kind);
-    return std::any_of(meshes.begin(), meshes.end(), [&](const MeshMembers& mesh) {
+    return std::ranges::any_of(meshes, [&](const MeshMembers& mesh) {
         return mesh.member_1 == member || mesh.member_2 == member;
     });
 }
@@ -89,15 +124,6 @@ bool has_toothed_member(GearboxKind kind, Member member) {
 std::optional<int> teeth_of(const Study& study, Member member) {
     return study.gearbox.bodies[member].teeth;
 }
-
-namespace {
-
-bool any_random(const Study& study, std::initializer_list<const char*> keys) {
-    return std::any_of(keys.begin(), keys.end(),
-                       [&](const char* key) { return study.find_random(key) != nullptr; });
-}
-
-}  // namespace
 
 bool has_static_errors(const Study& study) {
     return std::ranges::any_of(study.gearbox.meshes.values,
@@ -119,14 +145,13 @@ bool teeth_can_separate(const Study& study) {
 }
 
 bool has_tooth_quality(const Study& study) {
-    return study.errors.tooth_quality ||
-           std::any_of(kAllMembers.begin(), kAllMembers.end(), [&](Member member) {
+    return study.errors.tooth_quality || std::ranges::any_of(kAllMembers, [&](Member member) {
                return study.gearbox.bodies[member].quality.has_value();
            });
 }
 
 bool has_measured_teeth(const Study& study) {
-    return std::any_of(kAllMembers.begin(), kAllMembers.end(), [&](Member member) {
+    return std::ranges::any_of(kAllMembers, [&](Member member) {
         const MemberValues& body = study.gearbox.bodies[member];
         return !body.index_m.empty() || !body.ring_side_index_m.empty();
     });
@@ -158,7 +183,7 @@ bool stiffness_given(const Study& study) {
 bool has_gears(const Study& study) {
     const auto meshes = meshes_of(study.gearbox.kind);
     return study.gearbox.transverse_module_m() &&
-           std::all_of(meshes.begin(), meshes.end(), [&](const MeshMembers& mesh) {
+           std::ranges::all_of(meshes, [&](const MeshMembers& mesh) {
                return teeth_of(study, mesh.member_1) && teeth_of(study, mesh.member_2);
            });
 }
@@ -174,31 +199,8 @@ double normal_over_transverse(const Gearbox& gearbox) {
     return std::cos(gearbox.helix_angle_rad);
 }
 
-namespace {
-
-gears::Gear standard_gear(const Study& study, Member member) {
-    const Gearbox& gearbox = study.gearbox;
-    gears::Gear gear;
-    gear.teeth = teeth_of(study, member).value();
-    gear.internal = member == Member::ring;
-    gear.module_m = gearbox.transverse_module_m().value();
-    gear.pressure_angle_rad = transverse_pressure_angle_rad(gearbox);
-    gear.addendum_coefficient = gearbox.addendum_coefficient * normal_over_transverse(gearbox);
-    gear.dedendum_coefficient = gearbox.dedendum_coefficient * normal_over_transverse(gearbox);
-    return gear;
-}
-
-// Pinion and gear of a fixed-shaft gearbox, or sun and planet.
-std::pair<Member, Member> shifted_pair(const Study& study) {
-    const MeshMembers& mesh = meshes_of(study.gearbox.kind).front();
-    return {mesh.member_1, mesh.member_2};
-}
-
-}  // namespace
-
 bool shift_given(const Study& study) {
-    return study.gearbox.centre_distance_m ||
-           std::any_of(kAllMembers.begin(), kAllMembers.end(), [&](Member member) {
+    return study.gearbox.centre_distance_m || std::ranges::any_of(kAllMembers, [&](Member member) {
                return study.gearbox.bodies[member].profile_shift.has_value();
            });
 }
@@ -277,8 +279,8 @@ gears::FlankRelief relief_of(const Study& study, Member member) {
 }
 
 bool has_relief(const Study& study) {
-    return std::any_of(kAllMembers.begin(), kAllMembers.end(),
-                       [&](Member member) { return relief_of(study, member).any(); });
+    return std::ranges::any_of(kAllMembers,
+                               [&](Member member) { return relief_of(study, member).any(); });
 }
 
 bool has_flank_gaps(const Study& study) {
@@ -344,22 +346,6 @@ double overlap_ratio(const Study& study) {
     return g.face_width_m.value() * std::tan(g.helix_angle_rad) /
            (std::numbers::pi * g.transverse_module_m().value());
 }
-
-namespace {
-
-std::vector<FaultPlace> places_on_planet(FaultSide side) {
-    switch (side) {
-        case FaultSide::sun:
-            return {{0, 2}};
-        case FaultSide::ring:
-            return {{1, 1}};
-        case FaultSide::both:
-            return {{0, 2}, {1, 1}};
-    }
-    return {};
-}
-
-}  // namespace
 
 std::vector<FaultPlace> fault_places(const Fault& fault) {
     switch (fault.member.value()) {

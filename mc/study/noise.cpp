@@ -6,7 +6,6 @@
 #include <cmath>
 
 #include "machine/contracts.hpp"
-#include "signals/noise/coloured_noise.hpp"
 
 namespace gearpod::mc {
 

@@ -26,11 +26,10 @@ const features::Feature* find_feature(const Study& study, std::string_view name)
 }
 
 bool compares_records(const Study& study) {
-    return std::any_of(
-        study.features.use.begin(), study.features.use.end(), [&](const std::string& name) {
-            const features::Feature* feature = find_feature(study, name);
-            return feature != nullptr && feature->baseline_use != features::BaselineUse::nothing;
-        });
+    return std::ranges::any_of(study.features.use, [&](const std::string& name) {
+        const features::Feature* feature = find_feature(study, name);
+        return feature != nullptr && feature->baseline_use != features::BaselineUse::nothing;
+    });
 }
 
 bool redraws(const Study& study, std::string_view property) {

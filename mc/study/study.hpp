@@ -1,7 +1,6 @@
 // Feature of a study that a function in a Python file computes.
 #pragma once
 
-#include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>

@@ -29,6 +29,32 @@ auto with_inputs(const GearboxLayout& layout, const GearboxInputs& inputs, F f) 
                       layout);
 }
 
+GearboxMatrices without_meshes(const GearboxLayout& layout, const GearboxInputs& inputs) {
+    return assemble(layout, inputs,
+                    std::vector<double>(static_cast<std::size_t>(pairs(layout)), 0.0));
+}
+
+Eigen::MatrixX2d planetary_weight(const PlanetaryLayout& layout, const PlanetaryInputs& in) {
+    Eigen::MatrixX2d weight = Eigen::MatrixX2d::Zero(layout.motions(), 2);
+    for (int i = 0; i < 3 + layout.planets; ++i) {
+        const double mass = in.mass_kg[std::min(i, static_cast<int>(planet))];
+        weight(3 * i, 0) = weight(3 * i + 1, 1) = mass;
+    }
+    return motions_from_degrees(layout).transpose() * weight;
+}
+
+// Removes the part of the force that rotates the train as a rigid body, as for unbalanced torques
+// (fixed_shaft.cpp). Unbalanced planets cause such a part, but the rotation is prescribed.
+Eigen::VectorXd without_rigid_rotation(const Eigen::VectorXd& force, const Eigen::MatrixXd& mass,
+                                       const Eigen::VectorXd& turn) {
+    const double generalized_force = turn.dot(force);
+    if (std::abs(generalized_force) <= 1e-12 * force.cwiseAbs().sum()) {
+        return force;
+    }
+    const Eigen::VectorXd inertia = mass * turn;
+    return force - inertia * (generalized_force / turn.dot(inertia));
+}
+
 }  // namespace
 
 int degrees_of_freedom(const GearboxLayout& layout) {
@@ -124,36 +150,6 @@ Eigen::VectorXd source_row(const GearboxLayout& layout, int source, int axis) {
                                  }},
                       layout);
 }
-
-namespace {
-
-GearboxMatrices without_meshes(const GearboxLayout& layout, const GearboxInputs& inputs) {
-    return assemble(layout, inputs,
-                    std::vector<double>(static_cast<std::size_t>(pairs(layout)), 0.0));
-}
-
-Eigen::MatrixX2d planetary_weight(const PlanetaryLayout& layout, const PlanetaryInputs& in) {
-    Eigen::MatrixX2d weight = Eigen::MatrixX2d::Zero(layout.motions(), 2);
-    for (int i = 0; i < 3 + layout.planets; ++i) {
-        const double mass = in.mass_kg[std::min(i, static_cast<int>(planet))];
-        weight(3 * i, 0) = weight(3 * i + 1, 1) = mass;
-    }
-    return motions_from_degrees(layout).transpose() * weight;
-}
-
-// Removes the part of the force that rotates the train as a rigid body, as for unbalanced torques
-// (fixed_shaft.cpp). Unbalanced planets cause such a part, but the rotation is prescribed.
-Eigen::VectorXd without_rigid_rotation(const Eigen::VectorXd& force, const Eigen::MatrixXd& mass,
-                                       const Eigen::VectorXd& turn) {
-    const double generalized_force = turn.dot(force);
-    if (std::abs(generalized_force) <= 1e-12 * force.cwiseAbs().sum()) {
-        return force;
-    }
-    const Eigen::VectorXd inertia = mass * turn;
-    return force - inertia * (generalized_force / turn.dot(inertia));
-}
-
-}  // namespace
 
 Eigen::VectorXd torque_force(const GearboxLayout& layout, const GearboxInputs& inputs) {
     if (const auto* planetary = std::get_if<PlanetaryLayout>(&layout)) {

@@ -1,7 +1,6 @@
 #include "dynamics/planetary_motion.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <numbers>
 
 #include "machine/contracts.hpp"

@@ -92,7 +92,6 @@ struct FeatureInput {
     AllSignals signals_;
 };
 
-// Set of signals.
 class SignalSet {
   public:
     template <class... Signals>

@@ -4,10 +4,7 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "gears/mesh_geometry.hpp"
-
 namespace gearpod::gears {
-
 namespace {
 
 // Relief at a distance from the end of contact.
@@ -18,53 +15,6 @@ double relief_at(const FlankRelief& relief, double distance) {
     const double part = 1 - distance / relief.tip_length_m;
     return relief.tip_m * part;
 }
-
-}  // namespace
-
-double relief_gap(const MeshGeometry& mesh, const FlankRelief& gear_1, const FlankRelief& gear_2,
-                  double tau) {
-    const double since = tau * mesh.base_pitch();
-    const double until = (mesh.contact_ratio() - tau) * mesh.base_pitch();
-    return relief_at(gear_1, until) + relief_at(gear_2, since);
-}
-
-std::vector<double> relief_kinks(const MeshGeometry& mesh, const FlankRelief& gear_1,
-                                 const FlankRelief& gear_2) {
-    const double ratio = mesh.contact_ratio(), pitch = mesh.base_pitch();
-    std::vector<double> kinks;
-    const auto add = [&](double amount, double tau) {
-        if (amount > 0 && tau > 0 && tau < ratio) {
-            kinks.push_back(tau);
-        }
-    };
-    add(gear_2.tip_m, gear_2.tip_length_m / pitch);
-    add(gear_1.tip_m, ratio - gear_1.tip_length_m / pitch);
-    std::sort(kinks.begin(), kinks.end());
-    return kinks;
-}
-
-// The specific sliding grows from the pitch point towards both ends of the path.
-FlankWear::FlankWear(const MeshGeometry& mesh, int worn_gear)
-    : mesh_(mesh),
-      worn_gear_(worn_gear),
-      largest_(std::max(sliding(0), sliding(mesh.contact_ratio()))) {
-    if (!std::isfinite(largest_)) {
-        throw std::invalid_argument(
-            "contact reaches the base circle of the worn gear, where the specific sliding has no "
-            "bound");
-    }
-}
-
-double FlankWear::sliding(double tau) const {
-    return std::abs(mesh_.roll_angle(1, tau) - mesh_.roll_angle(2, tau)) /
-           mesh_.roll_angle(worn_gear_, tau);
-}
-
-double FlankWear::shape(double tau) const {
-    return sliding(std::clamp(tau, 0.0, mesh_.contact_ratio())) / largest_;
-}
-
-namespace {
 
 struct Point {
     double x, y;
@@ -159,6 +109,49 @@ double reach(const Gap& gap, double pitch, double gap_m) {
 }
 
 }  // namespace
+
+double relief_gap(const MeshGeometry& mesh, const FlankRelief& gear_1, const FlankRelief& gear_2,
+                  double tau) {
+    const double since = tau * mesh.base_pitch();
+    const double until = (mesh.contact_ratio() - tau) * mesh.base_pitch();
+    return relief_at(gear_1, until) + relief_at(gear_2, since);
+}
+
+std::vector<double> relief_kinks(const MeshGeometry& mesh, const FlankRelief& gear_1,
+                                 const FlankRelief& gear_2) {
+    const double ratio = mesh.contact_ratio(), pitch = mesh.base_pitch();
+    std::vector<double> kinks;
+    const auto add = [&](double amount, double tau) {
+        if (amount > 0 && tau > 0 && tau < ratio) {
+            kinks.push_back(tau);
+        }
+    };
+    add(gear_2.tip_m, gear_2.tip_length_m / pitch);
+    add(gear_1.tip_m, ratio - gear_1.tip_length_m / pitch);
+    std::sort(kinks.begin(), kinks.end());
+    return kinks;
+}
+
+// The specific sliding grows from the pitch point towards both ends of the path.
+FlankWear::FlankWear(const MeshGeometry& mesh, int worn_gear)
+    : mesh_(mesh),
+      worn_gear_(worn_gear),
+      largest_(std::max(sliding(0), sliding(mesh.contact_ratio()))) {
+    if (!std::isfinite(largest_)) {
+        throw std::invalid_argument(
+            "contact reaches the base circle of the worn gear, where the specific sliding has no "
+            "bound");
+    }
+}
+
+double FlankWear::sliding(double tau) const {
+    return std::abs(mesh_.roll_angle(1, tau) - mesh_.roll_angle(2, tau)) /
+           mesh_.roll_angle(worn_gear_, tau);
+}
+
+double FlankWear::shape(double tau) const {
+    return sliding(std::clamp(tau, 0.0, mesh_.contact_ratio())) / largest_;
+}
 
 double corner_gap(const MeshGeometry& mesh, double tau) {
     const double pitch = mesh.base_pitch();

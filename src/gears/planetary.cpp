@@ -135,6 +135,12 @@ void position_problems(const PlanetaryTrain& train, const PlanetDimensions& dime
         }
 }
 
+double& value_of(CentralMembers& members, Member member) {
+    return member == Member::sun    ? members.sun
+           : member == Member::ring ? members.ring
+                                    : members.carrier;
+}
+
 }  // namespace
 
 PlanetPositions planet_positions(const PlanetaryTrain& train) {
@@ -273,16 +279,6 @@ std::optional<int> meshes_per_carrier_turn(const PlanetaryTrain& train, Member f
            : fixed == Member::sun ? std::optional(train.sun_teeth)
                                   : std::nullopt;
 }
-
-namespace {
-
-double& value_of(CentralMembers& members, Member member) {
-    return member == Member::sun    ? members.sun
-           : member == Member::ring ? members.ring
-                                    : members.carrier;
-}
-
-}  // namespace
 
 Member output_member(const PowerFlow& flow) {
     for (const Member member : {Member::sun, Member::ring})

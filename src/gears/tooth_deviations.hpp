@@ -6,7 +6,6 @@
 // not rounded.
 #pragma once
 
-#include <cstdint>
 #include <vector>
 
 namespace gearpod::gears {

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "stiffness/teeth/chebyshev.hpp"
 #include "stiffness/teeth/positions.hpp"
 #include "stiffness/teeth/tooth_compliance.hpp"
 

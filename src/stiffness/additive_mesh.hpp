@@ -38,7 +38,6 @@ class AdditiveMesh : public MeshStiffness {
     double tooth_pair(double tau) const;
     // Stiffness at many positions in ascending order, with the same bits as one by one.
     void tooth_pair(std::span<const double> tau, std::span<double> stiffness) const;
-    // Stiffness of the tooth pair with the given fault.
     ToothPairCurve faulty_pair(const ToothFault& fault) const;
 
   private:

@@ -9,7 +9,6 @@
 
 #include "stiffness/foundation/foundation_models.hpp"
 #include "stiffness/piecewise_curves.hpp"
-#include "stiffness/teeth/chebyshev.hpp"
 #include "stiffness/teeth/positions.hpp"
 #include "stiffness/teeth/tooth_compliance.hpp"
 

@@ -60,7 +60,6 @@ RunningIntegral integral_of(const ToothPairCurve& curve, const std::vector<doubl
             points, kSliceTolerance * largest};
 }
 
-// Position with the least gap.
 double closest_position(const Factor& gap, double ratio) {
     double closest = 0, least = std::numeric_limits<double>::infinity();
     for (int i = 0; i < kPositions; ++i) {

@@ -43,36 +43,6 @@ double basic_rack_factor(double dedendum, double normal_angle_rad) {
     return (1.0 + 0.5 * (1.2 - dedendum)) * (1.0 - 0.02 * (kStandardAngle_deg - angle_deg));
 }
 
-}  // namespace
-
-std::optional<Iso6336Stiffness> iso_6336_stiffness(const gears::MeshGeometry& mesh,
-                                                   double helix_angle_rad,
-                                                   const Material& material) {
-    const bool swapped = !mesh.internal() && mesh.gear(2).teeth < mesh.gear(1).teeth;
-    const gears::Gear &pinion = mesh.gear(swapped ? 2 : 1), &wheel = mesh.gear(swapped ? 1 : 2);
-    const double helix_cos = std::cos(helix_angle_rad);
-    const double normal_angle = std::atan(std::tan(pinion.pressure_angle_rad) * helix_cos);
-    const double base_helix_sin = std::sin(helix_angle_rad) * std::cos(normal_angle);
-    const double base_helix_cos = std::sqrt(1.0 - base_helix_sin * base_helix_sin);
-    const CountedGear first = counted(pinion, helix_cos, base_helix_cos),
-                      second = counted(wheel, helix_cos, base_helix_cos);
-    const double shifts = first.shift + second.shift;
-    if (shifts < kLeastShifts || shifts > kMostShifts ||
-        mesh.contact_ratio() < kLeastContactRatio) {
-        return {};
-    }
-    constexpr double kPerMicrometreAndMillimetre = 1e9;  // N/(mm um) in N/m^2
-    const double factors =
-        kIso6336MeasuredOverTheory *
-        basic_rack_factor(pinion.dedendum_coefficient / helix_cos, normal_angle) * helix_cos *
-        (material.youngs_modulus_Pa / kSteel_Pa);
-    const double single = factors / theoretical_compliance(first, second) *
-                          kPerMicrometreAndMillimetre * material.face_width_m;
-    return Iso6336Stiffness{single, single * (0.75 * mesh.contact_ratio() + 0.25)};
-}
-
-namespace {
-
 using std::numbers::pi;
 
 // Angles of a helical pair, rad, and its contact ratios.
@@ -191,6 +161,32 @@ double root_stress(const gears::Gear& gear, const Helix& h, double force_per_wid
 }
 
 }  // namespace
+
+std::optional<Iso6336Stiffness> iso_6336_stiffness(const gears::MeshGeometry& mesh,
+                                                   double helix_angle_rad,
+                                                   const Material& material) {
+    const bool swapped = !mesh.internal() && mesh.gear(2).teeth < mesh.gear(1).teeth;
+    const gears::Gear &pinion = mesh.gear(swapped ? 2 : 1), &wheel = mesh.gear(swapped ? 1 : 2);
+    const double helix_cos = std::cos(helix_angle_rad);
+    const double normal_angle = std::atan(std::tan(pinion.pressure_angle_rad) * helix_cos);
+    const double base_helix_sin = std::sin(helix_angle_rad) * std::cos(normal_angle);
+    const double base_helix_cos = std::sqrt(1.0 - base_helix_sin * base_helix_sin);
+    const CountedGear first = counted(pinion, helix_cos, base_helix_cos),
+                      second = counted(wheel, helix_cos, base_helix_cos);
+    const double shifts = first.shift + second.shift;
+    if (shifts < kLeastShifts || shifts > kMostShifts ||
+        mesh.contact_ratio() < kLeastContactRatio) {
+        return {};
+    }
+    constexpr double kPerMicrometreAndMillimetre = 1e9;  // N/(mm um) in N/m^2
+    const double factors =
+        kIso6336MeasuredOverTheory *
+        basic_rack_factor(pinion.dedendum_coefficient / helix_cos, normal_angle) * helix_cos *
+        (material.youngs_modulus_Pa / kSteel_Pa);
+    const double single = factors / theoretical_compliance(first, second) *
+                          kPerMicrometreAndMillimetre * material.face_width_m;
+    return Iso6336Stiffness{single, single * (0.75 * mesh.contact_ratio() + 0.25)};
+}
 
 ToothStress iso_6336_stress(const gears::MeshGeometry& mesh, double helix_angle_rad,
                             const Material& material, double force_N) {

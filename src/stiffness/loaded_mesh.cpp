@@ -9,8 +9,7 @@ namespace gearpod::stiffness {
 // Springs come into contact in the order of their gaps. The first set that carries the force
 // without closing the next gap is the solution.
 double approach_of(std::vector<ContactSpring>& springs, double force_N) {
-    std::sort(springs.begin(), springs.end(),
-              [](const auto& a, const auto& b) { return a.gap < b.gap; });
+    std::ranges::sort(springs, [](const auto& a, const auto& b) { return a.gap < b.gap; });
     double stiffness = 0, preload = 0;
     for (std::size_t n = 0; n < springs.size(); ++n) {
         stiffness += springs[n].stiffness;

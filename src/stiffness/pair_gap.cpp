@@ -1,6 +1,5 @@
 #include "stiffness/pair_gap.hpp"
 
-#include <algorithm>
 #include <cmath>
 #include <vector>
 

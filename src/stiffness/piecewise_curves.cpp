@@ -1,13 +1,9 @@
 #include "stiffness/piecewise_curves.hpp"
 
 #include <algorithm>
-#include <array>
 #include <limits>
 
-#include "stiffness/teeth/positions.hpp"
-
 namespace gearpod::stiffness {
-
 namespace {
 
 constexpr int kCurveNodes = ToothPairCurve::kMaxTerms;
@@ -21,6 +17,10 @@ constexpr int kMaxCuts = 6;
 
 // Length in mesh periods below which a piece is merged with its neighbour.
 constexpr double kShortestPiece = 1e-8;
+
+constexpr int kPieceNodes = 32;
+constexpr int kTermsThatEnd = 26;  // more terms may mean that the omitted ones are not negligible
+constexpr int kHalvings = 8;
 
 }  // namespace
 
@@ -87,14 +87,6 @@ void ToothPairFit::add_piece(ToothPairCurve& curve, const Stiffness& stiffness, 
     }
     curve.pieces_.push_back(piece);
 }
-
-namespace {
-
-constexpr int kPieceNodes = 32;
-constexpr int kTermsThatEnd = 26;  // more terms may mean that the omitted ones are not negligible
-constexpr int kHalvings = 8;
-
-}  // namespace
 
 RunningIntegral::RunningIntegral(const Curve& curve, std::span<const double> points,
                                  double tolerance) {

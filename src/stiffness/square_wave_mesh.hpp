@@ -24,7 +24,6 @@ class SquareWaveMesh : public MeshStiffness {
     // ratio by default, not checked. Throws std::invalid_argument for other levels and ratios.
     SquareWaveMesh(double low_N_m, double high_N_m, double contact_ratio,
                    std::optional<double> pitch_position = {});
-    // Mesh of constant stiffness.
     static SquareWaveMesh constant(double stiffness_N_m) {
         return {stiffness_N_m, stiffness_N_m, 1.0};
     }

@@ -35,8 +35,8 @@ std::vector<std::size_t> spread(std::size_t count, std::size_t most, std::size_t
 
 template <typename Has>
 bool any_feature(const Findings& findings, std::size_t level, Has has) {
-    return std::any_of(findings.detection.begin(), findings.detection.end(),
-                       [&](const FeatureDetection& f) { return has(f.levels[level]); });
+    return std::ranges::any_of(findings.detection,
+                               [&](const FeatureDetection& f) { return has(f.levels[level]); });
 }
 
 bool extrapolated(const LevelDetection& level) {
@@ -307,8 +307,7 @@ void add_false_alarms(Section& section, const Findings& findings, std::size_t n)
     for (const std::size_t f : findings.order[n]) {
         const LevelReliability& level = findings.reliable(f, n);
         const auto& points = level.by_rate.points;
-        if (features == kMostFeatures ||
-            std::none_of(points.begin(), points.end(), [](const RatePoint& point) {
+        if (features == kMostFeatures || std::ranges::none_of(points, [](const RatePoint& point) {
                 return point.a90.estimate.where == SizeEstimate::Where::reached;
             })) {
             continue;

@@ -10,7 +10,6 @@
 
 #include "analysis/detection/threshold.hpp"
 #include "analysis/report/false_alarm_text.hpp"
-#include "analysis/report/wording.hpp"
 
 namespace gearpod::analysis {
 namespace {
@@ -245,6 +244,81 @@ std::string sample_limit(const Findings& findings, const SmallestFault& found) {
         with_unit(found.size, unit), findings.bound());
 }
 
+// "cracks", "pitting"
+std::string faults(const Findings& findings) {
+    return findings.fault.starts_with("a ") ? findings.fault_name() + "s" : findings.fault_name();
+}
+
+// States the detection rate of the best feature where 90 % probability is not shown.
+std::string best_text(const Findings& findings, std::size_t f, std::size_t level) {
+    const LevelDetection& detected = findings.detection[f].levels[level];
+    const FoundSizes all = sizes_without_miss(detected);
+    const long needed = tests_to_show(kReliablePd, findings.request.confidence);
+    const bool sized = has_sizes(findings.request);
+    const long most = most_per_size(detected);
+    const std::string few = fmt::format(
+        "up to {} per size cannot show 90 %: {} without a miss are needed", most, needed);
+    if (all.found > 0 && most < needed) {
+        return sized
+                   ? fmt::format("finds all {} {} of {} or more, but {}", all.found,
+                                 faults(findings), with_unit(all.from, findings.request.size), few)
+                   : fmt::format("finds all {}, but {} without a miss are needed", all.found,
+                                 needed);
+    }
+    const DetectionCell& cell = *largest_cell(detected);
+    return fmt::format("finds {} % of {}{}", percent_rate_text(cell.pd, {cell.lower, cell.upper}),
+                       sized ? "those of " + range_text(cell.size, findings.request.size)
+                             : "the faulty " + plural(findings.subject),
+                       sized && most < needed ? "; " + few : "");
+}
+
+std::string assessable_step(const Findings& findings) {
+    const DetectionRequest& request = findings.request;
+    if (findings.subject == Subject::recordings) {
+        return fmt::format(
+            "measure at least {} healthy and {} faulty recordings",
+            std::max<long>(kFewestReported, std::min(sample_for_threshold(request.false_alarm_rate),
+                                                     sample_for_tail(request.false_alarm_rate))),
+            kFewestReported);
+    }
+    if (findings.detection.empty()) {
+        return "name features (features.use)";
+    }
+    if (findings.healthy == 0 && findings.faulty == 0) {
+        return "continue the run with --resume, or read why its gearboxes failed (section "
+               "failures)";
+    }
+    if (findings.faulty < kFewestReported) {
+        return fmt::format(
+            "for detection rates, give the fault's size levels in [random], with "
+            "{} gearboxes each (ensemble.instances)",
+            tests_to_show(kReliablePd, request.confidence));
+    }
+    return fmt::format("raise ensemble.threshold_instances to {}",
+                       std::max(kFewestReported, sample_for_threshold(request.false_alarm_rate)));
+}
+
+// Gearboxes of the study with which each size has enough of them.
+std::string more_gearboxes(const Findings& findings, const LevelDetection& detected) {
+    const long needed = tests_to_show(kReliablePd, findings.request.confidence);
+    if (findings.subject == Subject::recordings) {
+        return fmt::format("test at least {} faulty machines of each size", needed);
+    }
+    const auto sizes = static_cast<long>(detected.cells.size());
+    return fmt::format("run it with --resume --instances {}, {} gearboxes for each of {} sizes",
+                       needed * sizes, needed, sizes);
+}
+
+// Loudest noise below the reference at which a fault is found.
+std::optional<std::size_t> quieter_level(const Findings& findings) {
+    for (std::size_t n = findings.reference; n-- > 0;) {
+        if (findings.smallest[n]) {
+            return n;
+        }
+    }
+    return std::nullopt;
+}
+
 }  // namespace
 
 Findings::Findings(const AssessedDetection& assessed) : AssessedDetection(assessed) {
@@ -263,9 +337,8 @@ Findings::Findings(const AssessedDetection& assessed) : AssessedDetection(assess
 }
 
 std::size_t Findings::feature(const std::string& feature_name) const {
-    const auto at =
-        std::find_if(detection.begin(), detection.end(),
-                     [&](const FeatureDetection& f) { return f.feature == feature_name; });
+    const auto at = std::ranges::find_if(
+        detection, [&](const FeatureDetection& f) { return f.feature == feature_name; });
     return static_cast<std::size_t>(at - detection.begin());
 }
 
@@ -343,38 +416,6 @@ void add_detection_sections(Report& report, const Findings& findings) {
     report.add(conditions_section(findings));
 }
 
-namespace {
-
-// "cracks", "pitting"
-std::string faults(const Findings& findings) {
-    return findings.fault.starts_with("a ") ? findings.fault_name() + "s" : findings.fault_name();
-}
-
-// States the detection rate of the best feature where 90 % probability is not shown.
-std::string best_text(const Findings& findings, std::size_t f, std::size_t level) {
-    const LevelDetection& detected = findings.detection[f].levels[level];
-    const FoundSizes all = sizes_without_miss(detected);
-    const long needed = tests_to_show(kReliablePd, findings.request.confidence);
-    const bool sized = has_sizes(findings.request);
-    const long most = most_per_size(detected);
-    const std::string few = fmt::format(
-        "up to {} per size cannot show 90 %: {} without a miss are needed", most, needed);
-    if (all.found > 0 && most < needed) {
-        return sized
-                   ? fmt::format("finds all {} {} of {} or more, but {}", all.found,
-                                 faults(findings), with_unit(all.from, findings.request.size), few)
-                   : fmt::format("finds all {}, but {} without a miss are needed", all.found,
-                                 needed);
-    }
-    const DetectionCell& cell = *largest_cell(detected);
-    return fmt::format("finds {} % of {}{}", percent_rate_text(cell.pd, {cell.lower, cell.upper}),
-                       sized ? "those of " + range_text(cell.size, findings.request.size)
-                             : "the faulty " + plural(findings.subject),
-                       sized && most < needed ? "; " + few : "");
-}
-
-}  // namespace
-
 std::string headline_text(const Findings& findings, std::size_t level) {
     if (!findings.unassessable.empty()) {
         return findings.unassessable;
@@ -419,58 +460,6 @@ std::string headline_text(const Findings& findings, std::size_t level) {
                        feature_text(findings.name(best)), best_text(findings, best, level),
                        silent_text(findings, level));
 }
-
-namespace {
-
-// Step that makes detection assessable.
-std::string assessable_step(const Findings& findings) {
-    const DetectionRequest& request = findings.request;
-    if (findings.subject == Subject::recordings) {
-        return fmt::format(
-            "measure at least {} healthy and {} faulty recordings",
-            std::max<long>(kFewestReported, std::min(sample_for_threshold(request.false_alarm_rate),
-                                                     sample_for_tail(request.false_alarm_rate))),
-            kFewestReported);
-    }
-    if (findings.detection.empty()) {
-        return "name features (features.use)";
-    }
-    if (findings.healthy == 0 && findings.faulty == 0) {
-        return "continue the run with --resume, or read why its gearboxes failed (section "
-               "failures)";
-    }
-    if (findings.faulty < kFewestReported) {
-        return fmt::format(
-            "for detection rates, give the fault's size levels in [random], with "
-            "{} gearboxes each (ensemble.instances)",
-            tests_to_show(kReliablePd, request.confidence));
-    }
-    return fmt::format("raise ensemble.threshold_instances to {}",
-                       std::max(kFewestReported, sample_for_threshold(request.false_alarm_rate)));
-}
-
-// Gearboxes of the study with which each size has enough of them.
-std::string more_gearboxes(const Findings& findings, const LevelDetection& detected) {
-    const long needed = tests_to_show(kReliablePd, findings.request.confidence);
-    if (findings.subject == Subject::recordings) {
-        return fmt::format("test at least {} faulty machines of each size", needed);
-    }
-    const auto sizes = static_cast<long>(detected.cells.size());
-    return fmt::format("run it with --resume --instances {}, {} gearboxes for each of {} sizes",
-                       needed * sizes, needed, sizes);
-}
-
-// Loudest noise below the reference at which a fault is found.
-std::optional<std::size_t> quieter_level(const Findings& findings) {
-    for (std::size_t n = findings.reference; n-- > 0;) {
-        if (findings.smallest[n]) {
-            return n;
-        }
-    }
-    return std::nullopt;
-}
-
-}  // namespace
 
 std::string next_step(const Findings& findings) {
     if (!findings.unassessable.empty()) {

@@ -2,14 +2,8 @@
 
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
-#include <cmath>
-#include <cstdint>
 #include <nlohmann/json.hpp>
-#include <optional>
-#include <string>
 #include <string_view>
-#include <variant>
 #include <vector>
 
 #include "analysis/detection/detection_table.hpp"
@@ -76,23 +70,32 @@ std::string words(const CLI::App& app) {
 
 using OrderedJson = nlohmann::ordered_json;
 
-OrderedJson option_json(const CLI::Option& option) {
-    return {{"name", option.get_name(option.get_positional(), true)},
-            {"positional", option.get_positional()},
-            {"required", option.get_required()},
-            {"type", takes_value(option) ? option.get_type_name() : std::string()},
-            {"several", option.get_items_expected_max() > 1},
-            {"meaning", option.get_description()}};
+OrderedJson option_json(const CLI::Option* option) {
+    return {{"name", option->get_name(option->get_positional(), true)},
+            {"positional", option->get_positional()},
+            {"required", option->get_required()},
+            {"type", takes_value(*option) ? option->get_type_name() : std::string()},
+            {"several", option->get_items_expected_max() > 1},
+            {"meaning", option->get_description()}};
 }
 
-OrderedJson command_json(const CLI::App& command) {
-    OrderedJson all = OrderedJson::array();
-    for (const CLI::Option* option : options(command)) {
-        all.push_back(option_json(*option));
+template <class Elements, class Function>
+OrderedJson list_json(const Elements& elements, Function json_of) {
+    OrderedJson list = OrderedJson::array();
+    for (const auto& element : elements) {
+        list.push_back(json_of(element));
     }
-    return {{"name", command.get_name()},
-            {"meaning", command.get_description()},
-            {"options", std::move(all)}};
+    return list;
+}
+
+OrderedJson command_json(const CLI::App* command) {
+    return {{"name", command->get_name()},
+            {"meaning", command->get_description()},
+            {"options", list_json(options(*command), option_json)}};
+}
+
+OrderedJson distribution_json(const DistributionHelp& distribution) {
+    return {{"name", distribution.name}, {"parameters", distribution.parameters}};
 }
 
 OrderedJson feature_json(const features::Feature& feature) {
@@ -178,32 +181,16 @@ std::string reference_json(const CLI::App& app, const std::string& version) {
     OrderedJson json = OrderedJson::object();
     json["program"] = app.get_description();
     json["version"] = version;
-    json["commands"] = OrderedJson::array();
-    for (const CLI::App* command : commands(app)) {
-        json["commands"].push_back(command_json(*command));
-    }
+    json["commands"] = list_json(commands(app), command_json);
     json["exit_codes"] = {
         {"0", "done"},
         {"2", "bad input, or an output that cannot be written; every problem is reported"},
         {"3", "some gearboxes failed; they are counted, and the results are written"},
         {"4", "stopped before the end, with a checkpoint from which --resume continues"}};
-    json["sections"] = OrderedJson::array();
-    for (const std::string_view section : section_names()) {
-        json["sections"].push_back(std::string(section));
-    }
-    json["keys"] = OrderedJson::array();
-    for (const Key& key : schema()) {
-        json["keys"].push_back(key_json(key));
-    }
-    json["distributions"] = OrderedJson::array();
-    for (const DistributionHelp& distribution : distribution_help()) {
-        json["distributions"].push_back(
-            {{"name", distribution.name}, {"parameters", distribution.parameters}});
-    }
-    json["features"] = OrderedJson::array();
-    for (const features::Feature& feature : features::all_features()) {
-        json["features"].push_back(feature_json(feature));
-    }
+    json["sections"] = section_names();
+    json["keys"] = list_json(schema(), key_json);
+    json["distributions"] = list_json(distribution_help(), distribution_json);
+    json["features"] = list_json(features::all_features(), feature_json);
     return json.dump(1) + "\n";
 }
 

@@ -3,13 +3,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <algorithm>
 #include <filesystem>
-#include <memory>
-#include <optional>
-#include <string>
-#include <utility>
-#include <vector>
 
 #include "mc/files/input/spelling.hpp"
 #include "mc/files/input/terminal_text.hpp"
@@ -49,7 +43,6 @@ bool needs_file_name(const CLI::App& command) {
     });
 }
 
-// Column in which the descriptions of options and commands start.
 constexpr std::size_t kDescriptionColumn = 30;
 
 // Two columns: a name, and its description in the same line or, after a long name, in the next one.
@@ -93,7 +86,6 @@ std::vector<std::string> separated_arguments(const CLI::App& app, int argc, char
     return words;
 }
 
-// Arguments that no option of the command takes.
 std::vector<std::string> unexpected_arguments(const CLI::App& command) {
     std::vector<std::string> problems, names;
     for (const CLI::Option* option : command.get_options()) {

@@ -5,7 +5,6 @@
 #include <boost/random/uniform_int_distribution.hpp>
 #include <cmath>
 
-#include "mc/ensemble/coupling/record_positions.hpp"
 #include "mc/plan/gearbox_plan.hpp"
 #include "mc/plan/tile_plan.hpp"
 

@@ -1,25 +1,16 @@
 #include "mc/ensemble/gearbox/gearbox_tile.hpp"
 
 #include <algorithm>
-#include <functional>
 #include <iterator>
-#include <memory>
 #include <numeric>
 #include <stdexcept>
-#include <utility>
 
 #include "lockstep/kernels/kernel_table.hpp"
 #include "lockstep/steps/stability.hpp"
-#include "machine/clocks.hpp"
 #include "mc/ensemble/coupling/neighbour_stages.hpp"
 #include "mc/ensemble/coupling/record_positions.hpp"
 #include "mc/ensemble/gearbox/integration_cache.hpp"
-#include "mc/ensemble/gearbox/solution_choice.hpp"
 #include "mc/ensemble/gearbox/tile_random_inputs.hpp"
-#include "mc/ensemble/gearbox/tile_sensors.hpp"
-#include "mc/study/fluctuations.hpp"
-#include "mc/study/other_sources.hpp"
-#include "signals/sensor/sensor_signal.hpp"
 #include "signals/spectra/synchronous_average.hpp"
 #include "signals/windowing/folded_signal.hpp"
 
@@ -250,7 +241,6 @@ void keep_solution(TileSolution solved, GearboxTile& tile) {
     }
 }
 
-// Solves the tile by the strategy of its study.
 void solve_by_choice(const TilePlan& plan, const lockstep::RecordOptions& records,
                      const OnRecord& on_record, const TileOptions& options, GearboxTile& tile) {
     const auto* coupled = std::get_if<CoupledStages>(&plan.solve->strategy);
@@ -265,7 +255,6 @@ void solve_by_choice(const TilePlan& plan, const lockstep::RecordOptions& record
                   tile);
 }
 
-// Solves the tile and records its sensor signals meanwhile.
 void solve_and_record(const TilePlan& plan, const TileOptions& options, GearboxTile& tile) {
     TileSensorRecorder recorder(plan.record, *plan.sensors, tones_of(plan, tile.realizations),
                                 tile.realizations, options.signal_meshes);
@@ -277,7 +266,6 @@ void solve_and_record(const TilePlan& plan, const TileOptions& options, GearboxT
     tile.signals_s += recorder.spent_s();
 }
 
-// Computes the signals of the sensors from an integrated tile.
 void add_signals(const TilePlan& plan, GearboxTile& tile) {
     add_status(*plan.gearbox, *plan.solve, tile);
     auto start = WallClock::now();

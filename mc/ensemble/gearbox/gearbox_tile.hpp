@@ -3,7 +3,6 @@
 #pragma once
 
 #include <functional>
-#include <memory>
 #include <optional>
 #include <span>
 #include <utility>
@@ -64,7 +63,6 @@ Status status_of(const GearboxPlan& gearbox, const SolvePlan& solve, const Insta
 
 class IntegrationCache;  // integration_cache.hpp
 
-// Signals of one lane of a tile.
 struct LaneSignals {
     std::vector<double> folded;   // as GearboxTile::folded, of the first sensor
     std::vector<double> te_turn;  // as GearboxTile::te_turn

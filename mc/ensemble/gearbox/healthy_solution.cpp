@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "mc/ensemble/gearbox/solution_choice.hpp"
 #include "mc/ensemble/gearbox/tile_sensors.hpp"
 #include "signals/sensor/sensor_signal.hpp"
 

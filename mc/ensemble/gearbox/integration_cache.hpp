@@ -14,7 +14,6 @@
 #include "mc/plan/ensemble_plan.hpp"
 #include "mc/plan/sampling.hpp"
 #include "mc/plan/solve_plan.hpp"
-#include "mc/results/result_rows.hpp"
 
 namespace gearpod::mc {
 

@@ -117,7 +117,6 @@ class LaneSamples {
     }
 
   private:
-    // Signals of the sensor in a lane.
     LaneSignals& of_lane(std::size_t i) {
         return sensor_->number == 0 ? lanes_[i] : lanes_[i].additional[sensor_->number - 1];
     }
@@ -126,7 +125,6 @@ class LaneSamples {
         return tile_.realizations[first_lane_ + i].inputs;
     }
 
-    // Samples of a lane along one of the sensor's paths.
     std::vector<double> along(std::size_t path, std::size_t i, int meshes,
                               const signals::Tones& tones = {}) const {
         if (!tile_.sensor_recorders.empty()) {
@@ -243,7 +241,6 @@ class LaneSamples {
     std::optional<signals::PeriodicResponse> response_, other_response_;
 };
 
-// Signals of `count` lanes.
 std::vector<LaneSignals> signals_of_lanes(const TilePlan& plan, const GearboxTile& tile,
                                           std::size_t first, std::size_t count, int meshes) {
     const RecordPlan& record = plan.record;

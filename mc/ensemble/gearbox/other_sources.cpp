@@ -8,13 +8,11 @@
 #include <memory>
 #include <numbers>
 #include <string>
-#include <vector>
 
 #include "machine/no_value.hpp"
 #include "machine/team.hpp"
 #include "mc/ensemble/coupling/neighbour_stages.hpp"
 #include "mc/ensemble/gearbox/record_window.hpp"
-#include "mc/ensemble/gearbox/tile_random_inputs.hpp"
 #include "signals/spectra/resampling.hpp"
 
 namespace gearpod::mc {
@@ -22,7 +20,6 @@ namespace {
 
 using Bearings = std::vector<OtherSourcesStage::NumberedBearing>;
 
-// Adds the vibration of faulty bearings to the samples of a record.
 void add_bearings(const GearboxPlan& gearbox, const RecordPlan& plan, const Bearings& bearings,
                   double low_pass_Hz, const Realization& realization,
                   std::vector<double>& samples) {
@@ -57,7 +54,6 @@ void add_vibration(const std::vector<double>& vibration, double factor, double s
     }
 }
 
-// Adds the vibration of the coupled stages of a record to its samples.
 void add_coupled_stages(const RecordPlan& plan, std::span<const StagePlan> stages,
                         const CoupledSpan& span, const LaneSignals& record,
                         std::vector<double>& samples) {

@@ -5,8 +5,6 @@
 #include <vector>
 
 #include "mc/ensemble/gearbox/gearbox_tile.hpp"
-#include "mc/study/other_sources.hpp"
-#include "signals/noise/bearing_impulses.hpp"
 
 namespace gearpod::mc {
 

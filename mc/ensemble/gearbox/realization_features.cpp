@@ -12,8 +12,6 @@
 
 #include "machine/no_value.hpp"
 #include "machine/team.hpp"
-#include "mc/ensemble/gearbox/realization_signals.hpp"
-#include "mc/ensemble/gearbox/record_window.hpp"
 #include "mc/files/input/terminal_text.hpp"
 #include "mc/files/python/python_worker.hpp"
 #include "mc/study/gears.hpp"
@@ -48,6 +46,55 @@ nlohmann::json properties(const RecordPlan& record, const FeaturePlan& features,
             {"torque_Nm", inputs.torque_N_m},
             {"speed_rpm", inputs.speed_rad_s * 30.0 / std::numbers::pi},
             {"noise_m_s2", inputs.noise_m_s2}};
+}
+
+double variance(std::span<const double> values) {
+    const auto count = static_cast<double>(values.size());
+    double sum = 0.0, squares = 0.0;
+    for (const double value : values) {
+        sum += value;
+    }
+    for (const double value : values) {
+        squares += (value - sum / count) * (value - sum / count);
+    }
+    return squares / count;
+}
+
+HealthyReference reference_of(const TilePlan& plan, const SensorPlan& sensor) {
+    const int lanes = plan.solve->settings.numerics.lanes;
+    RealizationSignals records(plan.record, plan.features, sensor,
+                               features::SignalSet::of<features::SensorTurn>());
+    const std::size_t levels = plan.record.noise_levels.size();
+    HealthyRecordsMean mean(levels);
+    for (int first = 0; first < HealthyReference::kRecords; first += lanes) {
+        std::vector<GearboxId> ids;
+        for (int i = first; i < std::min(first + lanes, HealthyReference::kRecords); ++i) {
+            ids.push_back({Group::threshold, static_cast<std::uint64_t>(i)});
+        }
+        const GearboxTile tile =
+            run_gearboxes(plan, ids, lanes, {.signal_meshes = records.meshes()});
+        auto signals = all_lane_signals(plan, tile, records.meshes());
+        for (LaneId lane{0}; lane < ids.size(); ++lane) {
+            machine::throw_if_cancelled();
+            if (tile.status[lane] == Status::ok) {
+                const Realization realization = sensor.realization(tile.realizations[lane]);
+                if (sensor.number > 0) {
+                    signals[lane] = signals_of_sensor(sensor, signals[lane]).record;
+                }
+                const LaneSignals record =
+                    drawn_record(plan.record, std::move(signals[lane]), realization);
+                records.load(record, realization);
+                for (std::size_t level = 0; level < levels; ++level) {
+                    mean.add(level, records.at(level));
+                }
+            }
+        }
+    }
+    return mean.mean();
+}
+
+const LaneSignals& baseline_of(const LaneSignals& gearbox, std::size_t k) {
+    return gearbox.baseline[std::min(k, gearbox.baselines - 1)];
 }
 
 }  // namespace
@@ -135,22 +182,6 @@ void print_python_problems(const std::vector<PythonProblem>& problems, const std
     }
 }
 
-namespace {
-
-double variance(std::span<const double> values) {
-    const auto count = static_cast<double>(values.size());
-    double sum = 0.0, squares = 0.0;
-    for (const double value : values) {
-        sum += value;
-    }
-    for (const double value : values) {
-        squares += (value - sum / count) * (value - sum / count);
-    }
-    return squares / count;
-}
-
-}  // namespace
-
 HealthyRecordsMean::HealthyRecordsMean(std::size_t levels) : records_(levels, 0) {
     sum_.residual_variance.resize(levels, 0.0);
 }
@@ -169,43 +200,6 @@ HealthyReference HealthyRecordsMean::mean() const {
     return mean;
 }
 
-namespace {
-
-HealthyReference reference_of(const TilePlan& plan, const SensorPlan& sensor) {
-    const int lanes = plan.solve->settings.numerics.lanes;
-    RealizationSignals records(plan.record, plan.features, sensor,
-                               features::SignalSet::of<features::SensorTurn>());
-    const std::size_t levels = plan.record.noise_levels.size();
-    HealthyRecordsMean mean(levels);
-    for (int first = 0; first < HealthyReference::kRecords; first += lanes) {
-        std::vector<GearboxId> ids;
-        for (int i = first; i < std::min(first + lanes, HealthyReference::kRecords); ++i) {
-            ids.push_back({Group::threshold, static_cast<std::uint64_t>(i)});
-        }
-        const GearboxTile tile =
-            run_gearboxes(plan, ids, lanes, {.signal_meshes = records.meshes()});
-        auto signals = all_lane_signals(plan, tile, records.meshes());
-        for (LaneId lane{0}; lane < ids.size(); ++lane) {
-            machine::throw_if_cancelled();
-            if (tile.status[lane] == Status::ok) {
-                const Realization realization = sensor.realization(tile.realizations[lane]);
-                if (sensor.number > 0) {
-                    signals[lane] = signals_of_sensor(sensor, signals[lane]).record;
-                }
-                const LaneSignals record =
-                    drawn_record(plan.record, std::move(signals[lane]), realization);
-                records.load(record, realization);
-                for (std::size_t level = 0; level < levels; ++level) {
-                    mean.add(level, records.at(level));
-                }
-            }
-        }
-    }
-    return mean.mean();
-}
-
-}  // namespace
-
 HealthyReference healthy_reference(const TilePlan& plan, std::uint64_t sensor) {
     if (!plan.features.needs.all().has<features::HealthyRecords>()) {
         return {};
@@ -216,15 +210,6 @@ HealthyReference healthy_reference(const TilePlan& plan, std::uint64_t sensor) {
 HealthyReference simulated_reference(const TilePlan& plan) {
     return reference_of(plan, plan.sensors->front());
 }
-
-namespace {
-
-// Signals of baseline record k of a gearbox.
-const LaneSignals& baseline_of(const LaneSignals& gearbox, std::size_t k) {
-    return gearbox.baseline[std::min(k, gearbox.baselines - 1)];
-}
-
-}  // namespace
 
 RealizationFeatures::RealizationFeatures(const TilePlan& plan, const HealthyReference* healthy,
                                          bool python, std::uint64_t sensor)

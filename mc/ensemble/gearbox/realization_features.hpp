@@ -68,7 +68,6 @@ struct HealthyReference {
     features::HealthyRecords at(std::size_t level) const { return {residual_variance[level]}; }
 };
 
-// Accumulates healthy records and returns their mean.
 class HealthyRecordsMean {
   public:
     explicit HealthyRecordsMean(std::size_t levels);

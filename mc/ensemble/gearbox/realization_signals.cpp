@@ -1,14 +1,11 @@
 #include "mc/ensemble/gearbox/realization_signals.hpp"
 
-#include <algorithm>
 #include <boost/random/uniform_01.hpp>
 
 #include "machine/clocks.hpp"
 #include "machine/team.hpp"
 #include "mc/ensemble/gearbox/record_window.hpp"
 #include "mc/study/random/philox.hpp"
-#include "signals/noise/normals.hpp"
-#include "signals/noise/sensor_noise.hpp"
 #include "signals/path/frequency_response.hpp"
 
 namespace gearpod::mc {
@@ -26,6 +23,11 @@ class Stopwatch {
     double& sum_;
     const WallClock::time_point start_ = WallClock::now();
 };
+
+void subtract(std::span<const double> b, double factor, std::vector<double>& a) {
+    std::transform(a.begin(), a.end(), b.begin(), a.begin(),
+                   [&](double x, double y) { return x - factor * y; });
+}
 
 }  // namespace
 
@@ -247,16 +249,6 @@ features::FeatureInput RealizationSignals::at(std::size_t level) {
     te_features(factor * inputs_.encoder_noise_rad, input);
     return input;
 }
-
-namespace {
-
-// Subtracts `factor` times the values of b.
-void subtract(std::span<const double> b, double factor, std::vector<double>& a) {
-    std::transform(a.begin(), a.end(), b.begin(), a.begin(),
-                   [&](double x, double y) { return x - factor * y; });
-}
-
-}  // namespace
 
 LaneSignals change_since_baseline(const RecordPlan& plan, const LaneSignals& record,
                                   std::span<const LaneSignals* const> baselines) {

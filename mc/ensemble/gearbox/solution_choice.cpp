@@ -1,7 +1,6 @@
 #include "mc/ensemble/gearbox/solution_choice.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <functional>
 #include <limits>
 #include <memory>
@@ -15,7 +14,6 @@
 #include "lockstep/tile/tile_integrators.hpp"
 #include "machine/clocks.hpp"
 #include "mc/ensemble/gearbox/tile_random_inputs.hpp"
-#include "mc/study/other_sources.hpp"
 
 namespace gearpod::mc {
 namespace {
@@ -54,7 +52,6 @@ double least_mesh_s(const GearboxPlan& gearbox, const lockstep::IntegrationPlan&
     return least;
 }
 
-// The same integration plan with the usual explicit method.
 lockstep::IntegrationPlan explicit_plan(lockstep::IntegrationPlan plan,
                                         const lockstep::PairSet& pairs, int steps) {
     plan.integrator = lockstep::kUsualExplicit;
@@ -69,52 +66,11 @@ lockstep::IntegrationPlan explicit_plan(lockstep::IntegrationPlan plan,
     return plan;
 }
 
-}  // namespace
-
-double motion_bytes(const TilePlan& plan) {
-    const SolvePlan& solve = *plan.solve;
-    if (!solve.records_during_integration) {
-        return solve.record_bytes;
-    }
-    // Copies: samples as recorded and by lane, plus those of the baseline records.
-    const double copies = 2.0 + static_cast<double>(plan.record.baselines);
-    const double samples =
-        static_cast<double>(plan.record.sensor_meshes(plan.features.needs.all())) *
-        plan.record.samples;
-    return copies * 8.0 * samples * solve.settings.numerics.lanes +
-           (std::holds_alternative<Superposed>(solve.strategy) ? solve.record_bytes
-                                                               : 2.0 * solve.mesh_record_bytes);
-}
-
-double mesh_period_s(const DrawPlan& draw, const GearboxPlan& gearbox, const SolvePlan& solve,
-                     const RecordPlan& record) {
-    constexpr int kRepetitions = 5;
-    return with_lane_count(solve.settings.numerics.lanes, [&](auto lanes) {
-        const std::vector<Realization> gearboxes(lanes(), {{}, gearbox.nominal});
-        return least_mesh_s<lanes()>(
-            gearbox, solve.integration(),
-            draw_excitation(gearbox, draw.seed, {solve.longest_run_in(), record.signal_meshes},
-                            gearboxes),
-            kRepetitions);
-    });
-}
-
-double explicit_step_s(const GearboxPlan& gearbox, const SolvePlan& solve) {
-    constexpr int kSteps = 2000, kRepetitions = 20;
-    const lockstep::IntegrationPlan plan =
-        lockstep::in_double_precision(explicit_plan(solve.integration(), gearbox.pairs(), kSteps));
-    return least_mesh_s<lockstep::kPilotLanes>(gearbox, plan, std::nullopt, kRepetitions) /
-           static_cast<double>(plan.grid.steps.size()) / lockstep::kPilotLanes;
-}
-
-namespace {
-
 template <class T>
 const T* pointer_to(const std::optional<T>& value) {
     return value ? &*value : nullptr;
 }
 
-// Solution of a tile by each strategy.
 struct SolutionMaker {
     const SolvePlan& solve;
     const RecordPlan& record;
@@ -161,6 +117,42 @@ struct SolutionMaker {
 };
 
 }  // namespace
+
+double motion_bytes(const TilePlan& plan) {
+    const SolvePlan& solve = *plan.solve;
+    if (!solve.records_during_integration) {
+        return solve.record_bytes;
+    }
+    // Copies: samples as recorded and by lane, plus those of the baseline records.
+    const double copies = 2.0 + static_cast<double>(plan.record.baselines);
+    const double samples =
+        static_cast<double>(plan.record.sensor_meshes(plan.features.needs.all())) *
+        plan.record.samples;
+    return copies * 8.0 * samples * solve.settings.numerics.lanes +
+           (std::holds_alternative<Superposed>(solve.strategy) ? solve.record_bytes
+                                                               : 2.0 * solve.mesh_record_bytes);
+}
+
+double mesh_period_s(const DrawPlan& draw, const GearboxPlan& gearbox, const SolvePlan& solve,
+                     const RecordPlan& record) {
+    constexpr int kRepetitions = 5;
+    return with_lane_count(solve.settings.numerics.lanes, [&](auto lanes) {
+        const std::vector<Realization> gearboxes(lanes(), {{}, gearbox.nominal});
+        return least_mesh_s<lanes()>(
+            gearbox, solve.integration(),
+            draw_excitation(gearbox, draw.seed, {solve.longest_run_in(), record.signal_meshes},
+                            gearboxes),
+            kRepetitions);
+    });
+}
+
+double explicit_step_s(const GearboxPlan& gearbox, const SolvePlan& solve) {
+    constexpr int kSteps = 2000, kRepetitions = 20;
+    const lockstep::IntegrationPlan plan =
+        lockstep::in_double_precision(explicit_plan(solve.integration(), gearbox.pairs(), kSteps));
+    return least_mesh_s<lockstep::kPilotLanes>(gearbox, plan, std::nullopt, kRepetitions) /
+           static_cast<double>(plan.grid.steps.size()) / lockstep::kPilotLanes;
+}
 
 lockstep::Solution choose_solution(const SolvePlan& solve, const RecordPlan& record,
                                    const TileLoads& loads, const lockstep::RecordOptions& options,

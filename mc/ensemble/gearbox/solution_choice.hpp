@@ -4,7 +4,6 @@
 #include <optional>
 #include <type_traits>
 
-#include "features/signals.hpp"
 #include "lockstep/strategies/solution.hpp"
 #include "mc/plan/tile_plan.hpp"
 

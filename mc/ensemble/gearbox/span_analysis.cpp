@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "signals/spectra/synchronous_average.hpp"
-#include "signals/windowing/tooth_statistics.hpp"
 
 namespace gearpod::mc {
 namespace {

@@ -6,7 +6,6 @@
 #include <span>
 #include <vector>
 
-#include "features/feature.hpp"
 #include "mc/plan/feature_plan.hpp"
 #include "mc/plan/record_plan.hpp"
 #include "signals/prediction/prewhitening.hpp"
@@ -19,7 +18,6 @@ namespace gearpod::mc {
 // Holds scratch memory: use one object per thread.
 class SpanAnalysis {
   public:
-    // `needs`: signals that features need.
     SpanAnalysis(const RecordPlan& record, const FeaturePlan& features, features::SignalSet needs);
 
     // `samples`: m/s^2, P per mesh period. Features of the planets' teeth and turns need

@@ -10,7 +10,6 @@
 #include "gears/tooth_deviations.hpp"
 
 namespace gearpod::mc {
-
 namespace {
 
 // Knots per second (1 / D) of noise whose power spectrum falls to one half at `half_power_Hz`,
@@ -51,6 +50,67 @@ void draw_noise(std::vector<NoiseInputs> noise, std::span<const double> mesh_per
         }
     }
 }
+
+gears::WaveNumbers wave_numbers(Normals& normal) {
+    gears::WaveNumbers numbers;
+    for (double& number : numbers.centre) {
+        number = normal();
+    }
+    for (int h = 0; h < gears::WaveNumbers::kHarmonics; ++h) {
+        numbers.cosine[h] = normal();
+        numbers.sine[h] = normal();
+    }
+    return numbers;
+}
+
+gears::DeviationScales scales_of(const ToothedBody& body, const InstanceInputs& inputs) {
+    return gears::combined(gears::scaled(body.grade_5, inputs.bodies[body.member].tooth_scale),
+                           {inputs.eccentricity_m, 0.0, inputs.pitch_error_m, 0.0, 0.0});
+}
+
+// Fills one lane of the errors of all flanks.
+class LaneTeeth {
+  public:
+    LaneTeeth(LaneId lane, std::size_t lanes, Normals pitch, Normals waves, Normals slopes,
+              lockstep::ToothErrors& errors)
+        : lane_(lane),
+          lanes_(lanes),
+          pitch_(std::move(pitch)),
+          waves_(std::move(waves)),
+          slopes_(std::move(slopes)),
+          errors_(errors) {}
+
+    // `shift`: number of teeth by which the gear is turned in its assembly.
+    void draw(const ToothedBody& body, const gears::DeviationScales& scales, int shift) {
+        const gears::WaveNumbers numbers = wave_numbers(waves_);
+        for (const ToothSide& side : body.sides) {
+            lockstep::GearErrors& flanks = errors_.gears[side.gear];
+            const gears::FlankDeviations wave = gears::wave_deviations(
+                flanks.teeth, side.working_angle_rad, scales, numbers, side.direction);
+            // The wave is given at the flank a quarter pitch from the tooth's centre, in contact at
+            // the pitch point. The deviation is needed at the middle of the engagement.
+            const double ahead = 0.25 * side.direction + side.middle;
+            const double common = scales.common_slope * slopes_();
+            for (int t = 0; t < flanks.teeth; ++t) {
+                const int slot = (t + flanks.teeth - shift) % flanks.teeth;
+                const auto index = static_cast<std::size_t>(slot) * lanes_ + lane_;
+                const auto tooth = static_cast<std::size_t>((t + side.first_tooth) % flanks.teeth);
+                const double scatter = scales.pitch * pitch_();
+                const double slope = common + scales.slope * slopes_();
+                const bool drawn = side.measured_m.empty();
+                const double drift = drawn ? wave.drift_m[tooth] : 0.0;
+                flanks.error_m[index] =
+                    drawn ? wave.index_m[tooth] + ahead * drift + scatter : side.measured_m[tooth];
+                flanks.slope_m[index] = slope + side.outwards * drift;
+            }
+        }
+    }
+
+  private:
+    std::size_t lane_, lanes_;
+    Normals pitch_, waves_, slopes_;
+    lockstep::ToothErrors& errors_;
+};
 
 }  // namespace
 
@@ -133,71 +193,6 @@ signals::Tones draw_tones(std::span<const Tone> requested, const GearboxPlan& ge
     }
     return tones;
 }
-
-namespace {
-
-gears::WaveNumbers wave_numbers(Normals& normal) {
-    gears::WaveNumbers numbers;
-    for (double& number : numbers.centre) {
-        number = normal();
-    }
-    for (int h = 0; h < gears::WaveNumbers::kHarmonics; ++h) {
-        numbers.cosine[h] = normal();
-        numbers.sine[h] = normal();
-    }
-    return numbers;
-}
-
-gears::DeviationScales scales_of(const ToothedBody& body, const InstanceInputs& inputs) {
-    return gears::combined(gears::scaled(body.grade_5, inputs.bodies[body.member].tooth_scale),
-                           {inputs.eccentricity_m, 0.0, inputs.pitch_error_m, 0.0, 0.0});
-}
-
-// Fills one lane of the errors of all flanks.
-class LaneTeeth {
-  public:
-    LaneTeeth(LaneId lane, std::size_t lanes, Normals pitch, Normals waves, Normals slopes,
-              lockstep::ToothErrors& errors)
-        : lane_(lane),
-          lanes_(lanes),
-          pitch_(std::move(pitch)),
-          waves_(std::move(waves)),
-          slopes_(std::move(slopes)),
-          errors_(errors) {}
-
-    // `shift`: number of teeth by which the gear is turned in its assembly.
-    void draw(const ToothedBody& body, const gears::DeviationScales& scales, int shift) {
-        const gears::WaveNumbers numbers = wave_numbers(waves_);
-        for (const ToothSide& side : body.sides) {
-            lockstep::GearErrors& flanks = errors_.gears[side.gear];
-            const gears::FlankDeviations wave = gears::wave_deviations(
-                flanks.teeth, side.working_angle_rad, scales, numbers, side.direction);
-            // The wave is given at the flank a quarter pitch from the tooth's centre, in contact at
-            // the pitch point. The deviation is needed at the middle of the engagement.
-            const double ahead = 0.25 * side.direction + side.middle;
-            const double common = scales.common_slope * slopes_();
-            for (int t = 0; t < flanks.teeth; ++t) {
-                const int slot = (t + flanks.teeth - shift) % flanks.teeth;
-                const auto index = static_cast<std::size_t>(slot) * lanes_ + lane_;
-                const auto tooth = static_cast<std::size_t>((t + side.first_tooth) % flanks.teeth);
-                const double scatter = scales.pitch * pitch_();
-                const double slope = common + scales.slope * slopes_();
-                const bool drawn = side.measured_m.empty();
-                const double drift = drawn ? wave.drift_m[tooth] : 0.0;
-                flanks.error_m[index] =
-                    drawn ? wave.index_m[tooth] + ahead * drift + scatter : side.measured_m[tooth];
-                flanks.slope_m[index] = slope + side.outwards * drift;
-            }
-        }
-    }
-
-  private:
-    std::size_t lane_, lanes_;
-    Normals pitch_, waves_, slopes_;
-    lockstep::ToothErrors& errors_;
-};
-
-}  // namespace
 
 lockstep::ToothErrors draw_tooth_errors(const ToothErrorModel& model, const DrawPlan& draw,
                                         std::span<const Realization> realizations) {

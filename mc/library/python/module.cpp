@@ -274,7 +274,6 @@ mc::TextTable table_of(const std::vector<std::string>& names,
     return table;
 }
 
-// Text and JSON text of `pod`.
 py::tuple pod(const std::optional<std::string>& path, const std::vector<std::string>& names,
               const std::vector<std::vector<std::string>>& columns,
               const mc::InspectionOptions& options) {

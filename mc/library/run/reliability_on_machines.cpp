@@ -7,7 +7,6 @@
 
 #include "machine/team.hpp"
 #include "mc/ensemble/ensemble.hpp"
-#include "mc/ensemble/ranks.hpp"
 
 namespace gearpod::mc {
 namespace {

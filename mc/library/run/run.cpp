@@ -9,7 +9,6 @@
 
 #include "machine/clocks.hpp"
 #include "machine/team.hpp"
-#include "mc/ensemble/ensemble.hpp"
 #include "mc/ensemble/gearbox/simulation.hpp"
 #include "mc/ensemble/run_store.hpp"
 #include "mc/files/input/problems.hpp"
@@ -135,13 +134,13 @@ class Run {
         }
     }
 
-    // First screen of results that have been written.
     std::string screen_of(const Results& all, const RowSource& rows) const {
         analysis::Report report;
         try {
-            report = results_report(
-                all, rows,
-                reliability_on_machines(all, rows, ranks_, threads_of_machine(ensemble_, ranks_)));
+            report = findings_of_run(all, rows,
+                                     reliability_on_machines(all, rows, ranks_,
+                                                             threads_of_machine(ensemble_, ranks_)))
+                         .report;
         } catch (const machine::Cancelled&) {
             fmt::print(stderr, "the time limit is reached; `gearpod report` shows the results\n");
         }
@@ -233,7 +232,6 @@ class Run {
     WallClock::time_point last_snapshot_ = WallClock::now();
 };
 
-// Work of the other ranks: computing batches.
 void compute_for_leader(const RunOptions& options, const TilePlan& tile,
                         const EnsemblePlan& ensemble, const Ranks& ranks,
                         const Interruption& interruption) {

@@ -8,8 +8,6 @@
 #include <fstream>
 
 #include "machine/team.hpp"
-#include "mc/ensemble/interruption.hpp"
-#include "mc/ensemble/ranks.hpp"
 #include "mc/ensemble/run_store.hpp"
 #include "mc/files/atomic_file.hpp"
 #include "mc/files/input/terminal_text.hpp"

@@ -12,12 +12,10 @@
 #include "mc/library/run/run_options.hpp"
 #include "mc/numerics/numerics_choice.hpp"
 #include "mc/plan/scene.hpp"
-#include "mc/results/result_rows.hpp"
 
 namespace gearpod::mc {
 
 std::string results_path(const RunOptions& options);
-// Batches that this run computes.
 BatchPlan plan_of(const RunOptions& options, const EnsemblePlan& plan);
 
 bool check_time_limit(const RunOptions& options, std::optional<std::chrono::seconds>& limit);

@@ -27,7 +27,6 @@ double compared_size(const Results& frame, std::size_t row) {
     return size != nullptr ? size->values[row] : 0.0;
 }
 
-// ComparedRows of both files to be compared, paired or not.
 struct ComparedRows {
     std::vector<std::size_t> threshold_a, test_a, threshold_b, test_b;
     std::string unpaired;  // why the rows are not paired; "": they are
@@ -94,7 +93,6 @@ std::vector<std::string> differing_inputs(const ComparedSide& a, const ComparedS
     return lines;
 }
 
-// value(row) of each row.
 template <typename Value>
 std::vector<double> column_of(const std::vector<std::size_t>& rows, Value value) {
     std::vector<double> out;

@@ -28,7 +28,6 @@ struct SweepPoint {
     std::string name;                    // file name without extension: "noise_m_s2=2_gain=1"
 };
 
-// Point and its results file.
 struct PointResults {
     SweepPoint point;
     std::string results;
@@ -57,7 +56,6 @@ std::vector<std::string> key_columns(const std::vector<VariedKey>& keys);
 // than at the best one by more than scatter; `within`: names of those where it is not.
 std::string within_scatter_text(const std::string& begin, const char* beyond, std::size_t count,
                                 const std::vector<std::string>& within);
-// Values of a point by key.
 nlohmann::json values_json(const std::vector<VariedKey>& keys, const SweepPoint& point);
 // Section with what all points have in common, and their results files.
 analysis::Section files_section(const std::vector<VariedKey>& keys,

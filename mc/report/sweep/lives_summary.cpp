@@ -262,7 +262,6 @@ std::string lives_differences_text(const LivesSweep& sweep) {
                percent_text(confidence));
 }
 
-// Row of the results of a feature and detector at a point.
 std::vector<std::string> lives_row(const LivesPoint& point, const MonitoredFeature& one) {
     const MonitoredFeature* here = find_life_result(point, one);
     return life_result_cells(here == nullptr ? analysis::MonitorPerformance{} : here->performance,

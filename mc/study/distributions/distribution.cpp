@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <tuple>
 #include <utility>
 #include <variant>
@@ -12,7 +11,6 @@
 #include "mc/files/input/document.hpp"
 #include "mc/files/input/spelling.hpp"
 #include "mc/study/distributions/laws.hpp"
-#include "mc/study/distributions/range.hpp"
 
 namespace gearpod::mc {
 

@@ -7,17 +7,13 @@
 #include <cmath>
 #include <filesystem>
 #include <iterator>
-#include <optional>
-#include <vector>
 
 #include "machine/no_value.hpp"
 #include "mc/files/foreign_file.hpp"
-#include "mc/files/input/file_text.hpp"
 #include "mc/files/input/input_file.hpp"
 #include "mc/files/input/spelling.hpp"
 #include "mc/files/signal_file.hpp"
 #include "mc/files/text/text_table.hpp"
-#include "mc/study/distributions/range.hpp"
 #include "mc/study/housing.hpp"
 
 namespace gearpod::mc {
@@ -232,20 +228,6 @@ const std::string* text_at(const Value& table, std::string_view name) {
                                                                       : nullptr;
 }
 
-}  // namespace
-
-std::optional<FileColumn> file_column(const Value& value) {
-    if (value.kind != Value::Kind::table) {
-        return std::nullopt;
-    }
-    const std::string *file = text_at(value, "file"), *column = text_at(value, "column");
-    return file != nullptr && column != nullptr ? std::optional(FileColumn{*file, *column})
-                                                : std::nullopt;
-}
-
-namespace {
-
-// Numbers of a column of a text table.
 std::vector<double> table_column(const FileColumn& source) {
     const TextTable table = read_text_table(source.file);
     const auto column = table.find(source.column);
@@ -269,6 +251,15 @@ std::vector<double> table_column(const FileColumn& source) {
 }
 
 }  // namespace
+
+std::optional<FileColumn> file_column(const Value& value) {
+    if (value.kind != Value::Kind::table) {
+        return std::nullopt;
+    }
+    const std::string *file = text_at(value, "file"), *column = text_at(value, "column");
+    return file != nullptr && column != nullptr ? std::optional(FileColumn{*file, *column})
+                                                : std::nullopt;
+}
 
 Value list_of(const FileColumn& source, std::string_view key, const Position& position,
               std::size_t most) {

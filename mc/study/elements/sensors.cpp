@@ -90,6 +90,120 @@ std::string chain_text(const AdditionalSensor& sensor) {
     return text;
 }
 
+Bearing read_bearing(const ListElement& element) {
+    Bearing bearing;
+    bearing.fault =
+        static_cast<BearingFault>(element.choice("fault", kBearingFaults, true).value_or(0));
+    if (element.first_of("shaft", "shaft_Hz")) {
+        bearing.shaft = element.shaft();
+    } else if (element.has("shaft_Hz")) {
+        bearing.shaft_Hz = element.number("shaft_Hz", kAbove0);
+    }
+    bearing.elements = element.integer("elements", {3.0, 1000.0});
+    bearing.diameter_ratio = element.number("diameter_ratio", {0.01, 0.9});
+    bearing.contact_angle_deg = element.number("contact_angle_deg", {0.0, 60.0}, 0.0);
+    bearing.amplitude_m_s2 = element.number("amplitude_m_s2", kAbove0);
+    bearing.resonance_Hz = element.number("resonance_Hz", {.low = 1.0});
+    bearing.damping = element.number("damping", {0.001, signals::kMostResonanceDamping}, 0.05);
+    bearing.slip = element.number("slip", {0.0, signals::kMostSlip}, 0.01);
+    bearing.load_zone_deg = element.number("load_zone_deg", {0.0, 360.0, true}, 180.0);
+    if (element.has("load_zone_deg") && load_turns_per_turn(bearing) == 0.0) {
+        element.reject("load_zone_deg has no effect: the load of this part is constant",
+                       "remove it, or use fault = \"inner\" or \"roller\"");
+    }
+    bearing.role = static_cast<SourceRole>(element.choice("role", kSourceRoles, false).value_or(0));
+    return bearing;
+}
+
+// Study of a stage: name in messages, and text.
+struct StageText {
+    std::string name, text;
+};
+
+// Empty if the study is missing or cannot be read, which is rejected.
+std::optional<StageText> stage_text(const ListElement& element, const Value& table) {
+    const bool in_file = element.first_of("study", "text");
+    const auto given = element.text(in_file ? "study" : "text");
+    if (!given) {
+        return std::nullopt;
+    }
+    if (!in_file) {
+        return StageText{"its study", *given};
+    }
+    const auto folder = std::filesystem::path(table.position.file).parent_path();
+    StageText found{(folder / *given).lexically_normal().string(), ""};
+    Problems problems;
+    found.text = read_file(found.name, problems);
+    for (const Problem& problem : problems) {
+        element.reject(found.name + ": " + problem.what, problem.remedy);
+    }
+    return problems.empty() ? std::optional(std::move(found)) : std::nullopt;
+}
+
+bool gives(const Value& document, const char* section, const char* key) {
+    const Entry* entry = document.find(section);
+    return entry != nullptr && entry->value.find(key) != nullptr;
+}
+
+void read_stage_study(const ListElement& element, const Value& table, NeighbourStage& stage) {
+    const auto found = stage_text(element, table);
+    if (!found) {
+        return;
+    }
+    const auto& [name, text] = *found;
+    if (text.empty()) {
+        element.reject(name + " is empty", "name the study of that stage");
+        return;
+    }
+    Problems of_text;
+    const Value document = parse_document(text, name, of_text);
+    if (gives(document, "sensor", "stages")) {
+        element.reject(name + " has stages of its own (sensor.stages)",
+                       "list all stages in one study");
+        return;
+    }
+    if (gives(document, "features", "python")) {
+        element.reject(name + " has features in Python, but only its vibration is used",
+                       "remove features.python there");
+        return;
+    }
+    StudyReading reading = read_study_text(text, name);
+    if (!reading.study) {
+        element.reject("its study has problems:\n" + format(reading.problems), "");
+        return;
+    }
+    if (!has_gears(*reading.study) || reading.study->effects.quasi_static()) {
+        element.reject(name + " has no gears whose vibration can be computed",
+                       "give tooth numbers and another effects.motion than quasi-static");
+        return;
+    }
+    stage.text = resolved_text(*reading.study);
+    stage.study = std::make_shared<const Study>(*std::move(reading.study));
+}
+
+NeighbourStage read_stage(const ListElement& element, const Value& table) {
+    NeighbourStage stage;
+    stage.name = element.word("name");
+    stage.shaft = element.shaft();
+    stage.stage_shaft = element.shaft("stage_shaft");
+    stage.of = element.has("of") ? element.word("of") : "";
+    stage.gain = element.number("gain", kAbove0, 1.0);
+    stage.shaft_stiffness_N_m_rad = element.number("shaft_stiffness_N_m_rad", {.low = 0.0}, 0.0);
+    stage.shaft_damping_ratio =
+        element.number("shaft_damping_ratio", {.low = 0.0, .high = 1.0, .low_open = true}, 0.02);
+    if (element.has("shaft_damping_ratio") && !element.has("shaft_stiffness_N_m_rad")) {
+        element.reject("shaft_damping_ratio has no effect without shaft_stiffness_N_m_rad",
+                       "give both, or neither");
+    }
+    stage.role = static_cast<SourceRole>(element.choice("role", kSourceRoles, false).value_or(0));
+    read_stage_study(element, table, stage);
+    if (stage.study && stage.role == SourceRole::other_fault &&
+        stage.study->fault.kind == nullptr) {
+        element.reject("role = \"other_fault\", but its study has no [fault]", "add one");
+    }
+    return stage;
+}
+
 }  // namespace
 
 std::vector<AdditionalSensor> read_additional_sensors(const Value& list,
@@ -172,35 +286,6 @@ std::string tone_table(const Tone& tone) {
                                     tone.frequency_Hz, tone.amplitude_m_s2);
 }
 
-namespace {
-
-Bearing read_bearing(const ListElement& element) {
-    Bearing bearing;
-    bearing.fault =
-        static_cast<BearingFault>(element.choice("fault", kBearingFaults, true).value_or(0));
-    if (element.first_of("shaft", "shaft_Hz")) {
-        bearing.shaft = element.shaft();
-    } else if (element.has("shaft_Hz")) {
-        bearing.shaft_Hz = element.number("shaft_Hz", kAbove0);
-    }
-    bearing.elements = element.integer("elements", {3.0, 1000.0});
-    bearing.diameter_ratio = element.number("diameter_ratio", {0.01, 0.9});
-    bearing.contact_angle_deg = element.number("contact_angle_deg", {0.0, 60.0}, 0.0);
-    bearing.amplitude_m_s2 = element.number("amplitude_m_s2", kAbove0);
-    bearing.resonance_Hz = element.number("resonance_Hz", {.low = 1.0});
-    bearing.damping = element.number("damping", {0.001, signals::kMostResonanceDamping}, 0.05);
-    bearing.slip = element.number("slip", {0.0, signals::kMostSlip}, 0.01);
-    bearing.load_zone_deg = element.number("load_zone_deg", {0.0, 360.0, true}, 180.0);
-    if (element.has("load_zone_deg") && load_turns_per_turn(bearing) == 0.0) {
-        element.reject("load_zone_deg has no effect: the load of this part is constant",
-                       "remove it, or use fault = \"inner\" or \"roller\"");
-    }
-    bearing.role = static_cast<SourceRole>(element.choice("role", kSourceRoles, false).value_or(0));
-    return bearing;
-}
-
-}  // namespace
-
 std::vector<Bearing> read_bearings(const Value& list, const RejectElement& reject) {
     std::vector<Bearing> bearings;
     for (std::size_t i = 0; i < list.elements.size(); ++i) {
@@ -227,100 +312,6 @@ std::string bearing_table(const Bearing& bearing) {
             : "",
         kSourceRoles[static_cast<std::size_t>(bearing.role)].text);
 }
-
-namespace {
-
-// Study of a stage: name in messages, and text.
-struct StageText {
-    std::string name, text;
-};
-
-// Empty if the study is missing or cannot be read, which is rejected.
-std::optional<StageText> stage_text(const ListElement& element, const Value& table) {
-    const bool in_file = element.first_of("study", "text");
-    const auto given = element.text(in_file ? "study" : "text");
-    if (!given) {
-        return std::nullopt;
-    }
-    if (!in_file) {
-        return StageText{"its study", *given};
-    }
-    const auto folder = std::filesystem::path(table.position.file).parent_path();
-    StageText found{(folder / *given).lexically_normal().string(), ""};
-    Problems problems;
-    found.text = read_file(found.name, problems);
-    for (const Problem& problem : problems) {
-        element.reject(found.name + ": " + problem.what, problem.remedy);
-    }
-    return problems.empty() ? std::optional(std::move(found)) : std::nullopt;
-}
-
-// True if the document gives that key.
-bool gives(const Value& document, const char* section, const char* key) {
-    const Entry* entry = document.find(section);
-    return entry != nullptr && entry->value.find(key) != nullptr;
-}
-
-void read_stage_study(const ListElement& element, const Value& table, NeighbourStage& stage) {
-    const auto found = stage_text(element, table);
-    if (!found) {
-        return;
-    }
-    const auto& [name, text] = *found;
-    if (text.empty()) {
-        element.reject(name + " is empty", "name the study of that stage");
-        return;
-    }
-    Problems of_text;
-    const Value document = parse_document(text, name, of_text);
-    if (gives(document, "sensor", "stages")) {
-        element.reject(name + " has stages of its own (sensor.stages)",
-                       "list all stages in one study");
-        return;
-    }
-    if (gives(document, "features", "python")) {
-        element.reject(name + " has features in Python, but only its vibration is used",
-                       "remove features.python there");
-        return;
-    }
-    StudyReading reading = read_study_text(text, name);
-    if (!reading.study) {
-        element.reject("its study has problems:\n" + format(reading.problems), "");
-        return;
-    }
-    if (!has_gears(*reading.study) || reading.study->effects.quasi_static()) {
-        element.reject(name + " has no gears whose vibration can be computed",
-                       "give tooth numbers and another effects.motion than quasi-static");
-        return;
-    }
-    stage.text = resolved_text(*reading.study);
-    stage.study = std::make_shared<const Study>(*std::move(reading.study));
-}
-
-NeighbourStage read_stage(const ListElement& element, const Value& table) {
-    NeighbourStage stage;
-    stage.name = element.word("name");
-    stage.shaft = element.shaft();
-    stage.stage_shaft = element.shaft("stage_shaft");
-    stage.of = element.has("of") ? element.word("of") : "";
-    stage.gain = element.number("gain", kAbove0, 1.0);
-    stage.shaft_stiffness_N_m_rad = element.number("shaft_stiffness_N_m_rad", {.low = 0.0}, 0.0);
-    stage.shaft_damping_ratio =
-        element.number("shaft_damping_ratio", {.low = 0.0, .high = 1.0, .low_open = true}, 0.02);
-    if (element.has("shaft_damping_ratio") && !element.has("shaft_stiffness_N_m_rad")) {
-        element.reject("shaft_damping_ratio has no effect without shaft_stiffness_N_m_rad",
-                       "give both, or neither");
-    }
-    stage.role = static_cast<SourceRole>(element.choice("role", kSourceRoles, false).value_or(0));
-    read_stage_study(element, table, stage);
-    if (stage.study && stage.role == SourceRole::other_fault &&
-        stage.study->fault.kind == nullptr) {
-        element.reject("role = \"other_fault\", but its study has no [fault]", "add one");
-    }
-    return stage;
-}
-
-}  // namespace
 
 std::vector<NeighbourStage> read_stages(const Value& list, const RejectElement& reject) {
     std::vector<NeighbourStage> stages;

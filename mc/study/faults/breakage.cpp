@@ -1,8 +1,6 @@
 // Tooth broken off over part of its face width: stiffness/faults/breakage.hpp.
 #include "stiffness/faults/breakage.hpp"
 
-#include <fmt/format.h>
-
 #include "mc/study/faults/fault_kind.hpp"
 #include "mc/study/keys/schema_line.hpp"
 

@@ -7,15 +7,12 @@
 #include <string_view>
 #include <utility>
 
-#include "mc/study/faults/fault_kind.hpp"
 #include "mc/study/gears.hpp"
 #include "stiffness/faults/spatial_crack.hpp"
 #include "stiffness/faults/tooth_crack.hpp"
-#include "stiffness/teeth/fracture_mechanics.hpp"
 #include "stiffness/teeth/tooth_profile.hpp"
 
 namespace gearpod::mc {
-
 namespace {
 
 stiffness::ToothProfile faulty_tooth(const Study& study) {
@@ -44,52 +41,7 @@ double section_share(const Study& study, double depth_m) {
     return depth_m * std::sin(crack_angle_rad(study)) / critical_section_m(study);
 }
 
-}  // namespace
-
-double crack_angle_rad(const Study& study) {
-    return study.fault.shapes.get<CrackShape>().angle_rad;
-}
-
-stiffness::CrackLaw crack_law(const Study& study) {
-    const bool fillet = profile_of(study) == stiffness::Profile::fillet;
-    return study.fault.shapes.get<CrackShape>().law.value_or(
-        fillet ? stiffness::CrackLaw::fracture_mechanics : stiffness::CrackLaw::sections);
-}
-
-double max_crack_depth_m(const Study& study) {
-    return stiffness::max_crack_depth(faulty_tooth(study), crack_law(study),
-                                      crack_angle_rad(study));
-}
-
-double critical_section_m(const Study& study) {
-    const stiffness::ToothProfile tooth = faulty_tooth(study);
-    return crack_law(study) == stiffness::CrackLaw::sections
-               ? 2.0 * tooth.root_half_thickness()
-               : stiffness::CrackPath(tooth, crack_angle_rad(study)).thickness();
-}
-
-std::string crack_origin(const Study& study, std::span<const double> depths_m) {
-    std::vector<std::string> depths, shares;
-    for (const double depth_m : depths_m) {
-        depths.push_back(fmt::format("{:.4g}", depth_m * kMmPerM));
-        shares.push_back(fmt::format("{:.3g}", 100.0 * section_share(study, depth_m)));
-    }
-    return fmt::format(
-        "depth along the crack from {}, where the tooth is {:.4g} mm thick; {} mm is {} % of that "
-        "section",
-        start_name(study), critical_section_m(study) * kMmPerM, fmt::join(depths, ", "),
-        fmt::join(shares, ", "));
-}
-
-std::string deeper_than_tooth_text(const Study& study) {
-    return fmt::format("than the tooth (a crack at {:.4g} deg cuts through it after {} mm)",
-                       crack_angle_rad(study) * 180.0 / kPi,
-                       rounded_down(max_crack_depth_m(study) * kMmPerM));
-}
-
 // Crack from the tooth root straight through the face width: stiffness/faults/tooth_crack.hpp.
-
-namespace {
 
 struct Crack : FaultShape {
     std::optional<double> depth_m;  // along the crack
@@ -131,17 +83,8 @@ class CrackKind final : public FaultKind {
     }
 };
 
-}  // namespace
-
-const FaultKind& crack() {
-    static const CrackKind kind{};
-    return kind;
-}
-
 // Crack with depth, height and angle that vary along the face width and as it grows:
 // stiffness/faults/spatial_crack.hpp.
-
-namespace {
 
 // Growth of a spatial crack, Yang (2022), Eqs. 61-66. Entry k of a list belongs to stage k + 1.
 struct Growth : FaultShape {
@@ -287,6 +230,52 @@ class SpatialCrackKind final : public FaultKind {
 };
 
 }  // namespace
+
+double crack_angle_rad(const Study& study) {
+    return study.fault.shapes.get<CrackShape>().angle_rad;
+}
+
+stiffness::CrackLaw crack_law(const Study& study) {
+    const bool fillet = profile_of(study) == stiffness::Profile::fillet;
+    return study.fault.shapes.get<CrackShape>().law.value_or(
+        fillet ? stiffness::CrackLaw::fracture_mechanics : stiffness::CrackLaw::sections);
+}
+
+double max_crack_depth_m(const Study& study) {
+    return stiffness::max_crack_depth(faulty_tooth(study), crack_law(study),
+                                      crack_angle_rad(study));
+}
+
+double critical_section_m(const Study& study) {
+    const stiffness::ToothProfile tooth = faulty_tooth(study);
+    return crack_law(study) == stiffness::CrackLaw::sections
+               ? 2.0 * tooth.root_half_thickness()
+               : stiffness::CrackPath(tooth, crack_angle_rad(study)).thickness();
+}
+
+std::string crack_origin(const Study& study, std::span<const double> depths_m) {
+    std::vector<std::string> depths, shares;
+    for (const double depth_m : depths_m) {
+        depths.push_back(fmt::format("{:.4g}", depth_m * kMmPerM));
+        shares.push_back(fmt::format("{:.3g}", 100.0 * section_share(study, depth_m)));
+    }
+    return fmt::format(
+        "depth along the crack from {}, where the tooth is {:.4g} mm thick; {} mm is {} % of that "
+        "section",
+        start_name(study), critical_section_m(study) * kMmPerM, fmt::join(depths, ", "),
+        fmt::join(shares, ", "));
+}
+
+std::string deeper_than_tooth_text(const Study& study) {
+    return fmt::format("than the tooth (a crack at {:.4g} deg cuts through it after {} mm)",
+                       crack_angle_rad(study) * 180.0 / kPi,
+                       rounded_down(max_crack_depth_m(study) * kMmPerM));
+}
+
+const FaultKind& crack() {
+    static const CrackKind kind{};
+    return kind;
+}
 
 const FaultKind& spatial_crack() {
     static const SpatialCrackKind kind{};

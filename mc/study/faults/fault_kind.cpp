@@ -4,8 +4,6 @@
 
 #include <cmath>
 
-#include "mc/study/gears.hpp"
-
 namespace gearpod::mc {
 
 std::string SizeShare::text(double size) const {

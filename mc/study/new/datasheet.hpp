@@ -67,7 +67,6 @@ struct DatasheetSource {
     std::string meshing_remedy;               // for gears that do not mesh
 };
 
-// Options of `new planetary`.
 DatasheetSource planetary_options();
 
 // Replaces study keys in problems by the names of their values, because the study is not written

@@ -1,7 +1,6 @@
 #include <fmt/format.h>
 
 #include <tuple>
-#include <utility>
 
 #include "mc/study/faults/crack.hpp"
 #include "mc/study/gears.hpp"
@@ -71,7 +70,6 @@ DerivedPair derive_pair(const Study& study, const PairDatasheet& data, const Inp
     return d;
 }
 
-// Section [gearbox].
 std::string gearbox_section(const PairDatasheet& data, const DerivedPair& d) {
     constexpr double kMotorInertia = 10.0;  // times the gear's; chosen
     auto [general, members] = pair_teeth(data);

@@ -8,7 +8,6 @@
 #include <map>
 #include <string>
 #include <tuple>
-#include <utility>
 
 #include "mc/study/faults/crack.hpp"
 #include "mc/study/gears.hpp"

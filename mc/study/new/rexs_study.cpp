@@ -1,13 +1,10 @@
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <tuple>
-#include <utility>
 
-#include "mc/files/input/terminal_text.hpp"
 #include "mc/files/python_process.hpp"
 #include "mc/study/new/datasheet.hpp"
 #include "python_sources.hpp"

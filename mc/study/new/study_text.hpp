@@ -68,7 +68,6 @@ Background background(const SensorRates& rates);
 std::string load_lines(const StageDatasheet& data, const InputLoad& load,
                        const std::string& speed_key);
 
-// Section [effects].
 std::string effects_section(const std::string& path);
 
 // Section [sensor]. `place`: the keys of the sensor's position and path.

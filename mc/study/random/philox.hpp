@@ -89,7 +89,6 @@ class Philox {
         return buffer_[used_++];
     }
 
-    // Fills `words` with the next words of the stream.
     void fill(std::span<std::uint64_t> words) {
         std::size_t next = 0;
         while (next < words.size()) {

@@ -1,7 +1,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 
 #include "analysis/monitoring/detector.hpp"
 #include "features/feature.hpp"

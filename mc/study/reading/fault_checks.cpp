@@ -5,8 +5,6 @@
 #include <algorithm>
 #include <string>
 
-#include "analysis/detection/detection.hpp"
-#include "features/feature.hpp"
 #include "machine/contracts.hpp"
 #include "mc/study/faults/crack.hpp"
 #include "mc/study/faults/fault_kind.hpp"
@@ -138,38 +136,7 @@ void check_edges(StudyDraft& draft) {
     }
 }
 
-}  // namespace
-
-void check_faulty_member(StudyDraft& draft) {
-    const Study& s = draft.study;
-    if (!s.fault.member || !draft.is_given("gearbox.kind") ||
-        !draft.all_usable({"gearbox.kind", "fault.kind", "fault.member"}) ||
-        has_toothed_member(s.gearbox.kind, *s.fault.member)) {
-        return;
-    }
-    const bool planetary = s.gearbox.kind == GearboxKind::planetary;
-    draft.reject("fault.member",
-                 fmt::format("is \"{}\", which a {} gearbox does not have",
-                             member_name(*s.fault.member), planetary ? "planetary" : "fixed-shaft"),
-                 planetary ? "use \"planet\", \"sun\" or \"ring\"" : "use \"pinion\" or \"gear\"");
-}
-
-void check_fault(StudyDraft& draft) {
-    if (!draft.all_usable({"fault", "fault.kind"})) {
-        return;
-    }
-    if (draft.study.fault.kind != nullptr) {
-        check_planet(draft);
-        if (check_profile(draft)) {
-            check_shape(draft);
-        }
-    }
-    check_edges(draft);
-}
-
 // Checks of lives: the crack, its depths, and that records remain after the baseline.
-
-namespace {
 
 void check_curve(StudyDraft& draft) {
     const Life& life = draft.study.life;
@@ -290,6 +257,33 @@ void check_depths(StudyDraft& draft) {
 }
 
 }  // namespace
+
+void check_faulty_member(StudyDraft& draft) {
+    const Study& s = draft.study;
+    if (!s.fault.member || !draft.is_given("gearbox.kind") ||
+        !draft.all_usable({"gearbox.kind", "fault.kind", "fault.member"}) ||
+        has_toothed_member(s.gearbox.kind, *s.fault.member)) {
+        return;
+    }
+    const bool planetary = s.gearbox.kind == GearboxKind::planetary;
+    draft.reject("fault.member",
+                 fmt::format("is \"{}\", which a {} gearbox does not have",
+                             member_name(*s.fault.member), planetary ? "planetary" : "fixed-shaft"),
+                 planetary ? "use \"planet\", \"sun\" or \"ring\"" : "use \"pinion\" or \"gear\"");
+}
+
+void check_fault(StudyDraft& draft) {
+    if (!draft.all_usable({"fault", "fault.kind"})) {
+        return;
+    }
+    if (draft.study.fault.kind != nullptr) {
+        check_planet(draft);
+        if (check_profile(draft)) {
+            check_shape(draft);
+        }
+    }
+    check_edges(draft);
+}
 
 void check_life(StudyDraft& draft) {
     const Study& study = draft.study;

@@ -386,23 +386,8 @@ void check_given_stiffness(StudyDraft& draft) {
     }
 }
 
-}  // namespace
-
-void check_gears(StudyDraft& draft) {
-    check_train(draft);
-    check_gear_shapes(draft);
-    check_bodies(draft);
-    check_mesh_values(draft, MeshKind::sun_planet);
-    check_mesh_values(draft, MeshKind::ring_planet);
-    check_given_stiffness(draft);
-    check_tooth_errors(draft);
-}
-
 // Checks of deviations from the ideal gearbox: planets, tooth deviations and transmission errors.
 
-namespace {
-
-// Checks lists that have one value for each planet.
 void check_planet_lists(StudyDraft& draft) {
     const Study& s = draft.study;
     if (s.gearbox.kind != GearboxKind::planetary || !draft.usable("gearbox.planets")) {
@@ -446,6 +431,16 @@ void check_measured_teeth(StudyDraft& draft) {
 }
 
 }  // namespace
+
+void check_gears(StudyDraft& draft) {
+    check_train(draft);
+    check_gear_shapes(draft);
+    check_bodies(draft);
+    check_mesh_values(draft, MeshKind::sun_planet);
+    check_mesh_values(draft, MeshKind::ring_planet);
+    check_given_stiffness(draft);
+    check_tooth_errors(draft);
+}
 
 void check_tooth_errors(StudyDraft& draft) {
     check_planet_lists(draft);

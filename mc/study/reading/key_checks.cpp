@@ -71,19 +71,6 @@ Guess guess_key(const std::string& section, const std::string& name) {
                          : words};
 }
 
-}  // namespace
-
-void reject_unknown_key(StudyDraft& draft, const std::string& prefix, const std::string& section,
-                        const Entry& entry) {
-    const Guess guess = guess_key(section, entry.name);
-    draft.reject(entry.position, prefix + section + "." + entry.name, "unknown key", guess.words);
-    if (guess.key != nullptr) {
-        draft.bad.insert(guess.key->path());
-    }
-}
-
-namespace {
-
 constexpr const char* kSpeedKeys = "sun_speed_rpm or carrier_speed_rpm";
 
 std::vector<std::string> given_of(const StudyDraft& draft, const std::vector<std::string>& paths) {
@@ -144,6 +131,15 @@ void check_sections(StudyDraft& draft) {
 }
 
 }  // namespace
+
+void reject_unknown_key(StudyDraft& draft, const std::string& prefix, const std::string& section,
+                        const Entry& entry) {
+    const Guess guess = guess_key(section, entry.name);
+    draft.reject(entry.position, prefix + section + "." + entry.name, "unknown key", guess.words);
+    if (guess.key != nullptr) {
+        draft.bad.insert(guess.key->path());
+    }
+}
 
 void check_presence(StudyDraft& draft, const Key& key) {
     const Presence presence = key.presence(draft.study);

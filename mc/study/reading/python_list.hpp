@@ -1,7 +1,6 @@
 // Reads the list of Python files with features in a study file.
 #pragma once
 
-#include <string>
 #include <vector>
 
 #include "features/feature.hpp"

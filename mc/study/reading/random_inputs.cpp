@@ -179,45 +179,6 @@ void read_random_section(StudyDraft& draft, const std::string& section, const st
     }
 }
 
-}  // namespace
-
-void read_random(StudyDraft& draft, const Value& section) {
-    for (const Entry& entry : section.entries) {
-        if (entry.name == kCorrelations) {
-            continue;
-        }
-        const auto names = section_names();
-        const bool known = std::find(names.begin(), names.end(), entry.name) != names.end() &&
-                           entry.name != "random";
-        if (!known) {
-            reject(draft, entry, entry.name, "unknown section",
-                   suggest(entry.name, {names.begin(), names.end()}) +
-                       " (write section.key = { distribution = \"...\", ... })");
-        } else if (entry.value.kind != Value::Kind::table) {
-            reject(draft, entry, entry.name,
-                   fmt::format("must be a table, but is {}", entry.value.shown()),
-                   "write section.key = { distribution = \"...\", ... }");
-        } else {
-            read_random_section(draft, entry.name, "", entry.value.entries);
-        }
-    }
-    // Sorted in the order of the schema, whatever their order in the file.
-    const auto rank = [](const RandomInput& input) {
-        const auto keys = schema();
-        return std::find_if(keys.begin(), keys.end(),
-                            [&](const Key& key) { return key.path() == input.key; }) -
-               keys.begin();
-    };
-    std::sort(draft.study.random.begin(), draft.study.random.end(),
-              [&](const auto& a, const auto& b) { return rank(a) < rank(b); });
-    check_rows(draft);
-    if (const Entry* correlations = section.find(kCorrelations)) {
-        read_correlations(draft, *correlations);
-    }
-}
-
-namespace {
-
 constexpr const char* kPair =
     "write { between = [\"section.key\", \"section.key\"], rank = 0.6 } for each pair";
 
@@ -326,31 +287,7 @@ class CorrelationReader {
     bool good_ = true;
 };
 
-}  // namespace
-
-void read_correlations(StudyDraft& draft, const Entry& list) {
-    if (list.value.kind != Value::Kind::array) {
-        return draft.reject(list.position, "random.correlations",
-                            fmt::format("must be a list of pairs, but is {}", list.value.shown()),
-                            kPair);
-    }
-    bool good = true;
-    for (std::size_t i = 0; i < list.value.elements.size(); ++i) {
-        CorrelationReader reader(draft, list.position, fmt::format("pair {}", i + 1));
-        reader.read(list.value.elements[i]);
-        good = reader.good() && good;
-    }
-    if (good && !Copula(draft.study).exists()) {
-        draft.reject(list.position, "random.correlations",
-                     "no random inputs can have all these correlations (their matrix, with 0 for "
-                     "pairs that are not listed, is not positive definite)",
-                     "use smaller correlations, or list the missing pairs");
-    }
-}
-
 // Checks of the distributions in [random] that vary from record to record.
-
-namespace {
 
 // Short form of a record distribution: its key and the scatter that it gives.
 struct ShortForm {
@@ -405,6 +342,60 @@ void check_input(StudyDraft& draft, const RandomInput& input) {
 }
 
 }  // namespace
+
+void read_random(StudyDraft& draft, const Value& section) {
+    for (const Entry& entry : section.entries) {
+        if (entry.name == kCorrelations) {
+            continue;
+        }
+        const auto names = section_names();
+        const bool known =
+            std::ranges::find(names, entry.name) != names.end() && entry.name != "random";
+        if (!known) {
+            reject(draft, entry, entry.name, "unknown section",
+                   suggest(entry.name, {names.begin(), names.end()}) +
+                       " (write section.key = { distribution = \"...\", ... })");
+        } else if (entry.value.kind != Value::Kind::table) {
+            reject(draft, entry, entry.name,
+                   fmt::format("must be a table, but is {}", entry.value.shown()),
+                   "write section.key = { distribution = \"...\", ... }");
+        } else {
+            read_random_section(draft, entry.name, "", entry.value.entries);
+        }
+    }
+    // Sorted in the order of the schema, whatever their order in the file.
+    const auto rank = [](const RandomInput& input) {
+        const auto keys = schema();
+        return std::ranges::find_if(keys, [&](const Key& key) { return key.path() == input.key; }) -
+               keys.begin();
+    };
+    std::ranges::sort(draft.study.random,
+                      [&](const auto& a, const auto& b) { return rank(a) < rank(b); });
+    check_rows(draft);
+    if (const Entry* correlations = section.find(kCorrelations)) {
+        read_correlations(draft, *correlations);
+    }
+}
+
+void read_correlations(StudyDraft& draft, const Entry& list) {
+    if (list.value.kind != Value::Kind::array) {
+        return draft.reject(list.position, "random.correlations",
+                            fmt::format("must be a list of pairs, but is {}", list.value.shown()),
+                            kPair);
+    }
+    bool good = true;
+    for (std::size_t i = 0; i < list.value.elements.size(); ++i) {
+        CorrelationReader reader(draft, list.position, fmt::format("pair {}", i + 1));
+        reader.read(list.value.elements[i]);
+        good = reader.good() && good;
+    }
+    if (good && !Copula(draft.study).exists()) {
+        draft.reject(list.position, "random.correlations",
+                     "no random inputs can have all these correlations (their matrix, with 0 for "
+                     "pairs that are not listed, is not positive definite)",
+                     "use smaller correlations, or list the missing pairs");
+    }
+}
 
 // Runs only on a study without other problems.
 void check_records(StudyDraft& draft) {

@@ -246,7 +246,6 @@ void check_housing(StudyDraft& draft) {
     }
 }
 
-// Checks an additional sensor with a low-pass of its own.
 void check_own_low_pass(StudyDraft& draft, std::size_t number, double low_pass_Hz) {
     constexpr const char* kAdditional = "sensor.additional";
     const Sensor& s = draft.study.sensor;
@@ -283,7 +282,6 @@ void check_own_low_pass(StudyDraft& draft, std::size_t number, double low_pass_H
     }
 }
 
-// Checks an additional sensor with a sampling rate of its own.
 void check_own_rate(StudyDraft& draft, std::size_t number, const AdditionalSensor& sensor) {
     constexpr const char* kAdditional = "sensor.additional";
     const Sensor& s = draft.study.sensor;

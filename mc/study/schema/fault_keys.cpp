@@ -34,21 +34,18 @@ bool planet_fault(const Study& s) {
     return s.fault.kind != nullptr && s.fault.member == Member::planet;
 }
 
-// Required for every fault.
 Presence faulty_member(const Study& s) {
     return s.fault.kind == nullptr
                ? may(s)
                : Presence{Need::required, is_kind(*s.fault.kind), {"fault.kind"}};
 }
 
-// Forbidden for faults that are not in a planet.
 Presence planet_number(const Study& s) {
     return s.fault.kind == nullptr || planet_fault(s)
                ? may(s)
                : Presence{Need::forbidden, "only for fault.member = \"planet\"", {"fault.member"}};
 }
 
-// Required for a fault in a planet, else forbidden.
 Presence planet_side(const Study& s) {
     return planet_fault(s)
                ? Presence{Need::required, "fault.member is \"planet\"", {"fault.member"}}

@@ -23,13 +23,11 @@ bool is(const Study& s, StiffnessSource profile) {
 
 using Governors = decltype(Presence::governors);
 
-// Forbidden unless the condition is true.
 Presence only_if(bool condition, std::string_view why, const Governors& governors = {},
                  const Presence& otherwise = kOptional) {
     return condition ? otherwise : Presence{Need::forbidden, std::string(why), governors};
 }
 
-// Required if the condition is true.
 Presence required_if(bool condition, std::string_view why, const Governors& governors = {},
                      const Presence& otherwise = kOptional) {
     return condition ? Presence{Need::required, std::string(why), governors} : otherwise;
@@ -48,6 +46,15 @@ Presence with_gears(const Study& s, std::string_view otherwise) {
     return only_if(
         has_gears(s), otherwise,
         {"gearbox.module_mm", "gearbox.sun.teeth", "gearbox.planet.teeth", "gearbox.ring.teeth"});
+}
+
+// Required if `other`, its key in the member's table, is given.
+Presence blank_part(const Study& s, Member member, const std::optional<double>& given,
+                    std::string_view other) {
+    return only_if(s.effects.foundation != Foundation::none && !stiffness_given(s),
+                   "only for elastic gear bodies, but effects.foundation is \"none\"",
+                   {"effects.foundation"},
+                   required_if(given.has_value(), member_key(member, other) + " is given"));
 }
 
 }  // namespace
@@ -114,19 +121,6 @@ Presence tooth_module(const Study& s) {
 Presence shifted_teeth(const Study& s) {
     return with_gears(s, "only with tooth numbers and module");
 }
-
-namespace {
-
-// Required if `other`, its key in the member's table, is given.
-Presence blank_part(const Study& s, Member member, const std::optional<double>& given,
-                    std::string_view other) {
-    return only_if(s.effects.foundation != Foundation::none && !stiffness_given(s),
-                   "only for elastic gear bodies, but effects.foundation is \"none\"",
-                   {"effects.foundation"},
-                   required_if(given.has_value(), member_key(member, other) + " is given"));
-}
-
-}  // namespace
 
 Presence tip_relief_length(const Study& s, Member member) {
     const std::optional<double>& amount = s.gearbox.bodies[member].tip_relief_m;

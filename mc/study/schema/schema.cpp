@@ -55,9 +55,8 @@ std::span<const std::string_view> section_names() {
 
 const Key* find_key(std::string_view section, std::string_view name) {
     const auto keys = schema();
-    const auto found = std::find_if(keys.begin(), keys.end(), [&](const Key& key) {
-        return key.section == section && key.name == name;
-    });
+    const auto found = std::ranges::find_if(
+        keys, [&](const Key& key) { return key.section == section && key.name == name; });
     return found == keys.end() ? nullptr : &*found;
 }
 

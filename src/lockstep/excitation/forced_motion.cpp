@@ -1,7 +1,6 @@
 #include "lockstep/excitation/forced_motion.hpp"
 
 #include "dynamics/gearbox.hpp"
-#include "dynamics/gearbox_matrices.hpp"
 #include "machine/contracts.hpp"
 
 namespace gearpod::lockstep {

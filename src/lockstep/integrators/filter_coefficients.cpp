@@ -4,7 +4,6 @@
 #include <numbers>
 
 #include "lockstep/integrators/facts.hpp"
-#include "lockstep/integrators/sensor_filter.hpp"
 
 namespace gearpod::lockstep {
 

@@ -103,15 +103,14 @@ std::string built_kernels() {
 void choose_instruction_set(std::optional<machine::InstructionSet> requested) {
     const std::vector<machine::InstructionSet> built = built_instruction_sets();
     const machine::InstructionSet best = machine::best_instruction_set();
-    if (requested && *requested <= best &&
-        std::find(built.begin(), built.end(), *requested) == built.end()) {
+    if (requested && *requested <= best && std::ranges::find(built, *requested) == built.end()) {
         throw MissingKernel(fmt::format("this build has no kernels for {} (built: {})",
                                         machine::name(*requested), built_kernels()));
     }
     if (requested) {
         return machine::use_instruction_set(*requested);
     }
-    const auto above = std::upper_bound(built.begin(), built.end(), best);
+    const auto above = std::ranges::upper_bound(built, best);
     if (above == built.begin()) {
         throw MissingKernel(
             fmt::format("this program was built for {}, and this processor has {}: build "
@@ -123,13 +122,13 @@ void choose_instruction_set(std::optional<machine::InstructionSet> requested) {
 
 int lanes_for(Precision precision, int gearboxes) {
     const std::vector<int> built = built_lanes(precision);
-    const auto fewest = std::lower_bound(built.begin(), built.end(), gearboxes);
+    const auto fewest = std::ranges::lower_bound(built, gearboxes);
     return fewest == built.end() ? built.back() : *fewest;
 }
 
 void check_lanes(Precision precision, int lanes) {
     const std::vector<int> built = built_lanes(precision);
-    if (std::find(built.begin(), built.end(), lanes) == built.end()) {
+    if (std::ranges::find(built, lanes) == built.end()) {
         throw MissingKernel(fmt::format("this build has no kernels for {} lanes (built: {})", lanes,
                                         built_kernels()));
     }

@@ -5,7 +5,6 @@
 #include <stdexcept>
 
 #include "dynamics/effects/mesh_damping.hpp"
-#include "lockstep/plan/tooth_pairs.hpp"
 
 namespace gearpod::lockstep {
 
@@ -20,8 +19,8 @@ FaultPassage passage_near(const PairSet& pairs, PairId pair, double due, int len
 }
 
 void sort_passages(FaultPattern& pattern) {
-    std::sort(pattern.passages.begin(), pattern.passages.end(),
-              [](const auto& a, const auto& b) { return a.start < b.start; });
+    std::ranges::sort(pattern.passages,
+                      [](const auto& a, const auto& b) { return a.start < b.start; });
 }
 
 // Pattern of a sun or ring tooth. `order` is +1 if the tooth meets the planets in ascending order,
@@ -77,8 +76,7 @@ FaultPattern shaft_fault_pattern(const PairSet& pairs, int teeth) {
 }
 
 bool FaultCurves::faulty(LaneId lane) const {
-    return std::any_of(curve.begin(), curve.end(),
-                       [&](const auto& lanes) { return lanes[lane] != nullptr; });
+    return std::ranges::any_of(curve, [&](const auto& lanes) { return lanes[lane] != nullptr; });
 }
 
 FaultSchedule::FaultSchedule(const IntegrationPlan& plan, const FaultCurves& faults,

@@ -1,9 +1,6 @@
 #include "lockstep/plan/mode_inertia.hpp"
 
-#include <algorithm>
 #include <cmath>
-
-#include "dynamics/gearbox_matrices.hpp"
 
 namespace gearpod::lockstep {
 

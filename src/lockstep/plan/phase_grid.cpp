@@ -1,6 +1,5 @@
 #include "lockstep/plan/phase_grid.hpp"
 
-#include <algorithm>
 #include <stdexcept>
 
 namespace gearpod::lockstep {

@@ -5,7 +5,6 @@
 #include <limits>
 #include <numbers>
 
-#include "dynamics/effects/mesh_damping.hpp"
 #include "machine/contracts.hpp"
 #include "stiffness/mesh_stiffness.hpp"
 #include "stiffness/teeth/positions.hpp"

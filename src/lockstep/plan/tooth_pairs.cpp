@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <span>
 #include <stdexcept>
 
 #include "dynamics/effects/mesh_law.hpp"
@@ -33,17 +32,6 @@ double contact_stiffness(const PairSet& pairs, PairId pair, int slice, double si
     mesh.slice_stiffness(slice, {&tau, 1}, middle, {&stiffness, 1});
     return stiffness;
 }
-
-}  // namespace
-
-EngagedTeeth engaged_teeth(const PairSet& pairs, PairId pair, double phase) {
-    const double since = phase - pairs.start[pair];
-    const int youngest = static_cast<int>(std::floor(-since)) + 1;
-    const double left = pairs.curve(pair).contact_ratio() - (since + youngest);
-    return {youngest, static_cast<int>(std::ceil(left))};
-}
-
-namespace {
 
 // Fills the springs of one pair at one stage node; `first` is the index of the first in the tables,
 // `worn` is true if the pair's flanks wear.
@@ -91,7 +79,42 @@ void fill_contacts(const PairSet& pairs, const PhaseGrid& grid, const std::vecto
     }
 }
 
+int tooth_of(int mesh_period, int first, int teeth) {
+    const int tooth = (mesh_period - first) % teeth;
+    return tooth < 0 ? tooth + teeth : tooth;
+}
+
+// Gap of a tooth pair in one lane, m, and its growth along the engagement.
+struct ToothPairGap {
+    double gap = 0.0, growth = 0.0;
+};
+
+ToothPairGap tooth_pair_gap(const ToothErrors& errors, PairId pair, int k, LaneId lane,
+                            std::size_t width) {
+    const PairTeeth& teeth = errors.pairs[pair];
+    ToothPairGap sum;
+    for (const int side : {0, 1}) {
+        const GearErrors& gear = errors.gears[static_cast<std::size_t>(teeth.gear[side])];
+        const auto tooth = static_cast<std::size_t>(tooth_of(k, teeth.first[side], gear.teeth));
+        sum.gap += gear.error_m[tooth * width + lane];
+        if (!gear.slope_m.empty()) {
+            // Contact runs from root to tip on the driver's flank, and from tip to root on the
+            // other.
+            const double slope = gear.slope_m[tooth * width + lane];
+            sum.growth += side == teeth.driver ? slope : -slope;
+        }
+    }
+    return sum;
+}
+
 }  // namespace
+
+EngagedTeeth engaged_teeth(const PairSet& pairs, PairId pair, double phase) {
+    const double since = phase - pairs.start[pair];
+    const int youngest = static_cast<int>(std::floor(-since)) + 1;
+    const double left = pairs.curve(pair).contact_ratio() - (since + youngest);
+    return {youngest, static_cast<int>(std::ceil(left))};
+}
 
 void add_tooth_pairs(const PairSet& pairs, const PhaseGrid& grid, StiffnessNodes& nodes,
                      const std::vector<int>& worn) {
@@ -174,38 +197,6 @@ std::vector<double> faulty_tooth_pairs(const PairSet& pairs, const stiffness::Fa
     }
     return all;
 }
-
-namespace {
-
-int tooth_of(int mesh_period, int first, int teeth) {
-    const int tooth = (mesh_period - first) % teeth;
-    return tooth < 0 ? tooth + teeth : tooth;
-}
-
-// Gap of a tooth pair in one lane, m, and its growth along the engagement.
-struct ToothPairGap {
-    double gap = 0.0, growth = 0.0;
-};
-
-ToothPairGap tooth_pair_gap(const ToothErrors& errors, PairId pair, int k, LaneId lane,
-                            std::size_t width) {
-    const PairTeeth& teeth = errors.pairs[pair];
-    ToothPairGap sum;
-    for (const int side : {0, 1}) {
-        const GearErrors& gear = errors.gears[static_cast<std::size_t>(teeth.gear[side])];
-        const auto tooth = static_cast<std::size_t>(tooth_of(k, teeth.first[side], gear.teeth));
-        sum.gap += gear.error_m[tooth * width + lane];
-        if (!gear.slope_m.empty()) {
-            // Contact runs from root to tip on the driver's flank, and from tip to root on the
-            // other.
-            const double slope = gear.slope_m[tooth * width + lane];
-            sum.growth += side == teeth.driver ? slope : -slope;
-        }
-    }
-    return sum;
-}
-
-}  // namespace
 
 std::vector<PairTeeth> planetary_teeth(const PairSet& pairs, const gears::PlanetaryTrain& train,
                                        gears::PlanetSense sense) {

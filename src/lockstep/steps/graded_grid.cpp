@@ -4,9 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <stdexcept>
-#include <vector>
 
-#include "lockstep/plan/phase_grid.hpp"
 #include "lockstep/tile/rigid_rotation.hpp"
 #include "lockstep/tile/tile_integrators.hpp"
 
@@ -50,54 +48,8 @@ void place_samples(PhaseGrid& grid) {
     }
 }
 
-}  // namespace
-
-double longest_step(const Grading& grading, double since) {
-    return std::min(grading.longest, std::max(grading.first, grading.growth * since));
-}
-
-double since_transition(std::span<const double> transitions, double phase) {
-    double since = std::numeric_limits<double>::infinity();
-    for (const double transition : transitions) {
-        const double apart = phase - transition;
-        since = std::min(since, apart < -kSamePhase ? apart + 1.0 : std::max(apart, 0.0));
-    }
-    return since;
-}
-
-PhaseGrid make_graded_grid(int samples, std::span<const double> transitions,
-                           const Grading& grading) {
-    if (samples < 1 || !(grading.first > 0.0 && grading.growth >= 0.0 && grading.longest > 0.0)) {
-        throw std::invalid_argument("a graded grid needs at least one sample and positive steps");
-    }
-    PhaseGrid grid;
-    grid.samples = samples;
-    const std::vector<double> ends = stretch_ends(transitions);
-    for (std::size_t i = 0; i + 1 < ends.size(); ++i) {
-        const double since = since_transition(transitions, ends[i]);
-        double phase = ends[i];
-        while (phase < ends[i + 1]) {
-            const double allowed = longest_step(grading, since + (phase - ends[i]));
-            const int level = std::max(0, std::ilogb(allowed / grading.first * (1.0 + 1e-9)));
-            const double length = std::ldexp(grading.first, level);
-            const double left = ends[i + 1] - phase;
-            if (left < 1.5 * length) {
-                add_step(grid, phase, left);
-                break;
-            }
-            add_step(grid, phase, length);
-            phase += length;
-        }
-    }
-    place_samples(grid);
-    return grid;
-}
-
-namespace {
-
 constexpr auto kLanes = static_cast<std::size_t>(kPilotLanes);
 
-// Tile integrated on one grid.
 class PilotIntegration {
   public:
     PilotIntegration(const Pilot& pilot, PhaseGrid grid)
@@ -225,6 +177,47 @@ std::vector<Candidate> candidates(double step,
 }
 
 }  // namespace
+
+double longest_step(const Grading& grading, double since) {
+    return std::min(grading.longest, std::max(grading.first, grading.growth * since));
+}
+
+double since_transition(std::span<const double> transitions, double phase) {
+    double since = std::numeric_limits<double>::infinity();
+    for (const double transition : transitions) {
+        const double apart = phase - transition;
+        since = std::min(since, apart < -kSamePhase ? apart + 1.0 : std::max(apart, 0.0));
+    }
+    return since;
+}
+
+PhaseGrid make_graded_grid(int samples, std::span<const double> transitions,
+                           const Grading& grading) {
+    if (samples < 1 || !(grading.first > 0.0 && grading.growth >= 0.0 && grading.longest > 0.0)) {
+        throw std::invalid_argument("a graded grid needs at least one sample and positive steps");
+    }
+    PhaseGrid grid;
+    grid.samples = samples;
+    const std::vector<double> ends = stretch_ends(transitions);
+    for (std::size_t i = 0; i + 1 < ends.size(); ++i) {
+        const double since = since_transition(transitions, ends[i]);
+        double phase = ends[i];
+        while (phase < ends[i + 1]) {
+            const double allowed = longest_step(grading, since + (phase - ends[i]));
+            const int level = std::max(0, std::ilogb(allowed / grading.first * (1.0 + 1e-9)));
+            const double length = std::ldexp(grading.first, level);
+            const double left = ends[i + 1] - phase;
+            if (left < 1.5 * length) {
+                add_step(grid, phase, left);
+                break;
+            }
+            add_step(grid, phase, length);
+            phase += length;
+        }
+    }
+    place_samples(grid);
+    return grid;
+}
 
 GradedChoice choose_grading(const Pilot& pilot, double step, double tolerance,
                             const std::function<PhaseGrid(const Grading&)>& grid_of) {

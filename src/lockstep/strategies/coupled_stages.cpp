@@ -1,7 +1,6 @@
 #include "lockstep/strategies/coupled_stages.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <memory>
 
 #include "lockstep/tile/integrated_tile.hpp"

@@ -1,10 +1,9 @@
-#include "lockstep/strategies/solution.hpp"
-
 #include <algorithm>
 #include <array>
 #include <functional>
 #include <stdexcept>
 
+#include "lockstep/strategies/solution.hpp"
 #include "lockstep/tile/integrated_tile.hpp"
 
 namespace gearpod::lockstep {
@@ -24,20 +23,6 @@ class FullTile : SpanTile<W> {
         return std::move(this->result_);
     }
 };
-
-}  // namespace
-
-template <int W>
-TileResult FullSolution::run(const TileInputs& tile) const {
-    return FullTile<W>(tile, *this).run();
-}
-
-template TileResult FullSolution::run<1>(const TileInputs&) const;
-template TileResult FullSolution::run<4>(const TileInputs&) const;
-template TileResult FullSolution::run<8>(const TileInputs&) const;
-template TileResult FullSolution::run<16>(const TileInputs&) const;
-
-namespace {
 
 template <int W>
 class PeriodicTile : IntegratedTile<W> {
@@ -154,24 +139,6 @@ class PeriodicTile : IntegratedTile<W> {
     const bool with_motion_;
 };
 
-}  // namespace
-
-template <int W>
-TileResult PeriodicSolution::run(const TileInputs& tile) const {
-    Excitation excitation;
-    if (gravity) {
-        excitation.gravity = Gravity{*gravity};
-    }
-    return PeriodicTile<W>(tile, *this, gravity ? &excitation : nullptr).run();
-}
-
-template TileResult PeriodicSolution::run<1>(const TileInputs&) const;
-template TileResult PeriodicSolution::run<4>(const TileInputs&) const;
-template TileResult PeriodicSolution::run<8>(const TileInputs&) const;
-template TileResult PeriodicSolution::run<16>(const TileInputs&) const;
-
-namespace {
-
 template <int W>
 class PerturbedTile : IntegratedTile<W> {
   public:
@@ -220,6 +187,20 @@ class PerturbedTile : IntegratedTile<W> {
 }  // namespace
 
 template <int W>
+TileResult FullSolution::run(const TileInputs& tile) const {
+    return FullTile<W>(tile, *this).run();
+}
+
+template <int W>
+TileResult PeriodicSolution::run(const TileInputs& tile) const {
+    Excitation excitation;
+    if (gravity) {
+        excitation.gravity = Gravity{*gravity};
+    }
+    return PeriodicTile<W>(tile, *this, gravity ? &excitation : nullptr).run();
+}
+
+template <int W>
 TileResult FaultPerturbation::run(const TileInputs& tile) const {
     if (!tile.faults.wear.empty()) {
         throw std::invalid_argument("wear changes every mesh period, not only passages");
@@ -227,9 +208,11 @@ TileResult FaultPerturbation::run(const TileInputs& tile) const {
     return PerturbedTile<W>(tile, *this).run();
 }
 
-template TileResult FaultPerturbation::run<1>(const TileInputs&) const;
-template TileResult FaultPerturbation::run<4>(const TileInputs&) const;
-template TileResult FaultPerturbation::run<8>(const TileInputs&) const;
-template TileResult FaultPerturbation::run<16>(const TileInputs&) const;
+#define GEARPOD_LANES(W, REAL)                                             \
+    template TileResult FullSolution::run<W>(const TileInputs&) const;     \
+    template TileResult PeriodicSolution::run<W>(const TileInputs&) const; \
+    template TileResult FaultPerturbation::run<W>(const TileInputs&) const;
+GEARPOD_FOR_FLOAT_WIDTHS(GEARPOD_LANES)
+#undef GEARPOD_LANES
 
 }  // namespace gearpod::lockstep

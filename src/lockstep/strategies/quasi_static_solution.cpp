@@ -1,5 +1,3 @@
-#include "lockstep/strategies/solution.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <memory>
@@ -8,6 +6,7 @@
 
 #include "lockstep/excitation/excitation_rows.hpp"
 #include "lockstep/excitation/forced_motion.hpp"
+#include "lockstep/strategies/solution.hpp"
 #include "lockstep/tile/mesh_forces.hpp"
 #include "lockstep/tile/static_lanes.hpp"
 #include "lockstep/tile/tooth_contact.hpp"
@@ -17,7 +16,7 @@ namespace gearpod::lockstep {
 namespace {
 
 double largest_stiffness(const StiffnessNodes& nodes) {
-    return *std::max_element(nodes.stiffness.begin(), nodes.stiffness.end());
+    return *std::ranges::max_element(nodes.stiffness);
 }
 
 // Springs per pair under unilateral contact; a single one carries the whole load if tooth pairs are
@@ -114,7 +113,7 @@ class QuasiStaticTile {
         }
         if (known == 0) {  // one spring carries the whole load
             std::copy(state_.k.begin(), state_.k.end(), state_.tooth_k.begin());
-            std::fill(state_.tooth_e.begin(), state_.tooth_e.end(), 0.0);
+            std::ranges::fill(state_.tooth_e, 0.0);
         }
         for (const PairOverride& o : overrides.faults) {
             if (step < o.first_step || step >= o.last_step || o.tooth_stiffness.empty()) {

@@ -3,7 +3,6 @@
 #pragma once
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <functional>
 #include <limits>
@@ -336,7 +335,6 @@ class SpanTile : protected IntegratedTile<W> {
     // True if any record of the span holds motions.
     bool with_motion() const { return span_.options.motion_meshes > 0; }
 
-    // Appends the record of mesh period k of the span.
     MeshRecord& add_record(int k) {
         result_.content[static_cast<std::size_t>(k)] = static_cast<int>(result_.records.size());
         return result_.records.emplace_back(new_record(k < span_.options.motion_meshes));

@@ -1,7 +1,6 @@
 #include "lockstep/tile/static_lanes.hpp"
 
 #include <algorithm>
-#include <cmath>
 
 #include "dynamics/effects/mesh_law.hpp"
 #include "dynamics/gearbox_matrices.hpp"

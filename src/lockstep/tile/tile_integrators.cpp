@@ -3,11 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <memory>
-#include <span>
 #include <stdexcept>
 #include <utility>
-#include <vector>
 
 #include "dynamics/fixed_shaft_motion.hpp"
 #include "dynamics/planetary_motion.hpp"
@@ -172,8 +169,7 @@ class ExcitedKernelIntegrator final : public ExcitedIntegrator<W> {
 };
 
 bool any_sample_inside(const PhaseGrid& grid) {
-    return std::any_of(grid.steps.begin(), grid.steps.end(),
-                       [](const Step& step) { return step.inside > 0; });
+    return std::ranges::any_of(grid.steps, [](const Step& step) { return step.inside > 0; });
 }
 
 }  // namespace

@@ -1,10 +1,8 @@
 #include "signals/demodulation/kurtogram.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <complex>
 #include <numeric>
-#include <vector>
 
 #include "signals/spectra/fourier_transform.hpp"
 

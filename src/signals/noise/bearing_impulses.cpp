@@ -1,6 +1,5 @@
 #include "signals/noise/bearing_impulses.hpp"
 
-#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <stdexcept>

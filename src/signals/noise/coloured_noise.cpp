@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <complex>
 #include <cstddef>
 #include <numbers>
 #include <stdexcept>
@@ -48,6 +47,27 @@ std::array<Complex, 2> covariance_weights() {
     }
     const double variance = 2.0 * (weight[0] + weight[1]).real();
     return {weight[0] / variance, weight[1] / variance};
+}
+
+using Complex = std::complex<double>;
+using Direction = FourierTransform::Direction;
+constexpr auto kCount = static_cast<std::size_t>(ShapedNoise::kTaps);
+
+// The low-pass passes 1e-16 of the power there, and nothing above is counted.
+constexpr double kMostPassed = 100.0;
+
+// |H|^2 of the low-pass.
+double passed(double frequency_Hz, double low_pass_Hz) {
+    return 1.0 / (1.0 + std::pow(frequency_Hz / low_pass_Hz, 8.0));
+}
+
+bool valid(const NoiseSpectrum& spectrum) {
+    const auto above_0 = [](double value) { return value > 0.0 && std::isfinite(value); };
+    const std::vector<double>& f = spectrum.frequency_Hz;
+    return f.size() >= 2 && f.size() == spectrum.density_m_s2_per_sqrt_Hz.size() &&
+           std::ranges::all_of(f, above_0) &&
+           std::ranges::all_of(spectrum.density_m_s2_per_sqrt_Hz, above_0) &&
+           std::ranges::adjacent_find(f, std::greater_equal<>()) == f.end();
 }
 
 }  // namespace
@@ -118,31 +138,6 @@ void LowPassNoise::colour(std::span<double> samples) const {
              imaginary_[1] * x[2] + real_[1] * x[3] + gain.state[3] * new_part};
     }
 }
-
-namespace {
-
-using Complex = std::complex<double>;
-using Direction = FourierTransform::Direction;
-constexpr auto kCount = static_cast<std::size_t>(ShapedNoise::kTaps);
-
-// The low-pass passes 1e-16 of the power there, and nothing above is counted.
-constexpr double kMostPassed = 100.0;
-
-// |H|^2 of the low-pass.
-double passed(double frequency_Hz, double low_pass_Hz) {
-    return 1.0 / (1.0 + std::pow(frequency_Hz / low_pass_Hz, 8.0));
-}
-
-bool valid(const NoiseSpectrum& spectrum) {
-    const auto above_0 = [](double value) { return value > 0.0 && std::isfinite(value); };
-    const std::vector<double>& f = spectrum.frequency_Hz;
-    return f.size() >= 2 && f.size() == spectrum.density_m_s2_per_sqrt_Hz.size() &&
-           std::ranges::all_of(f, above_0) &&
-           std::ranges::all_of(spectrum.density_m_s2_per_sqrt_Hz, above_0) &&
-           std::ranges::adjacent_find(f, std::greater_equal<>()) == f.end();
-}
-
-}  // namespace
 
 double NoiseSpectrum::at(double f) const {
     if (!(f >= frequency_Hz.front() && f <= frequency_Hz.back())) {

@@ -1,7 +1,5 @@
 #include "signals/noise/sensor_noise.hpp"
 
-#include <algorithm>
-#include <cmath>
 #include <numeric>
 
 #include "signals/spectra/synchronous_average.hpp"

@@ -18,6 +18,30 @@ Complex inverse_low_pass(double r) {
     return Complex(real, first * r) * Complex(real, second * r);
 }
 
+// Values of the modes or the measured ones.
+Complex of_housing(const HousingResponse& response, double f_Hz) {
+    if (response.measured) {
+        return response.measured->at(f_Hz);
+    }
+    double real = response.stiff_path ? 1.0 : 0.0, imaginary = 0.0;
+    for (const NaturalMode& mode : response.modes) {
+        const double r = f_Hz / mode.frequency_Hz;
+        const double a = 1.0 - r * r, b = 2.0 * mode.damping * r;
+        const double share = mode.participation * r * r / (a * a + b * b);
+        real += share * a;
+        imaginary -= share * b;
+    }
+    return {real, imaginary};
+}
+
+int half_of(int samples) {
+    return samples % 2 == 0 ? samples / 2 : samples;
+}
+
+Complex product(Complex a, Complex b) {
+    return {a.real() * b.real() - a.imag() * b.imag(), a.real() * b.imag() + a.imag() * b.real()};
+}
+
 }  // namespace
 
 Complex MeasuringChain::at(double f_Hz) const {
@@ -43,26 +67,6 @@ std::size_t MeasuringChain::own_samples(std::size_t samples, double applied_Hz) 
 }
 
 using Complex = std::complex<double>;
-
-namespace {
-
-// Values of the modes or the measured ones.
-Complex of_housing(const HousingResponse& response, double f_Hz) {
-    if (response.measured) {
-        return response.measured->at(f_Hz);
-    }
-    double real = response.stiff_path ? 1.0 : 0.0, imaginary = 0.0;
-    for (const NaturalMode& mode : response.modes) {
-        const double r = f_Hz / mode.frequency_Hz;
-        const double a = 1.0 - r * r, b = 2.0 * mode.damping * r;
-        const double share = mode.participation * r * r / (a * a + b * b);
-        real += share * a;
-        imaginary -= share * b;
-    }
-    return {real, imaginary};
-}
-
-}  // namespace
 
 Complex HousingResponse::at(double f_Hz) const {
     Complex housing = of_housing(*this, f_Hz);
@@ -91,18 +95,6 @@ Complex MeasuredResponse::at(double f_Hz) const {
     const double part = (f_Hz - frequency_Hz[i - 1]) / (frequency_Hz[i] - frequency_Hz[i - 1]);
     return (1.0 - part) * value[i - 1] + part * value[i];
 }
-
-namespace {
-
-int half_of(int samples) {
-    return samples % 2 == 0 ? samples / 2 : samples;
-}
-
-Complex product(Complex a, Complex b) {
-    return {a.real() * b.real() - a.imag() * b.imag(), a.real() * b.imag() + a.imag() * b.real()};
-}
-
-}  // namespace
 
 PeriodicResponse::PeriodicResponse(int samples)
     : samples_(static_cast<std::size_t>(samples)),

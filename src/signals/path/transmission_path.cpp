@@ -25,25 +25,6 @@ constexpr std::array kWindows{
     PathWindow{"rectangular", [](double /*x_rad*/) { return 1.0; }, "1: no loss with distance"},
 };
 
-}  // namespace
-
-std::span<const PathWindow> path_windows() {
-    return kWindows;
-}
-
-const PathWindow& path_window(std::string_view name) {
-    std::string known;
-    for (const PathWindow& window : kWindows) {
-        if (window.name == name) {
-            return window;
-        }
-        known += fmt::format("{}{}", known.empty() ? "" : ", ", window.name);
-    }
-    throw std::invalid_argument(fmt::format("no path window \"{}\"; there are {}", name, known));
-}
-
-namespace {
-
 // Angles of a sensor per turn.
 constexpr long kSensorAngles = 36'000;
 
@@ -64,6 +45,21 @@ std::pair<double, double> with_cross_axis(std::pair<double, double> along,
 }
 
 }  // namespace
+
+std::span<const PathWindow> path_windows() {
+    return kWindows;
+}
+
+const PathWindow& path_window(std::string_view name) {
+    std::string known;
+    for (const PathWindow& window : kWindows) {
+        if (window.name == name) {
+            return window;
+        }
+        known += fmt::format("{}{}", known.empty() ? "" : ", ", window.name);
+    }
+    throw std::invalid_argument(fmt::format("no path window \"{}\"; there are {}", name, known));
+}
 
 PathGrid::PathGrid(const PathWindow& window, int planets, int phases, const SpanLayout& layout)
     : PathGrid(window, equally_spaced(planets), phases, layout) {}

@@ -2,7 +2,6 @@
 // and carrier positions.
 #pragma once
 
-#include <cstddef>
 #include <span>
 #include <string_view>
 #include <vector>
@@ -43,7 +42,6 @@ const PathWindow& path_window(std::string_view name);
 // Omega/omega_c is 2e-4 (measured by tests/signals/path/test_path_and_filter.cpp). Most of it is
 // the filter's delay.
 
-// Sense of the carrier's rotation.
 enum class CarrierSense { positive, negative };
 
 // Place and kind of a sensor on the housing. Without them it is Liang's: it measures along the line

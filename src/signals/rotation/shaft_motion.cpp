@@ -117,6 +117,47 @@ class IntervalSpeeds {
     mutable double count_ = 0.0;  // excess that was found to be a count
 };
 
+// Removes the jumps of 2 pi, and makes the angle rise.
+void unwrap(std::vector<double>& angle) {
+    constexpr double kTurn = 2.0 * std::numbers::pi;
+    double turns = 0.0, before = angle.front();
+    for (double& value : angle) {
+        turns -= std::round((value - before) / kTurn);
+        before = value;
+        value += turns * kTurn;
+    }
+    if (angle.back() < angle.front()) {
+        for (double& value : angle) {
+            value = -value;
+        }
+    }
+}
+
+// Looks for a jump between the samples at which the angle changes. Where an encoder repeats its
+// counts, these are known to within a sample.
+void find_angle_jump(const std::vector<double>& column, bool counts, double least,
+                     ShaftAngle& angle) {
+    constexpr double kTurn = 2.0 * std::numbers::pi;
+    std::vector<double> sample, rad;
+    for (std::size_t i = 0; i < column.size(); ++i) {
+        if (i > 0 && column[i] > column[i - 1]) {
+            sample.push_back(static_cast<double>(i));
+            rad.push_back(column[i]);
+        }
+    }
+    const auto jump = motion_jump(sample, rad, counts ? 1.0 : 0.0, least);
+    if (!jump) {
+        return;
+    }
+    angle.problem_sample = static_cast<std::size_t>(sample[jump->index]) + 1;
+    angle.problem = fmt::format(
+        "{} by {:.3g} turn at sample {}: it advances by {:.3g} turn in {:.0f} sample(s), where its "
+        "neighbours let expect {:.3g}; no gearbox moves like this; cut the recording there",
+        jump->excess > 0.0 ? "jumps ahead" : "falls behind", std::abs(jump->excess) / kTurn,
+        angle.problem_sample, (rad[jump->index] - rad[jump->index - 1]) / kTurn,
+        sample[jump->index] - sample[jump->index - 1], jump->expected / kTurn);
+}
+
 }  // namespace
 
 std::optional<MotionJump> motion_jump(std::span<const double> sample,
@@ -154,7 +195,8 @@ Pulses tachometer_pulses(std::span<const double> column, double least) {
         }
     }
     if (pulses.sample.size() < kFewest) {
-        pulses.problem = fmt::format("{} pulse(s), but {} are needed", pulses.sample.size(), kFewest);
+        pulses.problem =
+            fmt::format("{} pulse(s), but {} are needed", pulses.sample.size(), kFewest);
         return pulses;
     }
     for (std::size_t i = 2; i < pulses.sample.size(); ++i) {
@@ -204,51 +246,6 @@ PulseCount count_pulses(const std::vector<double>& pulses) {
     }
     return out;
 }
-
-namespace {
-
-// Removes the jumps of 2 pi, and makes the angle rise.
-void unwrap(std::vector<double>& angle) {
-    constexpr double kTurn = 2.0 * std::numbers::pi;
-    double turns = 0.0, before = angle.front();
-    for (double& value : angle) {
-        turns -= std::round((value - before) / kTurn);
-        before = value;
-        value += turns * kTurn;
-    }
-    if (angle.back() < angle.front()) {
-        for (double& value : angle) {
-            value = -value;
-        }
-    }
-}
-
-// Looks for a jump between the samples at which the angle changes. Where an encoder repeats its
-// counts, these are known to within a sample.
-void find_angle_jump(const std::vector<double>& column, bool counts, double least,
-                     ShaftAngle& angle) {
-    constexpr double kTurn = 2.0 * std::numbers::pi;
-    std::vector<double> sample, rad;
-    for (std::size_t i = 0; i < column.size(); ++i) {
-        if (i > 0 && column[i] > column[i - 1]) {
-            sample.push_back(static_cast<double>(i));
-            rad.push_back(column[i]);
-        }
-    }
-    const auto jump = motion_jump(sample, rad, counts ? 1.0 : 0.0, least);
-    if (!jump) {
-        return;
-    }
-    angle.problem_sample = static_cast<std::size_t>(sample[jump->index]) + 1;
-    angle.problem = fmt::format(
-        "{} by {:.3g} turn at sample {}: it advances by {:.3g} turn in {:.0f} sample(s), where its "
-        "neighbours let expect {:.3g}; no gearbox moves like this; cut the recording there",
-        jump->excess > 0.0 ? "jumps ahead" : "falls behind", std::abs(jump->excess) / kTurn,
-        angle.problem_sample, (rad[jump->index] - rad[jump->index - 1]) / kTurn,
-        sample[jump->index] - sample[jump->index - 1], jump->expected / kTurn);
-}
-
-}  // namespace
 
 ShaftAngle shaft_angle(std::vector<double> column, double least) {
     unwrap(column);

@@ -3,7 +3,6 @@
 #include <cmath>
 
 #include "machine/instruction_sets.hpp"
-#include "signals/noise/tones.hpp"
 #include "signals/path/path_weights.hpp"
 
 namespace gearpod::signals {

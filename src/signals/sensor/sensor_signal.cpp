@@ -37,7 +37,6 @@ std::vector<int> consecutive(int first, int count) {
     return meshes;
 }
 
-// Signals of the lanes from `first` on.
 std::vector<std::vector<double>> signals_of(const TileSignals& tile, int first,
                                             const Timeline& timeline, const SpanLayout& layout,
                                             const PathGrid& path,
@@ -89,18 +88,6 @@ std::vector<std::vector<double>> signals_of(const TileSignals& tile, int first,
     return signal;
 }
 
-}  // namespace
-
-std::vector<double> synthesize(const TileSignals& tile, LaneId lane, const Timeline& timeline,
-                               const SpanLayout& layout, const PathGrid& path, double path_exponent,
-                               int first_mesh, int mesh_count, const Tones& tones) {
-    return std::move(signals_of(tile, lane, timeline, layout, path, {&path_exponent, 1},
-                                consecutive(first_mesh, mesh_count), tones)
-                         .front());
-}
-
-namespace {
-
 // Signals of all lanes, computed kTogether lanes at a time.
 std::vector<std::vector<double>> signals_of_all(const TileSignals& tile, const Timeline& timeline,
                                                 const SpanLayout& layout, const PathGrid& path,
@@ -118,6 +105,14 @@ std::vector<std::vector<double>> signals_of_all(const TileSignals& tile, const T
 }
 
 }  // namespace
+
+std::vector<double> synthesize(const TileSignals& tile, LaneId lane, const Timeline& timeline,
+                               const SpanLayout& layout, const PathGrid& path, double path_exponent,
+                               int first_mesh, int mesh_count, const Tones& tones) {
+    return std::move(signals_of(tile, lane, timeline, layout, path, {&path_exponent, 1},
+                                consecutive(first_mesh, mesh_count), tones)
+                         .front());
+}
 
 std::vector<std::vector<double>> synthesize(const TileSignals& tile, const Timeline& timeline,
                                             const SpanLayout& layout, const PathGrid& path,

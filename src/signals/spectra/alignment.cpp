@@ -96,9 +96,8 @@ Alignment align(std::span<const double> signal, std::span<const double> other) {
     Spectrum correlations(n);
     FourierTransform(static_cast<int>(n), FourierTransform::Direction::back)
         .transform(product, correlations);
-    const auto largest =
-        std::max_element(correlations.begin(), correlations.end(),
-                         [](const auto& a, const auto& b) { return a.real() < b.real(); });
+    const auto largest = std::ranges::max_element(
+        correlations, [](const auto& a, const auto& b) { return a.real() < b.real(); });
     const Shift shift = peak_near(product, largest - correlations.begin());
     double sum = 0.0;
     for (std::size_t k = 1; k < n; ++k) {

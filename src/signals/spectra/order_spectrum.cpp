@@ -1,11 +1,8 @@
 #include "signals/spectra/order_spectrum.hpp"
 
 #include <cmath>
-#include <complex>
 #include <numeric>
 #include <stdexcept>
-
-#include "signals/spectra/fourier_transform.hpp"
 
 namespace gearpod::signals {
 namespace {
@@ -25,6 +22,14 @@ double balancing_power_of_two(std::span<const double> a, std::span<const double>
     const double size = square(b);
     const double ratio = size > 0.0 ? square(a) / size : 0.0;
     return ratio > 0.0 && std::isfinite(ratio) ? std::ldexp(1.0, std::ilogb(ratio) / 2) : 1.0;
+}
+
+int checked(int points, int teeth) {
+    if (teeth < 3 || points < 4 * teeth) {
+        throw std::invalid_argument(
+            "mesh separation: needs three or more teeth and four samples a tooth");
+    }
+    return points;
 }
 
 }  // namespace
@@ -69,18 +74,6 @@ void OrderSpectrum::amplitudes(double noise_factor, std::span<double> amplitudes
         amplitudes[k] = std::sqrt(re * re + im * im);
     }
 }
-
-namespace {
-
-int checked(int points, int teeth) {
-    if (teeth < 3 || points < 4 * teeth) {
-        throw std::invalid_argument(
-            "mesh separation: needs three or more teeth and four samples a tooth");
-    }
-    return points;
-}
-
-}  // namespace
 
 MeshSeparation::MeshSeparation(int points, int teeth)
     : forward_(checked(points, teeth)),

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <numbers>
 #include <numeric>
-#include <vector>
 
 #include "machine/upper_median.hpp"
 #include "signals/spectra/order_spectrum.hpp"

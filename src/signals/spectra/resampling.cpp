@@ -1,7 +1,6 @@
 #include "signals/spectra/resampling.hpp"
 
 #include <algorithm>
-#include <boost/math/interpolators/cardinal_cubic_b_spline.hpp>
 #include <cmath>
 #include <cstddef>
 #include <limits>
@@ -15,6 +14,18 @@ using Spline = boost::math::interpolators::cardinal_cubic_b_spline<double>;
 
 // Largest distance, in samples, at which a grid point counts as being on a sample.
 constexpr double kOnSample = 1e-6;
+
+constexpr std::size_t kDenser = 4;
+// Dense samples repeated before and after the period, within which the ends of the spline lose
+// their influence: it decays by a factor of 3.7 per sample.
+constexpr std::size_t kMargin = 32;
+
+int at_least_four(int samples) {
+    if (samples < 4) {
+        throw std::invalid_argument("periodic interpolation: needs at least 4 samples");
+    }
+    return samples;
+}
 
 }  // namespace
 
@@ -61,22 +72,6 @@ std::vector<double> OrderTracking::resample(std::span<const double> signal, int 
     }
     return resampled;
 }
-
-namespace {
-
-constexpr std::size_t kDenser = 4;
-// Dense samples repeated before and after the period, within which the ends of the spline lose
-// their influence: it decays by a factor of 3.7 per sample.
-constexpr std::size_t kMargin = 32;
-
-int at_least_four(int samples) {
-    if (samples < 4) {
-        throw std::invalid_argument("periodic interpolation: needs at least 4 samples");
-    }
-    return samples;
-}
-
-}  // namespace
 
 double PeriodicSpline::operator()(double position) const {
     return spline_(position - samples_ * std::floor(position / samples_));

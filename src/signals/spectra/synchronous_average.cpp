@@ -15,6 +15,30 @@ std::size_t whole_turns(std::span<const double> samples, std::size_t bins) {
     return samples.size() / bins;
 }
 
+// Place of the timeline that tooth j meets, with the fraction of its Z_r turns at which it does.
+// Places are used rather than distinct meshes: which places share a distinct mesh differs with the
+// tile's other lanes, and a lane's sum must not depend on them.
+struct TimelineEntry {
+    std::size_t index = 0;
+    double share = 0.0;
+};
+
+std::vector<TimelineEntry> entries_of_tooth(int j, const Timeline& timeline,
+                                            const SpanLayout& layout) {
+    std::vector<double> turns(timeline.size(), 0.0);
+    for (long i = 0; i < layout.ring_teeth; ++i) {
+        const long k = j + i * layout.planet_teeth;
+        turns[static_cast<std::size_t>(k) % timeline.size()] += 1.0;
+    }
+    std::vector<TimelineEntry> entries;
+    for (std::size_t index = 0; index < turns.size(); ++index) {
+        if (turns[index] > 0.0) {
+            entries.push_back({index, turns[index] / layout.ring_teeth});
+        }
+    }
+    return entries;
+}
+
 }  // namespace
 
 std::vector<double> synchronous_average(std::span<const double> samples, std::size_t bins) {
@@ -65,34 +89,6 @@ double rms_without_average(std::span<const double> samples, std::size_t bins) {
     }
     return std::sqrt(sum / static_cast<double>(turns * bins));
 }
-
-namespace {
-
-// Place of the timeline that tooth j meets, with the fraction of its Z_r turns at which it does.
-// Places are used rather than distinct meshes: which places share a distinct mesh differs with the
-// tile's other lanes, and a lane's sum must not depend on them.
-struct TimelineEntry {
-    std::size_t index = 0;
-    double share = 0.0;
-};
-
-std::vector<TimelineEntry> entries_of_tooth(int j, const Timeline& timeline,
-                                            const SpanLayout& layout) {
-    std::vector<double> turns(timeline.size(), 0.0);
-    for (long i = 0; i < layout.ring_teeth; ++i) {
-        const long k = j + i * layout.planet_teeth;
-        turns[static_cast<std::size_t>(k) % timeline.size()] += 1.0;
-    }
-    std::vector<TimelineEntry> entries;
-    for (std::size_t index = 0; index < turns.size(); ++index) {
-        if (turns[index] > 0.0) {
-            entries.push_back({index, turns[index] / layout.ring_teeth});
-        }
-    }
-    return entries;
-}
-
-}  // namespace
 
 void remove_lane_means(machine::AlignedVector& values, int lanes) {
     std::vector<double> mean(lanes, 0.0);

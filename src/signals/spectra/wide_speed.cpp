@@ -63,7 +63,6 @@ std::vector<WideLine> strongest_lines(const std::vector<double>& amplitude, doub
     return lines;
 }
 
-// Compares lines with the comb of a mesh.
 class Comb {
   public:
     Comb(const std::vector<WideLine>& lines, double largest_order, double meshes, int turn_meshes)

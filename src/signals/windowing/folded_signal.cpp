@@ -65,6 +65,21 @@ std::vector<int> number_pairs(const std::vector<Occurrences>& sums, int meshes, 
     return number;
 }
 
+void check_shapes(const TileSignals& tile, const FoldPlan& plan, const PathGrid& path,
+                  std::size_t exponents) {
+    check_tile(tile, {0, plan.largest_mesh()});
+    if (path.planets() != tile.sources() || path.phases() != tile.phases ||
+        path.positions() != plan.layout().carrier_meshes ||
+        exponents != static_cast<std::size_t>(tile.lanes)) {
+        throw std::invalid_argument(
+            fmt::format("fold: tile of {} planets, {} phases, {} lanes against a path of {} "
+                        "planets, {} phases, "
+                        "{} exponents; {} carrier positions against {}",
+                        tile.planets, tile.phases, tile.lanes, path.planets(), path.phases(),
+                        exponents, path.positions(), plan.layout().carrier_meshes));
+    }
+}
+
 }  // namespace
 
 FoldPlan::FoldPlan(const Timeline& timeline, const SpanLayout& layout) : layout_(layout) {
@@ -102,25 +117,6 @@ FoldPlan::FoldPlan(const Timeline& timeline, const SpanLayout& layout) : layout_
         pair_of_mesh_.push_back(number[code(mesh, static_cast<int>(k % layout.carrier_meshes))]);
     }
 }
-
-namespace {
-
-void check_shapes(const TileSignals& tile, const FoldPlan& plan, const PathGrid& path,
-                  std::size_t exponents) {
-    check_tile(tile, {0, plan.largest_mesh()});
-    if (path.planets() != tile.sources() || path.phases() != tile.phases ||
-        path.positions() != plan.layout().carrier_meshes ||
-        exponents != static_cast<std::size_t>(tile.lanes)) {
-        throw std::invalid_argument(
-            fmt::format("fold: tile of {} planets, {} phases, {} lanes against a path of {} "
-                        "planets, {} phases, "
-                        "{} exponents; {} carrier positions against {}",
-                        tile.planets, tile.phases, tile.lanes, path.planets(), path.phases(),
-                        exponents, path.positions(), plan.layout().carrier_meshes));
-    }
-}
-
-}  // namespace
 
 void fold_squares(const TileSignals& tile, const FoldPlan& plan, const PathGrid& path,
                   std::span<const double> path_exponent, machine::AlignedVector& folded) {

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "stiffness/teeth/chebyshev.hpp"
 #include "stiffness/teeth/panels.hpp"
 #include "stiffness/teeth/tooth_compliance.hpp"
 

@@ -12,7 +12,6 @@
 #include <stdexcept>
 
 #include "stiffness/piecewise_curves.hpp"
-#include "stiffness/teeth/fracture_mechanics.hpp"
 #include "stiffness/teeth/tooth_compliance.hpp"
 
 namespace gearpod::stiffness {
@@ -132,6 +131,24 @@ double zero_between(const std::function<double(double)>& f, double low, double h
     return 0.5 * (low + high);
 }
 
+// Tolerances relative to the healthy tooth's stiffness. Slices that differ cause small kinks.
+constexpr double kUniformTolerance = 1e-11, kTolerance = 1e-5;
+
+// Stiffnesses of a slice per unit of the healthy face width; zero where the compliance is infinite.
+struct SliceStiffness {
+    double bending = 0, shear = 0, foundation = 0;
+};
+
+// Contact position with the quantities that all slices share.
+struct ContactPoint {
+    double u = 0, cosine = 0, sine = 0;
+    FoundationCompliance foundation;  // zero without one
+};
+
+double inverse_or_zero(double x) {
+    return x > 0 ? 1 / x : 0;
+}
+
 }  // namespace
 
 SliceRule::SliceRule(int slices) : panels_((slices + kSlicePoints - 1) / kSlicePoints) {
@@ -185,28 +202,6 @@ void SliceRule::add_part(std::size_t panel, double from, double to,
         weights[panel * kSlicePoints + i] += 0.5 * kGauss.weight[i] * sum / (2 * scale);
     }
 }
-
-namespace {
-
-// Tolerances relative to the healthy tooth's stiffness. Slices that differ cause small kinks.
-constexpr double kUniformTolerance = 1e-11, kTolerance = 1e-5;
-
-// Stiffnesses of a slice per unit of the healthy face width; zero where the compliance is infinite.
-struct SliceStiffness {
-    double bending = 0, shear = 0, foundation = 0;
-};
-
-// Contact position with the quantities that all slices share.
-struct ContactPoint {
-    double u = 0, cosine = 0, sine = 0;
-    FoundationCompliance foundation;  // zero without one
-};
-
-double inverse_or_zero(double x) {
-    return x > 0 ? 1 / x : 0;
-}
-
-}  // namespace
 
 class SpatialCrackFault : public ToothFault {
   public:

@@ -7,7 +7,6 @@
 #include <stdexcept>
 
 #include "stiffness/teeth/crack.hpp"
-#include "stiffness/teeth/fracture_mechanics.hpp"
 #include "stiffness/teeth/tooth_compliance.hpp"
 
 namespace gearpod::stiffness {

@@ -6,7 +6,6 @@
 #include <numbers>
 
 namespace gearpod::stiffness {
-
 namespace {
 
 // Amplitudes of u_r = U cos n phi, u_phi = V sin n phi at one radius, with their derivatives by r.
@@ -18,6 +17,21 @@ struct Field {
 Field power_field(double U, double V, double power, double r, double reference) {
     const double f = std::pow(r / reference, power);
     return {U * f, V * f, U * f * power / r, V * f * power / r};
+}
+
+using std::numbers::pi;
+
+// The omitted terms decrease as 1 / (n^2 half angle) in the self part and as 1 / n^3 in the
+// coupling.
+constexpr int kHarmonics = 4096;
+
+// Fourier coefficients of 1 (cosines) and of phi (sines) on |phi| <= half_angle, 0 elsewhere.
+double constant_coefficient(int n, double half_angle) {
+    return 2 * std::sin(n * half_angle) / (pi * n);
+}
+double linear_coefficient(int n, double half_angle) {
+    const double x = n * half_angle;
+    return 2 * (std::sin(x) - x * std::cos(x)) / (pi * n * n);
 }
 
 }  // namespace
@@ -88,25 +102,6 @@ HarmonicCompliance Annulus::mean() const {
     return {outwards_ * (1 - square) / radial, 0,
             outwards_ * (square - 1) / (shear_ * -2 * square)};
 }
-
-namespace {
-
-using std::numbers::pi;
-
-// The omitted terms decrease as 1 / (n^2 half angle) in the self part and as 1 / n^3 in the
-// coupling.
-constexpr int kHarmonics = 4096;
-
-// Fourier coefficients of 1 (cosines) and of phi (sines) on |phi| <= half_angle, 0 elsewhere.
-double constant_coefficient(int n, double half_angle) {
-    return 2 * std::sin(n * half_angle) / (pi * n);
-}
-double linear_coefficient(int n, double half_angle) {
-    const double x = n * half_angle;
-    return 2 * (std::sin(x) - x * std::cos(x)) / (pi * n * n);
-}
-
-}  // namespace
 
 ElasticRing::ElasticRing(const ToothProfile& tooth, int teeth, const Material& material,
                          double body_radius_m)

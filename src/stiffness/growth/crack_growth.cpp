@@ -6,8 +6,6 @@
 #include <numbers>
 #include <stdexcept>
 
-#include "stiffness/teeth/fracture_mechanics.hpp"
-
 namespace gearpod::stiffness {
 
 RootCrack::RootCrack(const gears::MeshGeometry& geometry, Profile profile, int which,

@@ -23,6 +23,18 @@ double with_ligament(const Coefficients& coefficients, double share) {
     return sum / std::pow(1.0 - share, 1.5);
 }
 
+// Factors on the strip's bending stress, for cracks at the surface and for deep cracks. kFading is
+// the fraction of the crack's whole length over which the surface value fades. Calibrated
+// as CrackPath states.
+struct ToothFactors {
+    double surface_moment, surface_lever, deep_lever;
+};
+constexpr ToothFactors kFillet{1.10, 0.38, -0.045}, kCorner{1.65, 0.27, -0.11};
+constexpr double kDeepMoment = 0.88, kFading = 0.087;
+
+constexpr int kDepthPoints = 12;
+constexpr double kRounding = 1e-12;
+
 }  // namespace
 
 double edge_crack_tension(double share) {
@@ -36,19 +48,6 @@ double edge_crack_bending(double share) {
 double edge_crack_shear(double share) {
     return (1.122 + share * (-0.561 + share * (0.085 + share * 0.180))) / std::sqrt(1.0 - share);
 }
-
-namespace {
-
-// Factors on the strip's bending stress, for cracks at the surface and for deep cracks. kFading is
-// the fraction of the crack's whole length over which the surface value fades. Calibrated
-// as CrackPath states.
-struct ToothFactors {
-    double surface_moment, surface_lever, deep_lever;
-};
-constexpr ToothFactors kFillet{1.10, 0.38, -0.045}, kCorner{1.65, 0.27, -0.11};
-constexpr double kDeepMoment = 0.88, kFading = 0.087;
-
-}  // namespace
 
 CrackPath::CrackPath(const ToothProfile& profile, double angle_rad, double height_m)
     : cosine_(std::cos(angle_rad)),
@@ -108,13 +107,6 @@ double max_crack_depth(const ToothProfile& profile, CrackLaw law, double angle_r
     return law == CrackLaw::fracture_mechanics ? CrackPath(profile, angle_rad).length()
                                                : max_crack_depth(profile, angle_rad);
 }
-
-namespace {
-
-constexpr int kDepthPoints = 12;
-constexpr double kRounding = 1e-12;
-
-}  // namespace
 
 CrackCompliance::CrackCompliance(const CrackPath& path, const Material& material, double depth_m)
     : broken_(depth_m >= path.length() * (1 - kRounding)) {

@@ -17,7 +17,7 @@ inline constexpr double kPositionTolerance = 1e-10;
 
 // Sorts positions in ascending order and removes duplicates.
 inline void sort_positions(std::vector<double>& positions) {
-    std::sort(positions.begin(), positions.end());
+    std::ranges::sort(positions);
     positions.erase(std::unique(positions.begin(), positions.end(),
                                 [](double a, double b) { return b - a < kPositionTolerance; }),
                     positions.end());
@@ -35,8 +35,7 @@ inline bool ascend(std::span<const double> positions) {
 
 // The positions ascend. Callers check it once for all their intervals.
 inline PositionRange positions_within(std::span<const double> ascending, double begin, double end) {
-    const auto low =
-        std::lower_bound(ascending.begin(), ascending.end(), begin - kPositionTolerance);
+    const auto low = std::ranges::lower_bound(ascending, begin - kPositionTolerance);
     const auto high = std::upper_bound(low, ascending.end(), end + kPositionTolerance);
     return {static_cast<std::size_t>(low - ascending.begin()),
             static_cast<std::size_t>(high - low)};
@@ -53,7 +52,7 @@ inline Stretch stretch_around(std::span<const double> transitions, std::span<con
                               double inside) {
     EXPECTS(!transitions.empty());
     const double period = std::floor(inside);
-    const auto next = std::upper_bound(transitions.begin(), transitions.end(), inside - period);
+    const auto next = std::ranges::upper_bound(transitions, inside - period);
     Stretch stretch;
     stretch.begin =
         next == transitions.begin() ? period - 1 + transitions.back() : period + *(next - 1);

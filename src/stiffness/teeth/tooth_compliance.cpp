@@ -6,7 +6,6 @@
 #include "stiffness/teeth/panels.hpp"
 
 namespace gearpod::stiffness {
-
 namespace {
 
 constexpr int kGaussPoints = 12;
@@ -15,6 +14,65 @@ constexpr int kGaussPoints = 12;
 constexpr int kFewPoints = 6;
 constexpr double kEven = 1.1;
 constexpr double kShort_rad = 0.1;
+
+constexpr int kTipPoints = 20;
+
+template <typename Integrand, typename Thickness>
+double integrate(double from, double to, Integrand&& integrand, Thickness&& thickness) {
+    double sum = 0;
+    if (from < to)
+        for_panels(from, to, thickness, [&](double a, double b) {
+            for_gauss_points<kTipPoints>(
+                a, b, [&](double weight, double p) { sum += weight * integrand(p); });
+        });
+    return sum;
+}
+
+// Integrals over one stretch of the beam with the parameter p: axial(p), slope(p) = |dxi/dp|,
+// thickness(p).
+class BeamIntegrals {
+  public:
+    BeamIntegrals(const ToothProfile& profile, const Material& material, double contact_angle)
+        : base_radius_(profile.base_radius()),
+          cosine_(std::cos(contact_angle)),
+          sine_(std::sin(contact_angle)),
+          stretch_(material.youngs_modulus_Pa * material.face_width_m),
+          bend_(material.bending_factor * stretch_),
+          shear_(material.shear_factor * stretch_ / (2 * (1 + material.poisson_ratio))),
+          shear_energy_(material.shear_energy) {}
+
+    template <typename Axial, typename Slope, typename Thickness>
+    void add_bending_and_shear(double from, double to, Axial axial, Slope slope,
+                               Thickness thickness) {
+        const auto bending = [&](double p) {
+            const double arm = base_radius_ - axial(p) * cosine_;
+            const double t = thickness(p);
+            return 12 * arm * arm * slope(p) / (bend_ * t * t * t);
+        };
+        const auto shear = [&](double p) {
+            return 1.2 * cosine_ * cosine_ * slope(p) / (shear_ * thickness(p));
+        };
+        sum_.bending += integrate(from, to, bending, thickness);
+        if (shear_energy_)
+            sum_.shear += integrate(from, to, shear, thickness);
+    }
+
+    template <typename Slope, typename Thickness>
+    void add_axial(double from, double to, Slope slope, Thickness healthy_thickness) {
+        const auto axial = [&](double p) {
+            return sine_ * sine_ * slope(p) / (stretch_ * healthy_thickness(p));
+        };
+        sum_.axial += integrate(from, to, axial, healthy_thickness);
+    }
+
+    const ToothCompliance& sum() const { return sum_; }
+
+  private:
+    double base_radius_, cosine_, sine_;
+    double stretch_, bend_, shear_;  // E L, G L, with the helix
+    bool shear_energy_;
+    ToothCompliance sum_;
+};
 
 }  // namespace
 
@@ -105,69 +163,6 @@ void SectionSweep::advance(double to, bool cracked) {
     });
     u_ = to;
 }
-
-namespace {
-
-constexpr int kTipPoints = 20;
-
-template <typename Integrand, typename Thickness>
-double integrate(double from, double to, Integrand&& integrand, Thickness&& thickness) {
-    double sum = 0;
-    if (from < to)
-        for_panels(from, to, thickness, [&](double a, double b) {
-            for_gauss_points<kTipPoints>(
-                a, b, [&](double weight, double p) { sum += weight * integrand(p); });
-        });
-    return sum;
-}
-
-// Integrals over one stretch of the beam with the parameter p: axial(p), slope(p) = |dxi/dp|,
-// thickness(p).
-class BeamIntegrals {
-  public:
-    BeamIntegrals(const ToothProfile& profile, const Material& material, double contact_angle)
-        : base_radius_(profile.base_radius()),
-          cosine_(std::cos(contact_angle)),
-          sine_(std::sin(contact_angle)),
-          stretch_(material.youngs_modulus_Pa * material.face_width_m),
-          bend_(material.bending_factor * stretch_),
-          shear_(material.shear_factor * stretch_ / (2 * (1 + material.poisson_ratio))),
-          shear_energy_(material.shear_energy) {}
-
-    template <typename Axial, typename Slope, typename Thickness>
-    void add_bending_and_shear(double from, double to, Axial axial, Slope slope,
-                               Thickness thickness) {
-        const auto bending = [&](double p) {
-            const double arm = base_radius_ - axial(p) * cosine_;
-            const double t = thickness(p);
-            return 12 * arm * arm * slope(p) / (bend_ * t * t * t);
-        };
-        const auto shear = [&](double p) {
-            return 1.2 * cosine_ * cosine_ * slope(p) / (shear_ * thickness(p));
-        };
-        sum_.bending += integrate(from, to, bending, thickness);
-        if (shear_energy_)
-            sum_.shear += integrate(from, to, shear, thickness);
-    }
-
-    template <typename Slope, typename Thickness>
-    void add_axial(double from, double to, Slope slope, Thickness healthy_thickness) {
-        const auto axial = [&](double p) {
-            return sine_ * sine_ * slope(p) / (stretch_ * healthy_thickness(p));
-        };
-        sum_.axial += integrate(from, to, axial, healthy_thickness);
-    }
-
-    const ToothCompliance& sum() const { return sum_; }
-
-  private:
-    double base_radius_, cosine_, sine_;
-    double stretch_, bend_, shear_;  // E L, G L, with the helix
-    bool shear_energy_;
-    ToothCompliance sum_;
-};
-
-}  // namespace
 
 ToothCompliance tooth_compliance(const ToothProfile& profile, const Material& material,
                                  double contact_angle, const Crack& crack) {

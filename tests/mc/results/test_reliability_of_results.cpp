@@ -54,7 +54,7 @@ TEST_CASE("An ensemble that exceeds the memory is not assessed, and the text rep
     const auto none =
         reliability_of(r, ColumnRows(r), "", 2, 1999);  // one thousand gearboxes, 2 values each
     CHECK(!none);
-    CHECK_THAT(report_text(results_report(r, ColumnRows(r), none)),
+    CHECK_THAT(report_text(findings_of_run(r, ColumnRows(r), none).report),
                Catch::Contains("is limited to 25000000"));
 }
 
