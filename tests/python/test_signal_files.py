@@ -343,13 +343,16 @@ class UniversalFiles(Case):
 
     def test_binary_numbers(self):
         for order, form, raw, expected in (
-                (1, 2, struct.pack("<3f", 1, -2.5, 0.5), [1, -2.5, 0.5]), (2, 2, struct.pack(">3f", 1, -2.5, 0.5), [1, -2.5, 0.5])):
+                (1, 2, struct.pack("<3f", 1, -2.5, 0.5), [1, -2.5, 0.5]), (2, 2, struct.pack(">3f", 1, -2.5, 0.5), [1, -2.5, 0.5]),
+                (2, 3, b"\x41\x10\0\0\xC2\x76\xA0\0\x40\x80\0\0", [1, -118.625, 0.5]),
+                (1, 3, b"\0\0\x10\x41\0\xA0\x76\xC2\0\0\x80\x40", [1, -118.625, 0.5]),
+                (1, 1, b"\x80\x40\0\0\x20\xC1\0\0\0\0\0\0", [1, -2.5, 0])):
             for end in ("\n", ""):
                 self.assertEqual(self.sensor(count=3, binary=binary_58(order, form, 12), data=raw.decode("latin-1") + end)
                                  .values.tolist(), expected)
         raw = "\x80\x40\0\0\x20\xC1\0\0\0\0\0\0"
-        for form in (1, 3, 4):
-            self.assertIn(f"{form} is not a format", self.sensor(count=3, binary=binary_58(1, form, 12), data=raw).unreadable)
+        self.assertIn("its values are DEC VMS", self.sensor(count=3, binary=binary_58(2, 1, 12), data=raw).unreadable)
+        self.assertIn("4 is not a valid format", self.sensor(count=3, binary=binary_58(1, 4, 12), data=raw).unreadable)
         self.refused("declares 16 bytes, but its 3 values", dataset_58(count=3, binary=binary_58(1, 2, 16), data=raw))
         self.refused("of 4 values are present", dataset_58(count=4, binary=binary_58(1, 2, 16), data=raw)[:-8])
 

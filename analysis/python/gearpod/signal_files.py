@@ -517,7 +517,10 @@ QUANTITIES = ("unknown,general,stress,strain,4,temperature,heat flux,7,displacem
               "excitation force,14,pressure,mass,time,frequency,rotational speed,order,sound pressure,sound intensity,"
               "sound power").split(",")
 FUNCTIONS = ("general function,time response,auto spectrum,cross spectrum,frequency response function,transmissibility,coherence,"
-             "auto correlation,cross correlation,power spectral density").split(",")
+             "auto correlation,cross correlation,power spectral density,energy spectral density,probability density,spectrum,"
+             "cumulative distribution,peaks and valleys,stress cycles,strain cycles,orbit,mode indicator function,force pattern,"
+             "partial power,partial coherence,eigenvalue,eigenvector,shock response spectrum,impulse response filter,"
+             "multiple coherence,order function,phase compensation").split(",")
 ACCELERATION, FORCE, TIME, FREQUENCY, SPEED = 12, 13, 17, 18, 19
 LENGTHS = {"m": 1.0, "cm": 100.0, "mm": 1000.0, "um": 1e6, "in": 1 / 0.0254, "ft": 1 / 0.3048}
 ANGULAR = {"displacement": "[mu]?rad|deg|degrees|°|arcmin|arcsec|turns?|revs?",
@@ -658,11 +661,30 @@ class UniversalFile:
         self.require(left >= count * row, f"only {left // row} of {count} values are present")
         self.at += count * row
         self.rest_of_dataset(f"more than the {count} declared values are present")
-        if order not in (1, 2) or form != 2:
-            return [], (f"{form} is not a format of binary numbers that is read (2: IEEE; 1 is DEC VMS, 3 is IBM); write the function "
-                        "as text (58)" if order in (1, 2) else f"{order} is not a valid byte order (1 or 2)")
-        rows = np.frombuffer(self.data, [(str(i), f"{' <>'[order]}f{w}") for i, w in enumerate(widths)], count, start)
-        return [rows[str(i)].astype(np.float64) for i in range(len(widths))], ""
+        if order not in (1, 2) or form not in (1, 2, 3):
+            return [], (f"{form} is not a valid format of binary numbers" if order in (1, 2) else
+                        f"{order} is not a valid byte order (1 or 2)")
+        if form == 1 and (width == 8 or order == 2):
+            return [], "its values are DEC VMS numbers of double precision or in reverse byte order, which are not supported"
+        code = " <>"[order] + ("f" if form == 2 else "u")
+        rows = np.frombuffer(self.data, [(str(i), f"{code}{w}") for i, w in enumerate(widths)], count, start)
+        convert = {1: dec_numbers, 2: lambda raw: raw.astype(np.float64), 3: ibm_numbers}[form]
+        return [convert(rows[str(i)]) for i in range(len(widths))], ""
+
+
+def ibm_numbers(raw):
+    """Hexadecimal numbers of IBM 370: an exponent to the base 16 and a fraction."""
+    bits, raw = 8 * raw.dtype.itemsize - 8, raw.astype(np.uint64)
+    exponent = (raw >> np.uint64(bits) & np.uint64(127)).astype(int) - 64
+    size = np.ldexp((raw & np.uint64(2**bits - 1)).astype(float), 4 * exponent - bits)
+    return np.where(raw >> np.uint64(bits + 7) & np.uint64(1), -size, size)
+
+
+def dec_numbers(raw):
+    """F_floating numbers of DEC VAX: two little-endian words, the more significant one first."""
+    raw = (raw & 0xFFFF).astype(np.int64) << 16 | raw.astype(np.int64) >> 16
+    size = np.ldexp((raw & 0x7FFFFF | 0x800000).astype(float), (raw >> 23 & 255) - 128 - 24)
+    return np.where(raw >> 23 & 255, np.where(raw >> 31 & 1, -size, size), 0.0)
 
 
 def other_kind(function):
