@@ -369,10 +369,10 @@ class OwnFeatures(PythonStudyCase):
         self.assertTrue(self.is_gone(pid))
 
     def test_describe_lists_features_and_is_not_stopped_by_one_that_hangs(self):
-        self.program("describe", self.study(COUNTERPARTS), "--seconds", "2")
+        self.program("describe", self.study(COUNTERPARTS), "--full", "--seconds", "2")
         self.assertIn("features in Python", self.output)
         self.assertIn("level in Python; unit m/s^2, high values alarm", self.output)
-        self.program("describe", self.study(self.HANGS), "--seconds", "2")
+        self.program("describe", self.study(self.HANGS), "--full", "--seconds", "2")
         self.assertIn("not computed", self.output)
 
     def test_recordings_have_the_features(self):
