@@ -118,6 +118,9 @@ std::string open_problem(const std::string& path) {
         file.clear();
         file.seekg(static_cast<std::streamoff>(at));
         file.read(head.data(), static_cast<std::streamsize>(head.size()));
+        if (at == 0 && head.starts_with("<")) {
+            return "is an HTML or XML text";
+        }
         if (at == 0 && head.starts_with("\0\0\0\0\0\0\0\0"sv)) {
             return "is without HDF5 signature: it begins with zeros, as if the program that wrote "
                    "it did not close it";

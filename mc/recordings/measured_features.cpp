@@ -4,7 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <ranges>
+#include <numeric>
 #include <utility>
 
 #include "features/statistics/signal_statistics.hpp"
@@ -83,8 +83,9 @@ class MeasuredInput {
         te_ = signals::synchronous_average(
             std::span(signal.te).first(std::min(signal.te.size(), span)), turn);
         const auto largest = [&] {
-            return std::ranges::max(te_ |
-                                    std::views::transform([](double v) { return std::abs(v); }));
+            return std::accumulate(te_.begin(), te_.end(), 0.0, [](double most, double value) {
+                return std::max(most, std::abs(value));
+            });
         };
         const double before = largest();
         remove_mean(te_);

@@ -291,6 +291,7 @@ TEST_CASE("Files that cannot be opened as HDF5 are refused with the true reason"
     check_contains(refusal("\x0e\x03\x13\x01" + std::string(200, 'x')), "is not an HDF5 file");
     check_contains(refusal(""), "is empty");
     check_contains(refusal(std::string(2000, '\0')), "begins with zeros");
+    check_contains(refusal("<html><body>not found</body></html>"), "is an HTML or XML text");
     check_contains(refusal("time,sensor\n"), "is not an HDF5 file");
 }
 
