@@ -43,8 +43,9 @@ OpenStudy::OpenStudy(const std::string& name, const std::optional<std::string>& 
         if (!made) {
             throw BadInput(text_of(made.problems, with_lines));
         }
-        return Plans{made.scene->tile(), made.scene->ensemble(),
-                     made.planner->description(made.planner->facts().numerics)};
+        return Plans{made.scene->tile(), made.scene->ensemble(), [planner = *made.planner] {
+                         return planner.description(planner.facts().numerics);
+                     }};
     };
 }
 
@@ -54,6 +55,12 @@ const OpenStudy::Plans& OpenStudy::plans() {
         plans_ = make_plans_();
     }
     return *plans_;
+}
+
+std::vector<DescriptionSection> OpenStudy::description() {
+    const Plans& made = plans();
+    const std::scoped_lock lock(making_);  // a planner serves one thread
+    return made.describe();
 }
 
 Simulation simulate_row(const TilePlan& tile, const EnsemblePlan& ensemble, long row, long meshes) {

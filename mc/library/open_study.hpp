@@ -27,10 +27,12 @@ class OpenStudy {
     struct Plans {
         TilePlan tile;
         EnsemblePlan ensemble;
-        std::vector<DescriptionSection> description;  // of gearbox and effects, as `describe` has
+        std::function<std::vector<DescriptionSection>()> describe;
     };
     // Made by the first call. Throws BadInput with every problem.
     const Plans& plans();
+    // Texts on gearbox and effects, as `describe` has them. Throws BadInput.
+    std::vector<DescriptionSection> description();
     // Plan of the vibration modes, which a study without teeth has, too. Throws BadInput.
     ModalPlan modes() const { return modes_(); }
     // Text of accepted statements that should be written in another way; may be empty.

@@ -65,11 +65,11 @@ void append(mc::Simulation& all, const mc::Simulation& next) {
 // exist and GearboxFailed. The values do not depend on the number of threads.
 mc::Simulation simulate_rows(mc::OpenStudy& study, const std::vector<long>& rows, long meshes,
                              const std::function<bool()>& interrupted) {
-    const auto& [tile, ensemble, description] = study.plans();
+    const mc::OpenStudy::Plans& plans = study.plans();
     std::vector<mc::Simulation> each(rows.size());
     std::atomic<bool> stopped{false};
     const auto caller = std::this_thread::get_id();
-    machine::for_each_index(rows.size(), mc::thread_count(ensemble), [&](std::size_t i) {
+    machine::for_each_index(rows.size(), mc::thread_count(plans.ensemble), [&](std::size_t i) {
         if (std::this_thread::get_id() == caller && interrupted()) {
             stopped = true;
         }
@@ -77,7 +77,7 @@ mc::Simulation simulate_rows(mc::OpenStudy& study, const std::vector<long>& rows
             return;
         }
         try {
-            each[i] = mc::simulate_row(tile, ensemble, rows[i], meshes);
+            each[i] = mc::simulate_row(plans.tile, plans.ensemble, rows[i], meshes);
         } catch (const mc::BadInput&) {
             stopped = true;
             throw;
@@ -178,8 +178,7 @@ py::list stiffness(mc::OpenStudy& study, int points, bool transmission_error) {
 // Texts by heading and name.
 py::dict describe(mc::OpenStudy& study) {
     py::dict all;
-    for (const mc::DescriptionSection& section :
-         unlocked([&]() -> const auto& { return study.plans().description; })) {
+    for (const mc::DescriptionSection& section : unlocked([&] { return study.description(); })) {
         py::dict entries;
         for (const auto& [name, text] : section.entries) {
             entries[py::str(name)] = text;
