@@ -230,7 +230,7 @@ int print_keys(const std::string& word) {
     return kDone;
 }
 
-// What the first screen shows (print_first_screen).
+// Entries of the first screen (print_first_screen).
 const std::set<std::string> kScreen = {"false alarms: in time",
                                        "false alarms: gearboxes per size",
                                        "false alarms: false-alarm rate",
@@ -273,7 +273,7 @@ int describe_study(const DescribeOptions& options) {
                    wrapped_study(resolved_text(*study)));
     } else {
         print_first_screen(kScreen);
-        fmt::print("{}\n", wrapped_text(printable(EnsemblePlan(*study).title), 2));
+        fmt::print("{}\n", wrapped_text(printable(study->title), 2));
     }
     if (!has_gears(*study)) {
         fmt::print("\nthe study has no tooth numbers: only `gearpod modes` can use it\n");

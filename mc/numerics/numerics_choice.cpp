@@ -136,10 +136,9 @@ class ScatterChoice {
                 candidates.push_back(*numerics);
             }
             const bool last = steps + unscaled_steps_.samples >= unscaled_steps_.steps;
-            if (last || candidates.size() == static_cast<std::size_t>(threads_)) {
-                if (one_keeps(std::exchange(candidates, {}))) {
-                    return made;
-                }
+            if ((last || candidates.size() == static_cast<std::size_t>(threads_)) &&
+                one_keeps(std::exchange(candidates, {}))) {
+                return made;
             }
         }
         return without_scaling;

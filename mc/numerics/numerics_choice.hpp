@@ -20,8 +20,8 @@ struct NumericsChoice {
     std::string worst_feature;  // name of that feature
     double cost = 0.0;  // of integrating the pilot by the cost model, in rk4 steps per gearbox
     int gearboxes = 0;  // number of pilot gearboxes
-    // Rows with fine steps of numerics.scatter_tolerance: of the pilot, and of the faulty pairs if
-    // they were asked for.
+    // Rows with fine steps of numerics.scatter_tolerance: of the pilot, and of the pairs if they
+    // were asked for.
     std::shared_ptr<const FineRows> fine = {};
 
     std::string text() const;
@@ -46,15 +46,14 @@ struct ResolvedNumerics {
 // integrator's own rule, and with fewer steps and more mass scaling. If both are given, they are
 // the only candidate. The choice depends on the study only, not on timing, lanes, threads or
 // instruction set. Throws SceneError if no candidate keeps the tolerance, or if a key that would be
-// chosen is given. `pairs`: faulty gearboxes of numerics.paired_gearboxes are computed at the same
-// time.
+// chosen is given. `pairs`: the gearboxes of numerics.paired_gearboxes are computed with the pilot.
 ResolvedNumerics resolve_numerics(const Planner& planner, const Numerics& numerics,
                                   bool pairs = false);
 
 // Plan of a study with resolved numerics. Throws SceneError.
 Scene resolved_plan(const Study& study);
 
-// What making a scene chooses: numerics for the tolerance; the same with the pairs of a run
+// Choices made with a scene: numerics for the tolerance; the same with the pairs of a run
 // (resolve_numerics()); nothing, because the study of a results file has what its run chose.
 enum class Choosing { numerics, numerics_with_pairs, nothing };
 

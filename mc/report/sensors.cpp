@@ -212,9 +212,13 @@ double spread_of(const std::vector<OneSensor>& sensors) {
 
 // The sensors at the noise level where they differ most.
 std::vector<OneSensor> most_different_sensors(const Results& frame, const RowSource& rows) {
-    std::vector<OneSensor> most = sensors_of(frame, rows, reference_level(frame.noise_levels));
+    const std::size_t reference = reference_level(frame.noise_levels);
+    std::vector<OneSensor> most = sensors_of(frame, rows, reference);
     double largest = spread_of(most);
     for (std::size_t level = 0; level < frame.noise_levels.size(); ++level) {
+        if (level == reference) {
+            continue;
+        }
         std::vector<OneSensor> sensors = sensors_of(frame, rows, level);
         if (const double spread = spread_of(sensors); spread > largest) {
             largest = spread;

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import importlib
 import importlib.util
 from typing import Any, Dict, Iterable, Iterator, Mapping, Tuple
 
@@ -58,22 +59,21 @@ class Columns(Mapping[str, Array]):
                                         for name, array in self._arrays.items()})
 
 
-def import_xarray() -> Any:
+def _imported(name: str, problem: str) -> Any:
     try:
-        import xarray
+        return importlib.import_module(name)
     except ImportError as error:
-        raise ImportError("datasets need xarray (Debian: python3-xarray); a column is a numpy "
-                          "array") from error
-    return xarray
+        raise ImportError(problem) from error
+
+
+def import_xarray() -> Any:
+    return _imported("xarray", "datasets need xarray (Debian: python3-xarray); a column is a numpy "
+                               "array")
 
 
 def import_pandas() -> Any:
-    try:
-        import pandas
-    except ImportError as error:
-        raise ImportError("frames need pandas (Debian: python3-pandas); numpy arrays are available "
-                          "without it") from error
-    return pandas
+    return _imported("pandas", "frames need pandas (Debian: python3-pandas); numpy arrays are "
+                               "available without it")
 
 
 def require_parquet() -> None:

@@ -100,7 +100,7 @@ std::string gear_lines(int teeth, const std::optional<double>& shift,
 }
 
 SensorRates sensor_rates(double mesh_frequency_Hz) {
-    // What folds back to below the corner is damped by (6 - 1)^4 = 625 by a filter of fourth order.
+    // A filter of fourth order damps lines that fold back to below its corner by (6 - 1)^4 = 625.
     constexpr double kHarmonics = 20.0, kHighest_Hz = 10000.0, kPerLowPass = 6.0,
                      kFewestPerMesh = 12.0;
     const double low_pass = std::min(kHarmonics * mesh_frequency_Hz, kHighest_Hz);
