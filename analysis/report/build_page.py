@@ -5,9 +5,8 @@
     python3 build_page.py F.json > F.html       (- reads the JSON from standard input)
 
 With a final --figures FOLDER the figures are also written there, each as SVG, PNG and PDF. With a final
---pdf (for a report) its summary on one sheet is written instead, as PDF. With a final --csv, --evidence
-or --dataset the files of these folders are written instead: a line with their names and sizes (JSON),
-then the files.
+--pdf (for a report) its summary on one sheet is written instead, as PDF. With a final --csv or --evidence
+the files of these folders are written instead: a line with their names and sizes (JSON), then the files.
 
 gearpod report F.h5 --html F.html does both. Everything on the page comes from the JSON; the page
 loads nothing and runs no script.
@@ -23,7 +22,6 @@ from words import escape
 
 
 DRAWING = (("numpy", "python3-numpy"), ("matplotlib", "python3-matplotlib"))
-HDF5 = (("numpy", "python3-numpy"), ("h5py", "python3-h5py"))
 
 
 def missing_packages(needed):
@@ -45,7 +43,7 @@ def study_parts(data, page):
     report = Report(data)
     banner = "".join(f'<p class="banner" role="note">{escape(text)}</p>'
                      for key in ("part", "incomplete") if (text := report.text(key)))
-    return (report.title(), report.text("headline"), banner + headline.html_of(report, page),
+    return (report.title(), headline.answers(report)[0], banner + headline.html_of(report, page),
             sections.all_of(report, page))
 
 
@@ -103,7 +101,7 @@ def framed(files):
 
 # Modules that make documents, and the packages that they need.
 DOCUMENTS = {"--pdf": ("summary_sheet", DRAWING), "--csv": ("tables", ()),
-             "--evidence": ("evidence.evidence", DRAWING), "--dataset": ("dataset", HDF5)}
+             "--evidence": ("evidence.evidence", DRAWING)}
 
 
 def document_of(kind, data):

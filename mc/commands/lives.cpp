@@ -251,12 +251,11 @@ int lives_study(const LivesOptions& options, const Ranks& ranks) {
 
 int report_lives(const ReportOptions& options) {
     if (!options.csv.empty() || !options.pdf.empty() || !options.condition.empty() ||
-        !options.dataset.empty() || options.alarm_cost) {
-        fmt::print(
-            stderr,
-            "{}: holds lives; --csv, --pdf, --by, --dataset and costs are only for results of "
-            "`run`, omit them\n",
-            options.results);
+        options.alarm_cost) {
+        fmt::print(stderr,
+                   "{}: holds lives; --csv, --pdf, --by and costs are only for results of "
+                   "`run`, omit them\n",
+                   options.results);
         return kBadInput;
     }
     const Results frame = read_frame(options.results);

@@ -12,12 +12,11 @@ namespace gearpod::mc {
 
 struct ReportOptions {
     std::string results;
-    std::string json;                   // "": none; "-": standard output
-    std::string html, pdf;              // "": none
-    std::string csv;                    // folder for every table; "": none
-    std::string figures;                // folder for the page's figures as SVG, PNG and PDF; "": none
-    std::string evidence;               // folder for the evidence pack; "": none
-    std::string dataset;                // folder for the dataset; "": none
+    std::string json;       // "": none; "-": standard output
+    std::string html, pdf;  // "": none
+    std::string csv;        // folder for every table; "": none
+    std::string figures;    // folder for the page's figures as SVG, PNG and PDF; "": none
+    std::string evidence;   // folder for the evidence pack; "": none
     std::vector<std::string> sections;  // to print; empty: the screen, or everything if `full`
     bool full = false;
     std::string condition;  // random input; each of its values gets its own threshold; "": none

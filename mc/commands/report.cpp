@@ -1,5 +1,5 @@
 // Command `report RESULTS`: detection rates, POD and ranking of the results of a run, as text,
-// JSON, page, sheet, tables, evidence pack and dataset.
+// JSON, page, sheet, tables and evidence pack.
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -19,7 +19,6 @@
 #include "mc/files/input/terminal_text.hpp"
 #include "mc/files/json_text.hpp"
 #include "mc/library/run/command_files.hpp"
-#include "mc/report/dataset.hpp"
 #include "mc/report/page.hpp"
 #include "mc/report/run_report.hpp"
 #include "mc/results/reliability_of_results.hpp"
@@ -35,11 +34,6 @@ bool write_report_files(const ReportOptions& options, const Results& results, co
                         const RunFindings& run) {
     nlohmann::json json = report_json(results, rows, reliability, run);
     json["results"] = options.results;
-    const auto dataset = [&] {
-        nlohmann::json source = json;
-        source["dataset"] = dataset_json(results, rows.rows(), options.results);
-        return report_files(source, "--dataset");
-    };
     std::vector<OutputFolder> folders;
     if (!options.csv.empty()) {
         folders.push_back({{"--csv", options.csv}, report_files(json, "--csv")});
@@ -47,9 +41,6 @@ bool write_report_files(const ReportOptions& options, const Results& results, co
     if (!options.evidence.empty()) {
         folders.push_back(
             {{"--evidence", options.evidence}, evidence_files(json, options.results)});
-    }
-    if (!options.dataset.empty()) {
-        folders.push_back({{"--dataset", options.dataset}, dataset()});
     }
     if (!can_write_folders(folders,
                            {{"the results file", options.results},
@@ -109,9 +100,11 @@ int report_command(const ReportOptions& options) {
     const auto reliability = reliability_of(results, rows, options.condition, thread_count(),
                                             kMostAssessedValues, costs);
     const RunFindings run = findings_of_run(results, rows, reliability);
-    const std::pair<const char*, const std::string&> outputs[] = {
-        {"page", options.html},       {"sheet", options.pdf},         {"tables", options.csv},
-        {"figures", options.figures}, {"evidence", options.evidence}, {"dataset", options.dataset}};
+    const std::pair<const char*, const std::string&> outputs[] = {{"page", options.html},
+                                                                  {"sheet", options.pdf},
+                                                                  {"tables", options.csv},
+                                                                  {"figures", options.figures},
+                                                                  {"evidence", options.evidence}};
     const bool writes =
         std::ranges::any_of(outputs, [](const auto& output) { return !output.second.empty(); });
     if ((writes || !options.json.empty()) &&
@@ -193,11 +186,6 @@ void add_report(CLI::App& app, int& code) {
         command, "--evidence", options.evidence,
         "write an evidence pack into a folder: a document (PDF) by subjects of EASA AMC1 29.1465 "
         "and MIL-HDBK-1823A, all tables, the JSON, the study and the hashes of these files");
-    add_file(
-        command, "--dataset", options.dataset,
-        "write a dataset for machine learning into a folder: features with labels, fault sizes and "
-        "gearboxes, split by gearbox for training, validation and test (CSV), stored signals, and "
-        "a data card");
     command.add_option("--by", options.condition,
                        "random input, e.g. torque_N_m; also use a separate threshold for each of "
                        "its values");

@@ -1,5 +1,5 @@
 // Documents of a report, made by the Python program in analysis/report: page (HTML), summary (PDF),
-// tables (CSV), evidence pack and dataset.
+// tables (CSV) and evidence pack.
 #pragma once
 
 #include <filesystem>
@@ -9,11 +9,11 @@
 
 namespace gearpod::mc {
 
-// Makes the HTML page for a report's JSON and writes it, and its figures as SVG, PNG and PDF, to the
-// given file and folder; "": none. GEARPOD_PYTHON names the interpreter (default /usr/bin/python3).
-// GEARPOD_REPORT_DIR names the folder of the Python program; the default is the installed one.
-// Throws std::runtime_error naming what is missing, or if the page cannot be written. The Python
-// program prints its own errors to standard error.
+// Makes the HTML page for a report's JSON and writes it, and its figures as SVG, PNG and PDF, to
+// the given file and folder; "": none. GEARPOD_PYTHON names the interpreter (default
+// /usr/bin/python3). GEARPOD_REPORT_DIR names the folder of the Python program; the default is the
+// installed one. Throws std::runtime_error naming what is missing, or if the page cannot be
+// written. The Python program prints its own errors to standard error.
 void write_report_page(const std::string& json, const std::string& html,
                        const std::string& figures);
 
@@ -31,10 +31,8 @@ struct NamedFile {
     std::string bytes;
 };
 
-// Files of a folder. `kind`: "--csv" for all tables with all digits (column names contain units; a
-// missing number is an empty field), or "--dataset" for machine learning: features with labels,
-// stored signals (CSV) and a data card, from a report with dataset_json() under "dataset". Throws
-// like write_report_page().
+// Files of a folder. `kind`: "--csv" for all tables with all digits; column names contain units,
+// and a missing number is an empty field. Throws like write_report_page().
 std::vector<NamedFile> report_files(const nlohmann::json& report, const std::string& kind);
 
 // Evidence pack of a report: document (PDF), tables, JSON, study, and the hashes of these files.

@@ -253,7 +253,6 @@ class Arsenal:
             ["compare", genuine, path],
             ["merge", path, "--out", folder / "m.h5"],
             ["repair", path],
-            ["report", path, "--dataset", folder / "dataset"],
             ["misses", path, "--feature", "te_rms", "--size", "1", "--quiet", "--gearboxes", "2", "--records", "2"],
             ["rare", path, "--feature", "te_rms", "--rate", "0.1", "--quiet", "--gearboxes", "2"]]
         kind = dice.randrange(4)

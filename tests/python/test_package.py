@@ -3,14 +3,12 @@
 PROGRAM is gearpod, SOURCES its sources. Exits with 77 without h5py (Debian: python3-h5py).
 """
 
-import csv
 import importlib.util
 import os
 import pathlib
 import sys
 import tempfile
 import unittest
-import unittest.mock
 import warnings
 
 PROGRAM, SOURCES = (pathlib.Path(argument) for argument in sys.argv[1:3])
@@ -54,48 +52,6 @@ class Package(unittest.TestCase):
                                           np.flatnonzero(file["instances/group"][()] == 1))
         self.assertIn("noise_levels = [0, 1]", results.study)
         self.assertEqual(results.units["fault_depth_m"], "m")
-
-    def test_a_dataset_holds_every_row_once(self):
-        folder = pathlib.Path(self.folder.name, "data")
-        paths = self.results.write_dataset(folder)
-        self.assertEqual([path.name for path in paths], ["train.csv", "validation.csv", "test.csv"])
-        rows = []
-        for path in paths:
-            with path.open(encoding="utf-8") as file:
-                rows += csv.DictReader(file)
-        self.assertEqual(len(rows), 2 * len(self.results))
-        for row in rows:
-            value = self.results.feature("window_ratio", float(row["noise_level"]))[int(row["row"])]
-            self.assertEqual(float(row["window_ratio"]), value)
-        if not importlib.util.find_spec("pandas"):
-            return
-        if not any(importlib.util.find_spec(name) for name in ("pyarrow", "fastparquet")):
-            with self.assertRaisesRegex(ImportError, "Parquet needs pyarrow or fastparquet"):
-                self.results.write_dataset(folder, parquet=True)
-            self.check_frames_for_parquet(folder, rows)
-            return
-        import pandas
-        paths = self.results.write_dataset(folder, parquet=True)
-        frame = pandas.concat([pandas.read_parquet(path) for path in paths[3:]])
-        self.assertEqual([float(row["window_ratio"]) for row in rows], list(frame["window_ratio"]))
-        self.assertEqual([row["gearbox"] for row in rows], list(frame["gearbox"]))
-
-    def check_frames_for_parquet(self, folder, rows):
-        """Checks what pandas would write, where Debian has no library for the file itself."""
-        import pandas
-        written = {}
-        with unittest.mock.patch("gearpod.results.require_parquet"), \
-                unittest.mock.patch.object(
-                    pandas.DataFrame, "to_parquet", autospec=True,
-                    side_effect=lambda frame, path, index: written.update({path: frame})):
-            paths = self.results.write_dataset(folder, parquet=True)
-        self.assertEqual([path.name for path in paths[3:]],
-                         ["train.parquet", "validation.parquet", "test.parquet"])
-        frame = pandas.concat([written[path] for path in paths[3:]])
-        self.assertEqual(list(frame.columns), list(rows[0]))
-        for name in ("window_ratio", "noise_level", "row"):
-            self.assertEqual([float(row[name]) for row in rows], list(frame[name]))
-        self.assertEqual([row["gearbox"] for row in rows], list(frame["gearbox"]))
 
     def test_rates_follow_from_the_values(self):
         rates = self.results.detection_columns()

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import importlib
-import importlib.util
 from typing import Any, Dict, Iterable, Iterator, Mapping, Tuple
 
 import numpy.typing as npt
@@ -74,11 +73,3 @@ def import_xarray() -> Any:
 def import_pandas() -> Any:
     return _imported("pandas", "frames need pandas (Debian: python3-pandas); numpy arrays are "
                                "available without it")
-
-
-def require_parquet() -> None:
-    """Raises ImportError if pandas has no library that writes Parquet."""
-    import_pandas()
-    if not any(importlib.util.find_spec(name) for name in ("pyarrow", "fastparquet")):
-        raise ImportError("Parquet needs pyarrow or fastparquet (pip install pyarrow); CSV files "
-                          "are available without them")

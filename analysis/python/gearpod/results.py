@@ -20,13 +20,12 @@ except ImportError as error:
     raise ImportError("gearpod reads its results with h5py (Debian: python3-h5py)") from error
 
 from . import library
-from .columns import Array, import_pandas, import_xarray, require_parquet
+from .columns import Array, import_pandas, import_xarray
 from .program import SOME_FAILED, PathLike, call, settings
 
 FORMAT, NEWEST = "gearpod results", 3
 LIFE_COLUMNS = {"crack_depth": "crack_depth", "record_torque": "torque", "record_speed": "speed",
                 "record_gain": "gain", "record_noise": "noise"}
-SPLITS = ("train", "validation", "test")
 GROUPS = {"threshold": 0, "graded": 1, "neither": 2}
 
 
@@ -286,23 +285,6 @@ class Results:
             done = call(["report", str(self.path), "--json", "-"])
             self._report: Dict[str, Any] = json.loads(done.stdout)
         return self._report
-
-    def write_dataset(self, folder: PathLike, parquet: bool = False) -> List[pathlib.Path]:
-        """Writes a dataset for machine learning (`gearpod report --dataset`): CSV files of the
-        splits, their columns, a data card. With `parquet` also the splits as Parquet, which needs
-        pandas and pyarrow or fastparquet. Returns the paths of the tables. Needs the program."""
-        if parquet:
-            require_parquet()
-        call(["report", str(self.path), "--dataset", str(folder)])
-        paths = [pathlib.Path(folder, f"{name}.csv") for name in SPLITS]
-        if parquet:
-            pandas = import_pandas()
-            for path in list(paths):
-                frame = pandas.read_csv(path, float_precision="round_trip", keep_default_na=False,
-                                        na_values=[""], dtype={"gearbox": str, "sensor": str})
-                paths.append(path.with_suffix(".parquet"))
-                frame.to_parquet(paths[-1], index=False)
-        return paths
 
     def smallest_fault(self, noise: Optional[float] = None) -> Optional[Tuple[float, str]]:
         """Size and feature of the smallest fault found with 90 % probability, None if there is

@@ -50,7 +50,6 @@ enum class StreamPurpose : std::uint64_t {
     // Calibration; completed by with_suffix().
     calibration_prior = fnv1a("calibrate.prior."),  // and the key of a calibrated input
     calibration_record = fnv1a("calibrate."),       // and the numbers of background and record
-    dataset_split = fnv1a("dataset.split"),  // of a gearbox; recorded ones add "." and the name
     // Synthetic data of forecasts.
     forecast_signals = fnv1a("life.made_up.signals"),
 };

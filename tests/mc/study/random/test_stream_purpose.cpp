@@ -35,7 +35,6 @@ constexpr std::pair<StreamPurpose, std::uint64_t> kStableNumbers[] = {
     {StreamPurpose::reference_speeds, 0x26d691b6efb781fau},
     {StreamPurpose::calibration_prior, 0x598fc103ee1f623au},
     {StreamPurpose::calibration_record, 0xc89b1e8c6017d224u},
-    {StreamPurpose::dataset_split, 0x04b34233f63f7e05u},
     {StreamPurpose::forecast_signals, 0x534d5b00771b0efdu},
 };
 
