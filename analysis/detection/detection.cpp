@@ -408,9 +408,9 @@ FeatureDetection detect_clustered(const std::string& feature, Alarm alarm,
                               level.noise_level, level.threshold_sample, count)
                 : fmt::format(
                       "noise level {:g}: {} healthy records come from only {} gearboxes, so the "
-                      "false-alarm rate of {:g} is known only to within [{:.2g}, {:.2g}]",
+                      "false-alarm rate of {:g} is known only to be below {:.2g}",
                       level.noise_level, level.threshold_sample, count, request.false_alarm_rate,
-                      level.threshold_rate.lower, level.threshold_rate.upper));
+                      level.threshold_rate.upper));
     }
     // Removes the warnings that assume independent values.
     std::erase_if(result.warnings, [](const std::string& warning) {

@@ -2,13 +2,15 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
+#include <numbers>
 #include <numeric>
+#include <random>
 #include <utility>
 
 #include "analysis/detection/threshold.hpp"
 #include "analysis/statistics/distributions.hpp"
 #include "features/statistics/signal_statistics.hpp"
-#include "machine/contracts.hpp"
 
 namespace gearpod::analysis {
 
@@ -200,22 +202,232 @@ int SustainedRule::needed() const {
     return std::max(1, static_cast<int>(std::ceil(share * records - kRounding)));
 }
 
-std::vector<std::optional<bool>> record_alarms(const Detector& detector,
-                                               std::span<const double> values, double threshold) {
-    const bool forgets = std::holds_alternative<SingleRule>(detector.rule) ||
-                         std::holds_alternative<MOfNRule>(detector.rule);
-    std::vector<std::optional<bool>> alarms(values.size());
-    DetectorState state(detector);
-    for (std::size_t i = 0; i < values.size(); ++i) {
-        if (std::isnan(values[i])) {
-            continue;
+namespace {
+
+constexpr std::size_t kLeastInPart = 5;
+
+bool accumulates(const Detector& detector) {
+    return !std::holds_alternative<SingleRule>(detector.rule) &&
+           !std::holds_alternative<MOfNRule>(detector.rule);
+}
+
+// Detector on the records of one gearbox.
+class RecordDetector {
+  public:
+    RecordDetector(const Detector& detector, const RecordThreshold& threshold)
+        : state_(detector),
+          threshold_(threshold),
+          two_sided_(detector.two_sided),
+          accumulates_(accumulates(detector)) {}
+
+    // -infinity: no statistic yet.
+    double next(double value) {
+        const double distance = (value - threshold_.centre) / threshold_.scale,
+                     beyond = (two_sided_ ? std::abs(distance) : distance) - threshold_.band;
+        beyond_ = std::clamp(beyond, two_sided_ ? 0.0 : -threshold_.most, threshold_.most);
+        beyond_ = two_sided_ ? std::copysign(beyond_, distance) : beyond_;
+        return state_.next(beyond_);
+    }
+    bool alarms(double value) {
+        return next(value) > threshold_.value &&
+               (!accumulates_ || beyond_ > 0.0 || (two_sided_ && beyond_ < 0.0));
+    }
+
+  private:
+    DetectorState state_;
+    const RecordThreshold& threshold_;
+    bool two_sided_, accumulates_;
+    double beyond_ = 0.0;
+};
+
+std::vector<double> values_of(std::span<const TimedValue> records) {
+    std::vector<double> values;
+    std::ranges::transform(records, std::back_inserter(values), &TimedValue::value);
+    return values;
+}
+
+std::vector<double> all_values(std::span<const HealthyRecords> gearboxes) {
+    std::vector<double> all;
+    for (const HealthyRecords& records : gearboxes) {
+        std::ranges::transform(records, std::back_inserter(all), &TimedValue::value);
+    }
+    return all;
+}
+
+// Ends of the parts; of too few records, only of all.
+std::vector<std::size_t> part_ends(std::span<const TimedValue> records) {
+    constexpr std::size_t kParts = 3, kMostSessions = 4;
+    const std::size_t count = records.size();
+    if (count < kParts * kLeastInPart) {
+        return {count};
+    }
+    double longest = 0.0;
+    for (std::size_t i = 1; i < count; ++i) {
+        longest = std::max(longest, records[i].time - records[i - 1].time);
+    }
+    std::vector<std::size_t> ends;
+    std::size_t begin = 0, shortest = count;
+    for (std::size_t i = 1; i <= count; ++i) {
+        if (i == count || records[i].time - records[i - 1].time > 0.1 * longest) {
+            shortest = std::min(shortest, i - begin);
+            begin = i;
+            ends.push_back(i);
         }
-        alarms[i] = state.next(values[i]) > threshold;
-        if (*alarms[i] && !forgets) {
-            state.reset();
+    }
+    return shortest >= kLeastInPart && ends.size() >= kParts && ends.size() <= kMostSessions
+               ? ends
+               : std::vector{count / 3, 2 * count / 3, count};
+}
+
+double mean_of(std::span<const TimedValue> records) {
+    double sum = 0.0;
+    for (const TimedValue& record : records) {
+        sum += record.value;
+    }
+    return sum / static_cast<double>(records.size());
+}
+
+// P(T > t) of Student's distribution: M. Abramowitz, I. A. Stegun, Handbook of Mathematical
+// Functions (1964), 26.7.3 and 26.7.4.
+double student_upper_tail(double t, int freedom) {
+    const double sine = t / std::sqrt(freedom + t * t), square = 1.0 - sine * sine;
+    const bool odd = freedom % 2 != 0;
+    double term = odd ? std::sqrt(square) : 1.0, series = freedom == 1 ? 0.0 : term;
+    for (int j = odd ? 3 : 2; j < freedom; j += 2) {
+        term *= (j - 1.0) / j * square;
+        series += term;
+    }
+    return 0.5 - (odd ? (std::asin(sine) + sine * series) / std::numbers::pi : 0.5 * sine * series);
+}
+
+// Levels of the parts of each gearbox's records.
+struct Levels {
+    std::vector<double> about;  // values about the level of their part, at that of their gearbox
+    double drift = 0.0;         // standard deviation of the level of further records
+    int freedom = 0;            // of the drift
+
+    explicit Levels(std::span<const HealthyRecords> gearboxes) {
+        double squares = 0.0;
+        for (const std::span<const TimedValue> records : gearboxes) {
+            const std::vector<std::size_t> ends = part_ends(records);
+            const double mean = mean_of(records), parts = static_cast<double>(ends.size());
+            std::size_t begin = 0;
+            for (const std::size_t end : ends) {
+                const auto part = records.subspan(begin, end - begin);
+                const double away = ends.size() == 1 ? 0.0 : mean_of(part) - mean;
+                squares += away * away * (1.0 + 1.0 / parts);
+                for (const TimedValue& record : part) {
+                    about.push_back(record.value - away);
+                }
+                begin = end;
+            }
+            freedom += static_cast<int>(ends.size()) - 1;
+        }
+        drift = freedom > 0 ? std::sqrt(squares / freedom) : 0.0;
+    }
+    // Expected number of values above the threshold; more than 20 degrees of freedom change little.
+    double above(double threshold) const {
+        double sum = 0.0;
+        for (const double value : about) {
+            sum += student_upper_tail((threshold - value) / drift, std::min(freedom, 20));
+        }
+        return sum;
+    }
+};
+
+}  // namespace
+
+RecordThreshold record_threshold(const Detector& detector, std::span<const HealthyRecords> healthy,
+                                 double rate) {
+    RecordThreshold threshold;
+    std::vector<double> values = all_values(healthy);
+    if (accumulates(detector) && !values.empty()) {
+        const Levels levels(healthy);
+        std::ranges::sort(values);
+        const auto quantile = [&](double share) {
+            return values[static_cast<std::size_t>(share * static_cast<double>(values.size() - 1))];
+        };
+        threshold.drift = levels.drift;
+        threshold.centre = quantile(0.5);
+        if (const double scale = 0.5 * (quantile(0.84) - quantile(0.16)); scale > 0.0) {
+            threshold.scale = scale;
+            threshold.most =
+                2.0 / scale *
+                std::max(values.back() - threshold.centre, threshold.centre - values.front());
+            threshold.band = threshold.drift > 0.0
+                                 ? -student_quantile(levels.freedom, rate) * threshold.drift / scale
+                                 : 0.0;
+        }
+    }
+    std::vector<HealthyRecords> statistics;
+    for (const HealthyRecords& records : healthy) {
+        RecordDetector state(detector, threshold);
+        statistics.emplace_back();
+        for (const TimedValue& record : records) {
+            if (const double statistic = state.next(record.value); std::isfinite(statistic)) {
+                statistics.back().push_back({record.time, statistic});
+            }
+        }
+    }
+    std::vector<double> ordered = all_values(statistics);
+    threshold.records = static_cast<long>(ordered.size());
+    if (ordered.empty()) {
+        return threshold;
+    }
+    std::ranges::sort(ordered);
+    threshold.rate = std::max(rate, smallest_rate(threshold.records));
+    const long rank = threshold_rank(threshold.records, threshold.rate);
+    threshold.value = ordered[static_cast<std::size_t>(rank - 1)];
+    if (const Levels levels(statistics); !accumulates(detector) && levels.drift > 0.0) {
+        threshold.drift = levels.drift;
+        const auto most = static_cast<double>(threshold.records - rank + 1);
+        double low = ordered.front() - levels.drift, high = ordered.back(), step = levels.drift;
+        while (levels.above(high) >= most) {
+            low = high;
+            high += step;
+            step *= 2.0;
+        }
+        for (int halving = 0; halving < 50; ++halving) {
+            const double middle = 0.5 * (low + high);
+            (levels.above(middle) >= most ? low : high) = middle;
+        }
+        threshold.value = std::max(threshold.value, high);
+    }
+    for (const HealthyRecords& records : healthy) {
+        threshold.alarms +=
+            std::ranges::count(record_alarms(detector, values_of(records), threshold), true);
+    }
+    return threshold;
+}
+
+std::vector<std::optional<bool>> record_alarms(const Detector& detector,
+                                               std::span<const double> values,
+                                               const RecordThreshold& threshold) {
+    std::vector<std::optional<bool>> alarms(values.size());
+    RecordDetector records(detector, threshold);
+    for (std::size_t i = 0; i < values.size(); ++i) {
+        if (!std::isnan(values[i])) {
+            alarms[i] = records.alarms(values[i]);
         }
     }
     return alarms;
+}
+
+double run_length(const Detector& detector, std::span<const HealthyRecords> healthy,
+                  const RecordThreshold& threshold, long longest) {
+    constexpr std::size_t kSeries = 101;
+    const std::vector<double> values = all_values(healthy);
+    std::mt19937_64 engine(1);
+    std::vector<double> lengths;
+    while (lengths.size() < kSeries && !values.empty()) {
+        RecordDetector records(detector, threshold);
+        long length = 1;
+        while (length <= longest && !records.alarms(values[engine() % values.size()])) {
+            ++length;
+        }
+        lengths.push_back(length > longest ? kInfinity : static_cast<double>(length));
+    }
+    return features::median(std::move(lengths));
 }
 
 std::vector<SustainedAlarm> sustained_alarms(std::span<const std::optional<bool>> alarms,
@@ -243,65 +455,24 @@ double smallest_rate(long healthy_records) {
     return 1.0 / static_cast<double>(healthy_records + 1);
 }
 
-HeldOutAlarms held_out_alarms(const Detector& detector, std::span<const HealthyLife> lives,
+HeldOutAlarms held_out_alarms(const Detector& detector, std::span<const HealthyRecords> healthy,
                               double rate, double confidence) {
-    std::vector<HealthyLife> setting, tested;
-    long records = 0;
-    HeldOutAlarms held_out;
-    for (const HealthyLife& life : lives) {
-        const auto half = life.values.begin() + static_cast<std::ptrdiff_t>(life.values.size() / 2);
-        const auto with_value = [](double value) { return !std::isnan(value); };
-        const long first = std::count_if(life.values.begin(), half, with_value),
-                   second = std::count_if(half, life.values.end(), with_value);
-        setting.push_back({{life.values.begin(), half}, static_cast<double>(first)});
-        tested.push_back({{half, life.values.end()}, static_cast<double>(second)});
-        records += first;
-        held_out.records += second;
+    std::vector<HealthyRecords> first_halves;
+    for (const HealthyRecords& all : healthy) {
+        first_halves.emplace_back(all.begin(), all.begin() + static_cast<long>(all.size() / 2));
     }
-    if (records == 0 || held_out.records == 0) {
-        return held_out;
+    const RecordThreshold threshold = record_threshold(detector, first_halves, rate);
+    HeldOutAlarms held_out{threshold.rate, 0, 0, {kNan, kNan}};
+    for (const HealthyRecords& all : healthy) {
+        const auto half = static_cast<long>(all.size() / 2);
+        const auto alarms = record_alarms(detector, values_of(all), threshold);
+        held_out.alarms += std::count(alarms.begin() + half, alarms.end(), true);
+        held_out.records += static_cast<long>(all.size()) - half;
     }
-    held_out.rate = std::max(rate, smallest_rate(records));
-    const double threshold = monitor_threshold(detector, setting, 1000.0 * held_out.rate).value;
-    if (std::isnan(threshold)) {
-        held_out.rate = kNan;
-        return held_out;
+    if (!std::isnan(held_out.rate)) {
+        held_out.bounds = clopper_pearson_interval(held_out.alarms, held_out.records, confidence);
     }
-    for (const HealthyLife& life : tested) {
-        held_out.alarms +=
-            static_cast<long>(detector_alarms(detector, life.values, threshold).alarms.size());
-    }
-    held_out.bounds = clopper_pearson_interval(held_out.alarms, held_out.records, confidence);
     return held_out;
-}
-
-Drift drift_of(std::span<const double> values) {
-    EXPECTS(std::ranges::all_of(values, [](double value) { return std::isfinite(value); }));
-    constexpr std::size_t kMost = 1000;
-    std::vector<double> used;
-    const std::size_t count = std::min(values.size(), kMost);
-    for (std::size_t i = 0; i < count; ++i) {
-        used.push_back(values[i * values.size() / count]);
-    }
-    constexpr std::size_t kFewest = 10;
-    if (count < kFewest) {
-        return {};
-    }
-    std::vector<double> slopes;
-    double score = 0.0;
-    for (std::size_t i = 0; i < count; ++i) {
-        for (std::size_t j = i + 1; j < count; ++j) {
-            const double rise = used[j] - used[i];
-            slopes.push_back(rise / static_cast<double>(j - i));
-            score += rise > 0.0 ? 1.0 : rise < 0.0 ? -1.0 : 0.0;
-        }
-    }
-    const auto n = static_cast<double>(count);
-    // Variance of the score of independent values without ties, with the correction of continuity.
-    const double deviation = std::sqrt(n * (n - 1.0) * (2.0 * n + 5.0) / 18.0);
-    const double z = std::max(0.0, std::abs(score) - 1.0) / deviation;
-    return {features::median(std::move(slopes)) * (n - 1.0) / features::median(std::move(used)),
-            score / (0.5 * n * (n - 1.0)), std::erfc(z / std::sqrt(2.0))};
 }
 
 }  // namespace gearpod::analysis

@@ -2,6 +2,7 @@
 // lives; the rate is then measured on lives that had no part in setting the threshold.
 #pragma once
 
+#include <limits>
 #include <optional>
 #include <span>
 #include <vector>
@@ -69,11 +70,53 @@ struct SustainedRule {
 };
 GEARPOD_FIELDS(SustainedRule, records, share)
 
-// Alarm of every record; empty for records without a value. Detectors that accumulate (ewma, cusum,
-// trend) restart after an alarm, so that each record must raise the alarm anew; a window of the
-// last n records moves on.
+// Alarms of measured records, whose level may drift from day to day. A detector never restarts, so
+// that an alarm is one of its statistic.
+//
+// Drift: the means of consecutive parts of each gearbox's healthy records scatter about their mean
+// with a standard deviation s. Parts are three or four sessions, separated by intervals of more
+// than a tenth of the longest one, otherwise three of equal number; each has at least 5 records.
+// The level of further records is taken as Student's t, with the degrees of freedom of s, times s
+// (1 + 1/parts)^(1/2). Slow drifts have few independent parts: more would underestimate them.
+
+struct TimedValue {
+    double time, value;
+};
+using HealthyRecords = std::vector<TimedValue>;  // of one gearbox, in time order
+
+struct RecordThreshold {
+    double value = kNan;  // NaN if no healthy record has a statistic
+    double rate =
+        kNan;          // of false alarms: the stated one, or the smallest that the records can set
+    long records = 0;  // healthy records with a statistic
+    long alarms = 0;   // of these records
+    double drift =
+        0.0;  // s (1 + 1/parts)^(1/2), of the statistic or, where it accumulates, of the values
+    // A detector that accumulates (ewma, cusum, trend) takes of a record what its distance from the
+    // healthy median `centre` exceeds `band` by, in units of `scale`, half the distance of the
+    // healthy 16 and 84 % quantiles. The drift exceeds the band with the probability of a false
+    // alarm. A distance counts as at most `most`, twice the largest healthy one, and only a record
+    // beyond the band alarms: a single bad one sustains no alarm.
+    double centre = 0.0, scale = 1.0, band = 0.0, most = std::numeric_limits<double>::infinity();
+};
+
+// Threshold of healthy records, the values of each gearbox in time order, at an expected rate of
+// false alarms of further records: statistics are exceeded by their residuals about their part's
+// mean and a level that drifts. For those that accumulate, and without records enough for parts, it
+// is that of alarm_threshold().
+RecordThreshold record_threshold(const Detector& detector, std::span<const HealthyRecords> healthy,
+                                 double rate);
+
+// Alarm of every record; empty for records without a value.
 std::vector<std::optional<bool>> record_alarms(const Detector& detector,
-                                               std::span<const double> values, double threshold);
+                                               std::span<const double> values,
+                                               const RecordThreshold& threshold);
+
+// Median number of records up to the first alarm without a fault: 101 series of independent draws
+// from the healthy records, of at most `longest` records; infinite if fewer than half of them
+// alarm.
+double run_length(const Detector& detector, std::span<const HealthyRecords> healthy,
+                  const RecordThreshold& threshold, long longest);
 
 struct SustainedAlarm {
     std::size_t first = 0;      // record of the alarm
@@ -89,9 +132,8 @@ std::vector<SustainedAlarm> sustained_alarms(std::span<const std::optional<bool>
 // rate of a threshold at the largest of them (threshold.hpp).
 double smallest_rate(long healthy_records);
 
-// False alarms that had no part in setting their threshold: the first half of each healthy life
-// sets it, and the alarms of the second half are counted. With a feature that drifts they exceed
-// the stated rate.
+// False alarms that had no part in setting their threshold: the first half of each gearbox's
+// healthy records sets it, and the alarms of the second half are counted.
 struct HeldOutAlarms {
     // False-alarm rate of the threshold: the stated one, or smallest_rate(). NaN without records or
     // without a threshold, because the detector needs more records than a half has.
@@ -101,19 +143,7 @@ struct HeldOutAlarms {
     Interval bounds{kNan, kNan};
 };
 GEARPOD_FIELDS(HeldOutAlarms, rate, alarms, recordings, lower_upper)
-HeldOutAlarms held_out_alarms(const Detector& detector, std::span<const HealthyLife> lives,
+HeldOutAlarms held_out_alarms(const Detector& detector, std::span<const HealthyRecords> healthy,
                               double rate, double confidence);
-
-// Drift of a level over time: Theil-Sen estimate of its change from first to last value (the median
-// slope of all pairs), relative to the median, and Kendall's tau with its normal p-value for
-// independent values. P. K. Sen, J. Am. Stat. Assoc. 63 (1968), 1379-1389; M. G. Kendall,
-// Biometrika 30 (1938), 81-93. Of more than 1000 values, equally spaced ones are used. All
-// results are NaN for fewer than 10 values.
-struct Drift {
-    double change = kNan;
-    double tau = kNan, p_value = kNan;  // two-sided
-};
-GEARPOD_FIELDS(Drift, change, tau, p_value)
-Drift drift_of(std::span<const double> values);
 
 }  // namespace gearpod::analysis

@@ -274,27 +274,3 @@ def ranking(report, page):
 
 def pod(report, page):
     return _comparison(report, page) + _by_feature(report, page)
-
-
-def over_time(report, page, groups):
-    """Share of recordings with an alarm over time, for the three best features."""
-    names = [report.names[f] for f in report.order(report.reference)[:3]]
-    middle = [0.5 * (group["first"] + group["last"]) for group in groups]
-
-    def caption_text(group, name):
-        alarms = group["alarms"][name]
-        return "-" if alarms is None else f"{alarms} of {group['values'][name]}"
-
-    figure, axes = panel(3.4)
-    for position, name in enumerate(names):
-        share = [math.nan if group["alarms"][name] is None else
-                 group["alarms"][name] / group["values"][name] for group in groups]
-        axes.plot(middle, share, color=colour(position), linestyle=dash(position),
-                  marker=marker(position), markersize=4.5, markeredgewidth=0, label=name)
-    axes.set(ylim=(-0.03, 1.03), xlabel="Time", ylabel="Share of recordings with an alarm")
-    legend_below(axes, 1)
-    about = "; ".join(f"{name}: {caption_text(groups[-1], name)} at the end" for name in names)
-    svg = to_svg(figure, "Alarms over time", about, page.names)
-    return page.figure("Alarms over time", [svg], "All recordings with a value of the "
-                       "feature, against the thresholds that the healthy recordings set.",
-                       report.table("over_time"))

@@ -6,10 +6,15 @@ from blocks import bullets, note
 from words import escape
 
 
+def answers(report):
+    """What was found in recordings over time, and detection."""
+    return [*report.texts("found."), report.text("headline")]
+
+
 def conditions(report):
-    """Assumptions of the answer, the next step, and the epistemic uncertainty."""
+    """Further answers, assumptions of the answer, the next step, and the epistemic uncertainty."""
     texts = [report.text(key) for key in ("assumptions", "record", "next", "unknown")]
-    return [text for text in texts if text]
+    return [text for text in answers(report)[1:] + texts if text]
 
 
 def limits(report):
@@ -22,7 +27,7 @@ def html_of(report, page):
              "</figcaption></figure>" if figure else "")
     holds = "".join(f"<p>{escape(text)}</p>" for text in conditions(report))
     shortage = report.text("shortage")
-    parts = [f'<div class="lead"><p class="answer">{escape(report.text("headline"))}</p>{chart}'
+    parts = [f'<div class="lead"><p class="answer">{escape(answers(report)[0])}</p>{chart}'
              f'<div class="holds">{holds}{note(shortage) if shortage else ""}</div></div>']
     parts.append(report.table("smallest_fault") + report.table("rates_by_noise"))
     if limits(report):

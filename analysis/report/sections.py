@@ -117,15 +117,13 @@ _LONG = ["study", "measured_by_study", "recordings", "recorded_gearboxes",
          "recorded_alignments", "recorded_teeth"]
 
 
-def over_time(report, page):
+def monitoring(report, page):
     """Section on measured recordings with known times."""
-    groups = report.data.get("over_time")
-    if not groups:
+    if not report.data.get("monitoring"):
         return ""
-    body = detection_figures.over_time(report, page, groups)
-    body += "".join(map(paragraph, report.texts("monitoring.")))
+    body = "".join(map(paragraph, report.texts("monitoring.")))
     body += monitoring_figures.figures(report, page) or report.table("monitoring")
-    return page.section("over-time", "Alarms over time", body)
+    return page.section("monitoring", "Monitoring over time", body)
 
 
 def provenance(report, page):
@@ -151,6 +149,6 @@ def provenance(report, page):
 
 
 def all_of(report, page):
-    parts = [detection, over_time, features, inputs, signals, stiffness, thresholds, errors, failures,
+    parts = [detection, monitoring, features, inputs, signals, stiffness, thresholds, errors, failures,
              provenance]
     return "\n".join(part(report, page) for part in parts)

@@ -181,7 +181,7 @@ def _filled(report, scale):
     sheet = Sheet(scale)
     sheet.text(report.title(), 10, colour=MUTED)
     sheet.gap(0.06)
-    sheet.text(report.text("headline"), 15, "bold", indent=0.17, bar=SERIES[0][0])
+    sheet.text(headline.answers(report)[0], 15, "bold", indent=0.17, bar=SERIES[0][0])
     sheet.gap(0.05)
     for text in [*headline.conditions(report), report.text("shortage")]:
         if text:

@@ -158,20 +158,11 @@ def numerical(report, unit):
                "a90" + unit: at(part, "a90"), "larger": at(part, "larger")}
 
 
-def over_time(report, _unit):
-    for group, in lines(report, "over_time"):
-        for name, alarms in group["alarms"].items():
-            yield {**take(group, "first last recordings"), "feature": name,
-                   "values": at(group, "values", name), "alarms": alarms,
-                   "median": at(group, "medians", name)}
-
-
 def monitoring(report, _unit):
     for entry, machine in lines(report, "monitoring watched", "gearboxes"):
         healthy, sustained = entry["healthy"], at(machine, "sustained")
         yield {**take(entry, "feature detector threshold"),
-               **take(healthy, "recordings alarms sustained", "healthy_"), **take(healthy, "rate"),
-               **take(healthy, "lower upper", "rate_"),
+               **take(healthy, "recordings alarms sustained run_length drift", "healthy_"), **take(healthy, "rate"),
                **take(at(entry, "held_out"), "recordings alarms lower upper", "held_out_"),
                "gearbox": machine["name"], **take(machine, "recordings alarms"),
                **take(at(machine, "first"), "time recording", "first_"),
@@ -222,7 +213,7 @@ def provenance(report, _unit):
 
 
 TABLES = (features, detection, pod, pod_band, roc, misses, smallest_fault, ranking, inputs,
-          a90_by_input, conditions, numerical, over_time, monitoring, lives, trade_offs, inspections,
+          a90_by_input, conditions, numerical, monitoring, lives, trade_offs, inspections,
           thresholds, failures, provenance)
 
 

@@ -81,26 +81,16 @@ void print_text(const SignalFeatures& found) {
     }
 }
 
-std::string decisions_text(const PopulationDecisions& against, const SignalFeatures& found) {
+std::string decisions_text(const PopulationDecisions& decided) {
     std::string text = fmt::format("\n{:<22}{:>13}{:>13}{:>8}{:>24}\n", "feature", "value",
                                    "threshold", "", "healthy less extreme");
-    for (const AlarmDecision& decision : against.decisions) {
+    for (const AlarmDecision& decision : decided.decisions) {
         text += fmt::format("{:<22}{:>13.6g}{:>13.6g}{:>8}{:>14} of {}\n",
                             decision.population->name, decision.value,
                             decision.population->threshold, decision.alarm ? "ALARM" : "",
                             decision.less_extreme, decision.population->healthy.size());
     }
-    text += "\n" + wrapped_text(against.sentence, 0) + "\n";
-    const int turns = found.planet_turns();
-    if (!against.population.is_measured && turns < found.span.ring_teeth &&
-        found.signal.has_sensor) {
-        text += wrapped_text(
-                    fmt::format("The simulated gearboxes have {} planet turns, the recording has "
-                                "{}: it averages less, so its features scatter more.",
-                                found.span.ring_teeth, turns),
-                    0) +
-                "\n";
-    }
+    text += "\n" + wrapped_text(decided.sentence, 0) + "\n";
     return text;
 }
 
@@ -149,7 +139,7 @@ int features_command(const FeaturesOptions& options) {
     }
     print_text(found);
     if (found.against) {
-        fmt::print("{}", decisions_text(*found.against, found));
+        fmt::print("{}", decisions_text(found.against->decided));
     }
     return kDone;
 }
@@ -203,11 +193,10 @@ void print_decisions(const FeaturesOptions& options, const Population& populatio
                      const std::vector<MeasuredRecording>& measured) {
     for (std::size_t i = 0; i < measured.size(); ++i) {
         if (measured[i].problem.empty()) {
-            const auto decisions =
-                compare_with_population(population, features, measured[i].values, options.feature);
-            fmt::print("{}\n", wrapped_text(decision_sentence(list.recordings[i].name(), population,
-                                                              decisions.front(), measured[i].teeth),
-                                            2));
+            const PopulationDecisions decided =
+                decide(population, list.recordings[i].name(), features, measured[i].values,
+                       options.feature, measured[i].teeth);
+            fmt::print("{}\n", wrapped_text(decided.sentence, 2));
         }
     }
 }

@@ -37,19 +37,26 @@ void check_any_feature(const std::vector<MeasuredFeature>& all, const std::strin
                     name, signal.sensor_meshes, signal.te_meshes, shortest));
 }
 
-PopulationDecisions compared(const SignalRequest& request, const Measurement& measured,
-                             const MemberArray<int>& teeth) {
-    PopulationDecisions compared;
-    compared.population = read_population(request.against, request.noise_level, teeth);
+SignalFeatures::Against compared(const SignalRequest& request, const SignalFeatures& found,
+                                 const MeasurementPlan& plan) {
     std::vector<const features::Feature*> features;
-    for (const MeasuredFeature& feature : measured.features) {
+    for (const MeasuredFeature& feature : found.measured.features) {
         features.push_back(feature.feature);
     }
-    compared.decisions = compare_with_population(compared.population, features,
-                                                 values_of(measured.features), request.feature);
-    compared.sentence = decision_sentence(request.signal.name, compared.population,
-                                          compared.decisions.front(), measured.teeth);
-    return compared;
+    SignalFeatures::Against against{
+        read_population(request.against, request.noise_level, plan.features.teeth), {}};
+    against.decided =
+        decide(against.population, request.signal.name, features,
+               values_of(found.measured.features), request.feature, found.measured.teeth);
+    const int turns = found.planet_turns();
+    if (!against.population.is_measured && !plan.record.length && found.signal.has_sensor &&
+        turns < found.span.ring_teeth) {
+        against.decided.sentence += fmt::format(
+            " The simulated gearboxes have {} planet turns, the recording has {}: it "
+            "averages less, so its features scatter more.",
+            found.span.ring_teeth, turns);
+    }
+    return against;
 }
 
 nlohmann::ordered_json measured_json(const SignalFeatures& measured) {
@@ -75,11 +82,11 @@ nlohmann::ordered_json measured_json(const SignalFeatures& measured) {
     return json;
 }
 
-nlohmann::ordered_json decisions_json(const PopulationDecisions& against,
+nlohmann::ordered_json decisions_json(const PopulationDecisions& decided,
                                       const std::vector<WorstTooth>& worst,
                                       const std::string& file) {
     nlohmann::ordered_json features = nlohmann::ordered_json::array();
-    for (const AlarmDecision& decision : against.decisions) {
+    for (const AlarmDecision& decision : decided.decisions) {
         const auto healthy = static_cast<double>(decision.population->healthy.size());
         features.push_back({{"feature", decision.population->name},
                             {"value", decision.value},
@@ -96,12 +103,15 @@ nlohmann::ordered_json decisions_json(const PopulationDecisions& against,
                          {"teeth", tooth.teeth},
                          {"ratio", tooth.ratio}});
     }
-    return {{"file", file},
-            {"alarm", against.decisions.front().alarm},
-            {"feature", against.decisions.front().population->name},
-            {"sentence", against.sentence},
-            {"features", features},
-            {"teeth", teeth}};
+    return {
+        {"file", file},
+        {"alarm", decided.mismatch.empty() ? nlohmann::ordered_json(decided.decisions.front().alarm)
+                                           : nlohmann::ordered_json(nullptr)},
+        {"mismatch", decided.mismatch},
+        {"feature", decided.decisions.front().population->name},
+        {"sentence", decided.sentence},
+        {"features", features},
+        {"teeth", teeth}};
 }
 
 // Simulated healthy reference at a noise level; empty if the study does not have this level.
@@ -140,7 +150,7 @@ SignalFeatures signal_features(const SignalRequest& request, const TilePlan& til
     found.measured = measure(plan, found.signal, healthy, baseline ? &*baseline : nullptr);
     check_any_feature(found.measured.features, request.signal.name, plan.features, found.signal);
     if (!request.against.empty()) {
-        found.against = compared(request, found.measured, plan.features.teeth);
+        found.against = compared(request, found, plan);
     }
     return found;
 }
@@ -156,7 +166,7 @@ nlohmann::ordered_json signal_features_json(const SignalFeatures& features,
     }
     if (features.against) {
         json["against"] =
-            decisions_json(*features.against, features.measured.teeth, request.against);
+            decisions_json(features.against->decided, features.measured.teeth, request.against);
     }
     return json;
 }

@@ -21,17 +21,15 @@ struct SignalRequest {
     std::string feature;                // decides the alarm; "": the best ranked one in `against`
 };
 
-// Comparison with the healthy gearboxes of a results file. Decisions point into the population.
-struct PopulationDecisions {
-    Population population;
-    std::vector<AlarmDecision> decisions;
-    std::string sentence;  // on the first decision
-};
-
 struct SignalFeatures {
     MeasuredSignal signal;
     Measurement measured;
-    std::optional<PopulationDecisions> against;
+    // Healthy gearboxes of a results file, and the decisions, which point into them.
+    struct Against {
+        Population population;
+        PopulationDecisions decided;
+    };
+    std::optional<Against> against;
     // Statements of the recordings that are not used, and assumptions (MeasuredSignal).
     std::vector<std::string> notes;
     signals::SpanLayout span;  // of the study

@@ -23,6 +23,7 @@
 #include "mc/study/gears.hpp"
 #include "mc/study/member.hpp"
 #include "signals/rotation/shaft_motion.hpp"
+#include "signals/spectra/fourier_transform.hpp"
 #include "signals/spectra/recording_checks.hpp"
 #include "signals/spectra/resampling.hpp"
 #include "signals/spectra/speed_variation.hpp"
@@ -533,14 +534,40 @@ MeasuredSignal read_measured_signal(const SignalSource& source, const SignalColu
     return reader.resampled();
 }
 
+namespace {
+
+// Lines of the gears in mesh: orders that are whole multiples of a turn of the planet or of its
+// partner. Lines of other stages, also of those that turn with a fixed ratio, hardly are.
+std::vector<double> lines_of_gears(std::span<const double> periodic,
+                                   const signals::SpanLayout& span) {
+    auto spectrum = signals::spectrum_of(periodic);
+    const auto planet = static_cast<std::size_t>(span.ring_teeth),
+               partner = static_cast<std::size_t>(span.planet_teeth);
+    for (std::size_t k = 1; k < spectrum.size(); ++k) {
+        const std::size_t order = std::min(k, spectrum.size() - k);
+        if (order % planet != 0 && order % partner != 0) {
+            spectrum[k] = 0.0;
+        }
+    }
+    return signals::signal_of(spectrum);
+}
+
+}  // namespace
+
 AlignedSensor aligned_with(std::span<const double> other, std::span<const double> signal, int turns,
                            const signals::SpanLayout& span) {
     AlignedSensor aligned{{signal.begin(), signal.end()}, 0.0, {}};
-    if (turns == 1 || turns == span.ring_teeth) {
-        aligned.shift = signals::align(other, signal).shift;
-        aligned.sensor = signals::shifted(signal, aligned.shift);
+    if (turns > 1 && turns == span.ring_teeth) {
+        const signals::Alignment found =
+            signals::align(lines_of_gears(other, span), lines_of_gears(signal, span));
+        aligned = {signals::shifted(signal, found.shift), found.correlation, found.shift};
+    } else {
+        if (turns == 1) {
+            aligned.shift = signals::align(other, signal).shift;
+            aligned.sensor = signals::shifted(signal, aligned.shift);
+        }
+        aligned.correlation = signals::correlation(other, aligned.sensor);
     }
-    aligned.correlation = signals::correlation(other, aligned.sensor);
     return aligned;
 }
 

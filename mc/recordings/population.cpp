@@ -16,6 +16,8 @@
 namespace gearpod::mc {
 namespace {
 
+constexpr const char* kLevel = "sensor_rms";
+
 [[noreturn]] void refuse(const std::string& path, const std::string& why) {
     throw std::runtime_error(path + ": " + why);
 }
@@ -78,42 +80,6 @@ PopulationFeature feature_of(const Results& results, std::size_t f, std::size_t 
     return feature;
 }
 
-}  // namespace
-
-Population read_population(const std::string& path, double noise_level,
-                           const MemberArray<int>& teeth) {
-    const Results results = read_results(path);
-    if (results.provenance_value("kind") == kLivesKind) {
-        refuse(path, "holds lives; compare with the results of `run`");
-    }
-    check_teeth(path, results, teeth);
-    Population population;
-    population.file = path;
-    population.is_measured = results.provenance_value("kind") == kRecordingsKind;
-    population.noise_level = noise_level;
-    population.false_alarm_rate = results.request.false_alarm_rate;
-    const std::size_t level = level_of(path, results, noise_level);
-    std::vector<double> sizes(results.group.size(), 0.0);
-    if (const auto size = results.parameter_index(results.request.size.name)) {
-        sizes = results.parameters[*size].values;
-    }
-    for (std::size_t f = 0; f < results.features.size(); ++f) {
-        PopulationFeature feature = feature_of(results, f, level, sizes);
-        if (!feature.healthy.empty() && std::isfinite(feature.threshold)) {
-            population.features.push_back(std::move(feature));
-        }
-    }
-    if (population.features.empty()) {
-        refuse(path, "has too few healthy gearboxes to set a threshold");
-    }
-    std::stable_sort(population.features.begin(), population.features.end(),
-                     [](const PopulationFeature& a, const PopulationFeature& b) {
-                         return (std::isfinite(a.auc) ? a.auc : 0.0) >
-                                (std::isfinite(b.auc) ? b.auc : 0.0);
-                     });
-    return population;
-}
-
 std::vector<AlarmDecision> compare_with_population(
     const Population& population, std::span<const features::Feature* const> features,
     const std::vector<double>& measured, const std::string& feature) {
@@ -151,12 +117,30 @@ std::vector<AlarmDecision> compare_with_population(
     return decisions;
 }
 
-std::vector<double> values_of(const std::vector<MeasuredFeature>& measured) {
-    std::vector<double> values;
-    for (const MeasuredFeature& feature : measured) {
-        values.push_back(feature.missing.empty() ? feature.value : kNan);
+std::string mismatch_text(const std::vector<AlarmDecision>& decisions) {
+    constexpr double kFactor = 3.0;
+    constexpr std::size_t kFewestHealthy = 20;
+    for (const AlarmDecision& decision : decisions) {
+        const PopulationFeature& known = *decision.population;
+        const double low = known.healthy.front(), high = known.healthy.back();
+        if (known.name == kLevel &&
+            (decision.value > kFactor * high || kFactor * decision.value < low)) {
+            return fmt::format(
+                "its sensor_rms, {:.4g} m/s^2, is {:.3g} times the {} healthy one "
+                "there, {:.4g} m/s^2",
+                decision.value, decision.value / (decision.value > high ? high : low),
+                decision.value > high ? "loudest" : "quietest", decision.value > high ? high : low);
+        }
+        const double beyond =
+            known.alarm == analysis::Alarm::high ? low - decision.value : decision.value - high;
+        if (known.healthy.size() >= kFewestHealthy && beyond > high - low && high > low) {
+            return fmt::format(
+                "its {}, {:.4g}, lies beyond the {} healthy values there, {:.4g} to "
+                "{:.4g}, on the side that no fault explains",
+                known.name, decision.value, known.healthy.size(), low, high);
+        }
     }
-    return values;
+    return "";
 }
 
 std::string decision_sentence(const std::string& recording, const Population& population,
@@ -182,6 +166,83 @@ std::string decision_sentence(const std::string& recording, const Population& po
             tooth.ratio);
     }
     return text + ".";
+}
+
+}  // namespace
+
+Population read_population(const std::string& path, double noise_level,
+                           const MemberArray<int>& teeth) {
+    const Results results = read_results(path);
+    if (results.provenance_value("kind") == kLivesKind) {
+        refuse(path, "holds lives; compare with the results of `run`");
+    }
+    check_teeth(path, results, teeth);
+    Population population;
+    population.file = path;
+    population.is_measured = results.provenance_value("kind") == kRecordingsKind;
+    population.noise_level = noise_level;
+    population.false_alarm_rate = results.request.false_alarm_rate;
+    const std::size_t level = level_of(path, results, noise_level);
+    std::vector<double> sizes(results.group.size(), 0.0);
+    if (const auto size = results.parameter_index(results.request.size.name)) {
+        sizes = results.parameters[*size].values;
+    }
+    for (std::size_t f = 0; f < results.features.size(); ++f) {
+        PopulationFeature feature = feature_of(results, f, level, sizes);
+        if (!feature.healthy.empty() && std::isfinite(feature.threshold)) {
+            population.features.push_back(std::move(feature));
+        }
+    }
+    if (population.features.empty()) {
+        refuse(path, "has too few healthy gearboxes to set a threshold");
+    }
+    std::stable_sort(population.features.begin(), population.features.end(),
+                     [](const PopulationFeature& a, const PopulationFeature& b) {
+                         return (std::isfinite(a.auc) ? a.auc : 0.0) >
+                                (std::isfinite(b.auc) ? b.auc : 0.0);
+                     });
+    return population;
+}
+
+std::vector<double> values_of(const std::vector<MeasuredFeature>& measured) {
+    std::vector<double> values;
+    for (const MeasuredFeature& feature : measured) {
+        values.push_back(feature.missing.empty() ? feature.value : kNan);
+    }
+    return values;
+}
+
+PopulationDecisions decide(const Population& population, const std::string& recording,
+                           std::span<const features::Feature* const> features,
+                           const std::vector<double>& measured, const std::string& feature,
+                           const std::vector<WorstTooth>& teeth) {
+    PopulationDecisions decided{compare_with_population(population, features, measured, feature),
+                                "", ""};
+    decided.mismatch = mismatch_text(decided.decisions);
+    if (!decided.mismatch.empty()) {
+        for (AlarmDecision& decision : decided.decisions) {
+            decision.alarm = false;
+        }
+        decided.sentence = fmt::format(
+            "{}: no decision: {} does not describe this machine: {}. Correct the study (load, "
+            "noise, "
+            "unit), calibrate it, or compare with recordings of this machine.",
+            printable(recording), population.file, decided.mismatch);
+        return decided;
+    }
+    const AlarmDecision& decision = decided.decisions.front();
+    decided.sentence = decision_sentence(recording, population, decision, teeth);
+    if (const std::string& best = population.features.front().name;
+        feature.empty() && decision.population->name != best) {
+        decided.sentence += fmt::format(" {}, which ranks best there, has no value here.", best);
+    }
+    if (std::ranges::none_of(decided.decisions, [](const AlarmDecision& one) {
+            return one.population->name == kLevel;
+        })) {
+        decided.sentence += fmt::format(
+            " Whether the levels agree is not known, since {} is missing in one of both.", kLevel);
+    }
+    return decided;
 }
 
 }  // namespace gearpod::mc

@@ -43,17 +43,25 @@ struct AlarmDecision {
     long less_extreme = 0;  // number of healthy gearboxes with a less extreme value
 };
 
-// Compares the features that both recording and population have, in the population's order. A
-// non-empty `feature` is moved to the front. `measured` has the values of `features`, NaN: no
+// Comparison of one recording with a population, into which the decisions point. The decisive
+// feature comes first.
+struct PopulationDecisions {
+    std::vector<AlarmDecision> decisions;
+    // Reason why the healthy gearboxes do not describe the recording's machine, so that no alarm is
+    // decided, or "": its level, sensor_rms, lies 3 times outside of theirs, or a feature lies
+    // beyond their range on the side that no fault explains, by more than the range.
+    std::string mismatch;
+    std::string sentence;  // on the decisive feature and the teeth with the largest vibration
+};
+
+// Compares the features that both recording and population have, in the population's order.
+// `feature` decides; "": the best ranked one. `measured` has the values of `features`, NaN: no
 // value. Throws std::runtime_error if there is no common feature, or not the named one.
-std::vector<AlarmDecision> compare_with_population(
-    const Population& population, std::span<const features::Feature* const> features,
-    const std::vector<double>& measured, const std::string& feature);
+PopulationDecisions decide(const Population& population, const std::string& recording,
+                           std::span<const features::Feature* const> features,
+                           const std::vector<double>& measured, const std::string& feature,
+                           const std::vector<WorstTooth>& teeth);
 
 std::vector<double> values_of(const std::vector<MeasuredFeature>& measured);
-
-// Returns a sentence on the decision and on the teeth with the largest vibration.
-std::string decision_sentence(const std::string& recording, const Population& population,
-                              const AlarmDecision& decision, const std::vector<WorstTooth>& teeth);
 
 }  // namespace gearpod::mc

@@ -1,8 +1,7 @@
-// Share of measured recordings beyond the thresholds, as a function of time. All recordings count,
-// healthy, faulty or of unknown condition.
+// Alarms that another fault than the study's raises in healthy gearboxes
+// (SourceRole::other_fault).
 #pragma once
 
-#include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <vector>
 
@@ -12,29 +11,6 @@
 #include "mc/results/result_rows.hpp"
 
 namespace gearpod::mc {
-
-struct TimeGroup {
-    double first = 0.0, last = 0.0;  // first and last time
-    long recordings = 0;
-    std::vector<long> values;     // by feature: recordings that have it
-    std::vector<long> alarms;     // by feature; -1: no threshold, or no values
-    std::vector<double> medians;  // by feature; NaN: no values
-};
-
-// Groups recordings by time, ascending: one group for each time, or forty groups of about equal
-// size. Empty without a column "time", or if the rows are not recordings.
-std::vector<TimeGroup> alarms_over_time(const Results& frame, const RowSource& rows);
-
-// Section with a table of the three best of the features, which are in order of rank. Empty without
-// groups.
-analysis::Section alarms_section(const Results& frame, const std::vector<TimeGroup>& groups,
-                                 const std::vector<std::size_t>& ranked);
-
-// docs/reference/report-json.md lists the keys.
-nlohmann::json alarms_json(const Results& frame, const std::vector<TimeGroup>& groups);
-
-// Alarms that another fault than the study's raises in healthy gearboxes
-// (SourceRole::other_fault).
 
 // Healthy gearboxes with the other fault that alarm, of one feature at one noise level. `without`
 // counts the alarms of the same gearboxes without it, which set the threshold.

@@ -87,17 +87,16 @@ std::vector<GearboxRecords> gearboxes_of(const Results& frame, const RowSource& 
     return gearboxes;
 }
 
-// Healthy recordings after the baseline, as a life in which each recording counts as one hour.
-analysis::HealthyLife healthy_life(const GearboxRecords& gearbox,
-                                   const std::vector<double>& deviations) {
-    analysis::HealthyLife life;
+// Values of the healthy recordings after the baseline.
+analysis::HealthyRecords healthy_values(const GearboxRecords& gearbox,
+                                        const std::vector<double>& deviations) {
+    analysis::HealthyRecords healthy;
     for (std::size_t i = 0; i < deviations.size(); ++i) {
         if (gearbox.healthy[i] != 0 && !std::isnan(deviations[i])) {
-            life.values.push_back(deviations[i]);
-            life.hours += 1.0;
+            healthy.push_back({gearbox.time[i], deviations[i]});
         }
     }
-    return life;
+    return healthy;
 }
 
 FirstAlarm first_alarm(const GearboxRecords& gearbox, std::size_t i) {
@@ -134,21 +133,21 @@ std::optional<AlarmTooth> alarm_tooth(const GearboxSeries& series,
 
 GearboxAlarms monitor_gearbox(const GearboxRecords& gearbox, const GearboxSeries& series,
                               const std::vector<double>& deviations,
-                              const analysis::Detector& detector, double threshold,
+                              const analysis::Detector& detector,
+                              const analysis::RecordThreshold& threshold,
                               const analysis::SustainedRule& rule, long& healthy_sustained) {
     GearboxAlarms watched{gearbox.name, 0, 0, {}, {}, {}, {}};
-    for (std::size_t i = 0; i < deviations.size(); ++i) {
-        watched.recordings += gearbox.healthy[i] == 0 && !std::isnan(deviations[i]);
-    }
-    for (const std::size_t i : analysis::detector_alarms(detector, deviations, threshold).alarms) {
-        if (gearbox.healthy[i] == 0) {
-            ++watched.alarms;
-            if (!watched.first) {
-                watched.first = first_alarm(gearbox, i);
-            }
+    const auto alarms = analysis::record_alarms(detector, deviations, threshold);
+    for (std::size_t i = 0; i < alarms.size(); ++i) {
+        if (gearbox.healthy[i] != 0 || !alarms[i]) {
+            continue;
+        }
+        ++watched.recordings;
+        watched.alarms += *alarms[i] ? 1 : 0;
+        if (*alarms[i] && !watched.first) {
+            watched.first = first_alarm(gearbox, i);
         }
     }
-    const auto alarms = analysis::record_alarms(detector, deviations, threshold);
     for (const analysis::SustainedAlarm& one : analysis::sustained_alarms(alarms, rule)) {
         if (gearbox.healthy[one.first] != 0) {
             ++healthy_sustained;
@@ -170,10 +169,9 @@ std::vector<double> numbers_of(const std::string& line) {
     return numbers;
 }
 
-// Alignments and tooth maps of the recordings as features stores them, and the drift of the level.
+// Alignments and tooth maps of the recordings as features stores them.
 GearboxSeries series_of(const Results& frame, const GearboxRecords& gearbox) {
-    GearboxSeries series{
-        gearbox.name, gearbox.rows, gearbox.time, gearbox.healthy, {}, {}, {}, {}, {}};
+    GearboxSeries series{gearbox.name, gearbox.rows, gearbox.time, gearbox.healthy, {}, {}, {}, {}};
     const auto alignments = lines_of(frame.provenance_value("recorded_alignments"));
     const auto maps = lines_of(frame.provenance_value("recorded_teeth"));
     for (const std::size_t row : gearbox.rows) {
@@ -182,17 +180,6 @@ GearboxSeries series_of(const Results& frame, const GearboxRecords& gearbox) {
             const std::vector<double> map = numbers_of(maps[row]);
             series.first_tooth.push_back(map.empty() ? kNan : map.front());
             series.teeth.emplace_back(map.begin() + (map.empty() ? 0 : 1), map.end());
-        }
-    }
-    for (std::size_t f = 0; f < frame.features.size(); ++f) {
-        if (frame.features[f].name == "sensor_rms") {
-            std::vector<double> levels;
-            for (std::size_t i = 0; i < gearbox.rows.size(); ++i) {
-                if (gearbox.healthy[i] != 0 && std::isfinite(gearbox.values[f][i])) {
-                    levels.push_back(gearbox.values[f][i]);
-                }
-            }
-            series.level = analysis::drift_of(levels);
         }
     }
     return series;
@@ -214,6 +201,12 @@ std::vector<double> deviations_of(const Results& frame, const GearboxRecords& ge
     return analysis::fused_deviations(values, gearbox.torque, baseline, alarms);
 }
 
+// Recordings of a series without a fault that are drawn at most.
+long longest_run(double rate) {
+    constexpr double kIntervals = 5.0;  // expected ones between alarms
+    return std::lround(kIntervals / rate);
+}
+
 // Monitors every feature separately, and the study's features combined ("fused").
 void monitor_all(const Results& frame, const MeasuringFacts& facts,
                  const std::vector<GearboxRecords>& gearboxes, MonitoringOverTime& monitoring) {
@@ -222,12 +215,10 @@ void monitor_all(const Results& frame, const MeasuringFacts& facts,
     const auto add = [&](const std::string& name, const std::vector<std::size_t>& features,
                          bool shown) {
         std::vector<std::vector<double>> deviations;
-        std::vector<analysis::HealthyLife> lives;
-        long records = 0;
+        std::vector<analysis::HealthyRecords> healthy;
         for (std::size_t g = 0; g < gearboxes.size(); ++g) {
             deviations.push_back(deviations_of(frame, gearboxes[g], features, baseline));
-            lives.push_back(healthy_life(gearboxes[g], deviations.back()));
-            records += static_cast<long>(lives.back().values.size());
+            healthy.push_back(healthy_values(gearboxes[g], deviations.back()));
             if (shown) {
                 monitoring.gearboxes[g].deviations.push_back(deviations.back());
             }
@@ -235,21 +226,20 @@ void monitor_all(const Results& frame, const MeasuringFacts& facts,
         if (shown) {
             monitoring.shown.push_back(name);
         }
-        const double rate = std::max(stated, analysis::smallest_rate(records));
         for (const std::string& text : facts.monitoring.detectors) {
             const analysis::Detector detector = *analysis::parse_detector(text);
-            RecordingMonitorResult one{name,
-                                       text,
-                                       monitor_threshold(detector, lives, 1000.0 * rate),
-                                       rate,
-                                       analysis::threshold_rate_interval(records, rate, confidence),
-                                       0,
-                                       held_out_alarms(detector, lives, stated, confidence),
-                                       {}};
+            RecordingMonitorResult one{
+                name, text, record_threshold(detector, healthy, stated),
+                kNan, 0,    held_out_alarms(detector, healthy, stated, confidence),
+                {}};
             for (std::size_t g = 0; g < gearboxes.size(); ++g) {
-                one.gearboxes.push_back(monitor_gearbox(
-                    gearboxes[g], monitoring.gearboxes[g], deviations[g], detector,
-                    one.threshold.value, monitoring.sustained, one.healthy_sustained));
+                one.gearboxes.push_back(
+                    monitor_gearbox(gearboxes[g], monitoring.gearboxes[g], deviations[g], detector,
+                                    one.threshold, monitoring.sustained, one.healthy_sustained));
+            }
+            if (shown && !std::isnan(one.threshold.value)) {
+                one.run_length =
+                    run_length(detector, healthy, one.threshold, longest_run(one.threshold.rate));
             }
             monitoring.watched.push_back(std::move(one));
         }
@@ -257,14 +247,21 @@ void monitor_all(const Results& frame, const MeasuringFacts& facts,
     for (const GearboxRecords& gearbox : gearboxes) {
         monitoring.gearboxes.push_back(series_of(frame, gearbox));
     }
-    std::vector<std::size_t> used;
-    for (std::size_t f = 0; f < frame.features.size(); ++f) {
-        const std::string& name = frame.features[f].name;
-        const bool in_study = std::ranges::count(facts.features, name) > 0;
-        if (in_study) {
-            used.push_back(f);
+    std::vector<std::size_t> order;  // those of the study first, in its order
+    for (const std::string& name : facts.features) {
+        const auto found = std::ranges::find(frame.features, name, &FeatureResult::name);
+        if (found != frame.features.end()) {
+            order.push_back(static_cast<std::size_t>(found - frame.features.begin()));
         }
-        add(name, {f}, in_study);
+    }
+    const std::vector<std::size_t> used = order;
+    for (std::size_t f = 0; f < frame.features.size(); ++f) {
+        if (std::ranges::count(used, f) == 0) {
+            order.push_back(f);
+        }
+    }
+    for (const std::size_t f : order) {
+        add(frame.features[f].name, {f}, std::ranges::count(used, f) > 0);
     }
     if (baseline > 0 && used.size() > 1) {
         add(kFused, used, true);
@@ -314,6 +311,13 @@ std::string lead_text(const MonitoringOverTime& monitoring,
                  : "";
 }
 
+// "1 of 131 [0.019 %, 4.2 %]"; "" without a threshold.
+std::string held_out_text(const analysis::HeldOutAlarms& held) {
+    return std::isnan(held.rate) ? ""
+                                 : fmt::format("{} of {} {}", held.alarms, held.records,
+                                               percent_interval(held.bounds));
+}
+
 std::string baseline_text(const MonitoringOverTime& monitoring) {
     return monitoring.baseline_records > 0
                ? fmt::format(
@@ -336,35 +340,12 @@ std::string sample_text(const MonitoringOverTime& monitoring) {
                   "of {}; the smallest that they can set is {}, 1 in {}"),
         monitoring.healthy, analysis::percent_text(monitoring.false_alarm_rate),
         analysis::percent_text(smallest), monitoring.healthy + 1);
-    if (!monitoring.watched.empty()) {
-        text += fmt::format(
-            ". With a given threshold the rate lies in {} ({} confidence, independent recordings)",
-            percent_interval(monitoring.watched.front().rate_bounds),
-            analysis::percent_text(monitoring.confidence));
-    }
     return text +
-           ". Healthy alarms are those of the recordings that set the threshold, so their number "
-           "follows from it. Held-out alarms are of the second half of the healthy recordings, "
-           "with a threshold from the first half: they show what a drift does to it. Recordings "
-           "of one gearbox resemble each other, so the intervals are too narrow.";
-}
-
-std::string drift_text(const MonitoringOverTime& monitoring) {
-    constexpr double kLevel = 0.01;
-    std::string text;
-    for (const GearboxSeries& one : monitoring.gearboxes) {
-        if (one.level.p_value < kLevel) {
-            text += fmt::format(
-                "{}The level of the healthy recordings{} drifts: sensor_rms changes by {:+.1f} % "
-                "from the first to the last (Theil-Sen; Kendall's tau {:.2f}, p {:.2g} for "
-                "independent recordings). Alarms of sensor_rms, change_sensor_rms and "
-                "own_sensor_rms are "
-                "no evidence of a fault by themselves.",
-                text.empty() ? "" : " ", one.name.empty() ? "" : " of " + one.name,
-                100.0 * one.level.change, one.level.tau, one.level.p_value);
-        }
-    }
-    return text;
+           ". Thresholds allow for levels that drift as those of the healthy sessions do. Healthy "
+           "alarms are those of the recordings that set the "
+           "threshold, so their number follows from it. Held-out alarms are of the second half of "
+           "the healthy recordings, with a threshold from the first half. Recordings of one "
+           "gearbox resemble each other, so the intervals are too narrow.";
 }
 
 nlohmann::json first_json(const MonitoringOverTime& monitoring,
@@ -446,6 +427,43 @@ std::optional<MonitoringOverTime> monitoring_over_time(const Results& frame,
     return monitoring;
 }
 
+analysis::Section monitoring_answer(const MonitoringOverTime& monitoring) {
+    constexpr std::size_t kMost = 6;
+    analysis::Section section{"found", "", {}};
+    const std::string* feature = nullptr;  // of the line before: each has its first detector
+    for (const RecordingMonitorResult& one : monitoring.watched) {
+        if (std::ranges::count(monitoring.shown, one.feature) == 0 ||
+            (feature != nullptr && *feature == one.feature) || std::isnan(one.threshold.value)) {
+            continue;
+        }
+        feature = &one.feature;
+        const analysis::HeldOutAlarms& held = one.held_out;
+        for (const GearboxAlarms& gearbox : one.gearboxes) {
+            if (gearbox.recordings == 0 || section.blocks.size() == kMost) {
+                continue;
+            }
+            const std::string alarms = fmt::format(
+                "{}{} ({}): {}, {} of {} recordings not known as healthy alarm.",
+                gearbox.name.empty() ? "" : gearbox.name + ": ", one.feature, one.detector,
+                gearbox.sustained
+                    ? "sustained alarm from " + alarm_text(monitoring, gearbox.sustained) + " on"
+                    : "no sustained alarm",
+                gearbox.alarms, gearbox.recordings);
+            section.state(
+                fmt::format("found.{}", section.blocks.size()),
+                std::isnan(held.rate)
+                    ? alarms + " False alarms were not counted."
+                    : fmt::format("{} False alarms, held out: {}; stated {}{}.", alarms,
+                                  held_out_text(held), analysis::percent_text(held.rate),
+                                  held.bounds.lower > held.rate
+                                      ? ", exceeded by a drift that earlier recordings do not show"
+                                      : ""),
+                analysis::Shown::screen);
+        }
+    }
+    return section;
+}
+
 analysis::Section monitoring_section(const MonitoringOverTime& monitoring,
                                      const std::vector<std::string>& features) {
     analysis::Section section{"monitoring", "Monitoring over time", {}};
@@ -456,20 +474,23 @@ analysis::Section monitoring_section(const MonitoringOverTime& monitoring,
     }
     section.state(
         "monitoring.how",
-        fmt::format("{}. The detector restarts after every alarm. An alarm is sustained if at "
-                    "least {} of the next {} recordings alarm, too; the lead is counted from it to "
-                    "the last recording.",
+        fmt::format("{}. A recording alarms while the detector's statistic lies beyond the "
+                    "threshold; ewma, cusum and trend, which accumulate, count what exceeds "
+                    "the drift, and need that of the recording itself. An alarm is sustained if at "
+                    "least {} of the next {} "
+                    "recordings alarm, too; the lead is counted from it to the last recording. Run "
+                    "length: median number of recordings up to an alarm without a fault, in 101 "
+                    "series drawn from the healthy recordings.",
                     baseline_text(monitoring), monitoring.sustained.needed(),
                     monitoring.sustained.records));
     section.state("monitoring.sample", sample_text(monitoring));
-    section.state("monitoring.drift", drift_text(monitoring));
     section.state("monitoring.note",
                   monitoring.note.empty() ? "" : analysis::capitalised(monitoring.note) + ".");
     analysis::Table table{
         "monitoring",
         "",
-        {"feature", "detector", "threshold", "healthy alarms", "sustained", "held-out alarms",
-         "later alarms", "first alarm", "sustained alarm", "lead", "worst tooth"},
+        {"feature", "detector", "sustained alarm", "later alarms", "held-out alarms", "first alarm",
+         "lead", "worst tooth", "threshold", "healthy alarms", "sustained", "run length"},
         {},
         analysis::Shown::screen};
     table.labels = 2;
@@ -483,22 +504,22 @@ analysis::Section monitoring_section(const MonitoringOverTime& monitoring,
             if (gearbox.recordings == 0 || std::isnan(one.threshold.value)) {
                 continue;
             }
-            const analysis::HeldOutAlarms& held = one.held_out;
             table.rows.push_back(
-                {one.feature, one.detector, analysis::number_text(one.threshold.value),
-                 fmt::format("{} of {}", one.threshold.alarms, one.threshold.records),
-                 std::to_string(one.healthy_sustained),
-                 std::isnan(held.rate) ? ""
-                                       : fmt::format("{} of {} {}", held.alarms, held.records,
-                                                     percent_interval(held.bounds)),
-                 fmt::format("{} of {}", gearbox.alarms, gearbox.recordings),
+                {one.feature, one.detector,
                  (gearbox.name.empty() ? "" : gearbox.name + ": ") +
-                     alarm_text(monitoring, gearbox.first),
-                 alarm_text(monitoring, gearbox.sustained),
+                     alarm_text(monitoring, gearbox.sustained),
+                 fmt::format("{} of {}", gearbox.alarms, gearbox.recordings),
+                 held_out_text(one.held_out), alarm_text(monitoring, gearbox.first),
                  lead_text(monitoring, gearbox.sustained),
                  gearbox.tooth ? fmt::format("{}, the same in {} of {}", gearbox.tooth->tooth,
                                              gearbox.tooth->same, gearbox.tooth->recordings)
-                               : ""});
+                               : "",
+                 analysis::number_text(one.threshold.value),
+                 fmt::format("{} of {}", one.threshold.alarms, one.threshold.records),
+                 std::to_string(one.healthy_sustained),
+                 std::isnan(one.run_length)   ? ""
+                 : std::isinf(one.run_length) ? fmt::format("> {}", longest_run(one.threshold.rate))
+                                              : analysis::number_text(one.run_length)});
         }
     }
     section.add(std::move(table));
@@ -521,10 +542,10 @@ nlohmann::json monitoring_json(const MonitoringOverTime& monitoring) {
                                    {"healthy",
                                     {{"recordings", result.threshold.records},
                                      {"alarms", result.threshold.alarms},
+                                     {"drift", result.threshold.drift},
+                                     {"run_length", analysis::number(result.run_length)},
                                      {"sustained", result.healthy_sustained},
-                                     {"rate", result.rate},
-                                     {"lower", analysis::number(result.rate_bounds.lower)},
-                                     {"upper", analysis::number(result.rate_bounds.upper)}}},
+                                     {"rate", analysis::number(result.threshold.rate)}}},
                                    {"held_out", analysis::fields_json(result.held_out)},
                                    {"gearboxes", gearboxes}});
     }

@@ -47,12 +47,9 @@ GEARPOD_FIELDS(GearboxAlarms, name, recordings, alarms, first_, sustained_, conf
 struct RecordingMonitorResult {
     std::string feature;  // "fused": all features that the study uses, combined
     std::string detector;
-    // Here the rate is per 1000 recordings, and `hours` counts recordings.
-    analysis::MonitorThreshold threshold;
-    double rate = 0.0;  // false-alarm rate of the threshold: the stated one, or the smallest
-                        // that the healthy recordings can set
-    analysis::Interval rate_bounds;  // of the rate of this threshold
-    long healthy_sustained = 0;      // sustained alarms of healthy recordings
+    analysis::RecordThreshold threshold;
+    double run_length = kNan;    // median recordings to the first alarm without a fault
+    long healthy_sustained = 0;  // sustained alarms of healthy recordings
     analysis::HeldOutAlarms held_out;
     std::vector<GearboxAlarms> gearboxes;
 };
@@ -67,11 +64,10 @@ struct GearboxSeries {
     // RMS of every tooth, m/s^2, and position of the first one (ToothMap); empty if unknown
     std::vector<std::vector<double>> teeth;
     std::vector<double> first_tooth;
-    analysis::Drift level;  // of sensor_rms over the healthy recordings
     // Deviations from the gearbox's own first recordings, by feature of MonitoringOverTime::shown.
     std::vector<std::vector<double>> deviations;
 };
-GEARPOD_FIELDS(GearboxSeries, name, rows, time, healthy_, alignment, tooth_rms, first_tooth, level,
+GEARPOD_FIELDS(GearboxSeries, name, rows, time, healthy_, alignment, tooth_rms, first_tooth,
                deviations_)
 
 struct MonitoringOverTime {
@@ -97,9 +93,13 @@ GEARPOD_FIELDS(MonitoringOverTime, baseline_records, false_alarm_rate, confidenc
 // Returns nothing unless the rows are recordings with times.
 std::optional<MonitoringOverTime> monitoring_over_time(const Results& frame, const RowSource& rows);
 
+// Sustained alarms by the features that the study uses, each with its first detector, and how often
+// they alarmed falsely on recordings that did not set their threshold; at most six lines.
+analysis::Section monitoring_answer(const MonitoringOverTime& monitoring);
+
 // Section with a row for each gearbox and detector of the given features, of those that the study
-// uses and of "fused", with statements on the healthy sample and on a drift of their level; or the
-// reason why there is no monitoring.
+// uses and of "fused", with statements on the healthy sample; or the reason why there is no
+// monitoring.
 analysis::Section monitoring_section(const MonitoringOverTime& monitoring,
                                      const std::vector<std::string>& features);
 

@@ -194,6 +194,9 @@ void fill_report(const Results& frame, const RowSource& rows,
         analysis::headline_section(findings, run.facts ? run.facts->conditions : "",
                                    facts_text(findings, run.failures.counts, run.facts));
     answer.state("record", run.facts ? run.facts->record : "");
+    if (run.monitoring) {
+        report.add(monitoring_answer(*run.monitoring));
+    }
     report.add(std::move(answer));
     report.add(analysis::limits_section(findings, numerical_of(findings, run.numerical),
                                         other_fault_of(findings, frame, run)));
@@ -205,7 +208,6 @@ void fill_report(const Results& frame, const RowSource& rows,
     report.add(too_many_section(findings, frame));
     const std::vector<std::size_t> ranked =
         findings.order.empty() ? std::vector<std::size_t>{} : findings.order[findings.reference];
-    report.add(alarms_section(frame, run.over_time, ranked));
     if (run.monitoring) {
         constexpr std::size_t kMostNamed = 3;
         std::vector<std::string> best;
@@ -311,7 +313,6 @@ RunFindings findings_of_run(const Results& frame, const RowSource& rows,
                     .failures = failures_of(frame, rows),
                     .numerical = numerical_contributions(frame, rows, reliability),
                     .other_fault = other_fault_alarms(frame, rows),
-                    .over_time = alarms_over_time(frame, rows),
                     .monitoring = monitoring_over_time(frame, rows),
                     .sensors = sensor_detections(frame, rows),
                     .contact_loss = summarise_contact_loss(frame, rows)};
@@ -362,7 +363,6 @@ nlohmann::json report_json(const Results& frame, const RowSource& rows,
     json["features"] = features_json(frame);
     json["noise"] = noise_json(frame, facts);
     json["failures"] = failures_json(frame, run.failures);
-    json["over_time"] = alarms_json(frame, run.over_time);
     json["monitoring"] = run.monitoring ? monitoring_json(*run.monitoring) : Json(nullptr);
     json["gearboxes"] = json["failures"]["gearboxes"];
     json["failed"] = run.failures.counts.failed();

@@ -26,7 +26,6 @@ struct RunFindings {
     Failures failures;
     std::vector<NumericalContribution> numerical;
     std::vector<OtherFaultAlarms> other_fault;
-    std::vector<TimeGroup> over_time;
     std::optional<MonitoringOverTime> monitoring;
     std::vector<SensorDetection> sensors;
     std::vector<ContactLossSummary> contact_loss;
@@ -41,10 +40,9 @@ RunFindings findings_of_run(const Results& frame, const RowSource& rows,
 
 // Names of all sections that a report of a run can have, in their order.
 inline const std::vector<std::string> kRunSections{
-    "state",       "answer",   "limits",       "thresholds", "rates",
-    "pod",         "ranking",  "false_alarms", "inputs",     "conditions",
-    "values",      "too_many", "over_time",    "monitoring", "sensors",
-    "other_fault", "contact",  "numerical",    "failures",   "time"};
+    "state",   "found",        "answer",  "limits",     "thresholds", "rates",    "pod",
+    "ranking", "false_alarms", "inputs",  "conditions", "values",     "too_many", "monitoring",
+    "sensors", "other_fault",  "contact", "numerical",  "failures",   "time"};
 
 // Last lines of the screen: the file, and the commands for everything else.
 std::vector<std::string> screen_end(const std::string& file, bool part);

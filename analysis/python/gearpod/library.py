@@ -73,9 +73,10 @@ class Features(Dict[str, float]):
 
     @property
     def alarm(self) -> Optional[bool]:
-        """Decision by the threshold of the results given as `against`; None without."""
-        against = self.report.get("against")
-        return None if against is None else bool(against["alarm"])
+        """Decision by the threshold of the results given as `against`; None without, or if they do not
+        describe the machine."""
+        alarm: Optional[bool] = (self.report.get("against") or {}).get("alarm")
+        return alarm
 
 
 class Pod:

@@ -26,18 +26,18 @@ SUBJECTS = (
     ("further", "Further findings", "", ""))
 
 # Subject of the findings in each section of a report; those of other sections are further findings.
-SECTIONS = {"state": "limits", "answer": "detection", "headline": "detection",
+SECTIONS = {"state": "limits", "found": "detection", "answer": "detection", "headline": "detection",
             "limits": "limits", "values": "data", "thresholds": "threshold", "pod": "detection",
             "false_alarms": "false_alarms", "time": "software",
             "too_many": "limits", "rates": "detection", "conditions": "threshold",
-            "over_time": "detection", "monitoring": "detection", "sensors": "detection",
+            "monitoring": "detection", "sensors": "detection",
             "other_fault": "false_alarms", "contact": "limits", "numerical": "limits",
             "failures": "limits", "results": "detection", "basis": "data", "method": "detection"}
 # Subject of findings that is not their section's, by the beginning of the key.
 KEYS = {"threshold": ("thresholds.", "threshold", "tails", "costs", "facts", "monitoring.how",
                       "basis.thresholds"),
         "false_alarms": ("shortage", "false_", "no_false_alarms.", "monitoring.sample",
-                         "monitoring.drift", "monitoring.note", "noise.", "trade_off", "effect"),
+                         "monitoring.note", "noise.", "trade_off", "effect"),
         "detection": ("headline", "rates.", "curves.", "responses", "unranked."),
         "limits": ("assumptions", "next", "record", "holds", "unknown", "warning.", "interpolation", "failed", "note."),
         "data": ("table",),

@@ -139,8 +139,6 @@ TEST_CASE("Intervals of false alarms hold in 95 of 100 campaigns", "[.rare-cover
 
 // Checks sustained alarms, alarms of held-out healthy records, and the drift of a level.
 
-constexpr double kThreshold = 6.0;
-
 std::vector<double> normal_values(std::size_t count, unsigned seed) {
     std::mt19937_64 engine(seed);
     std::normal_distribution<double> normal;
@@ -151,18 +149,32 @@ std::vector<double> normal_values(std::size_t count, unsigned seed) {
     return values;
 }
 
-std::vector<SustainedAlarm> sustained(const char* detector, const std::vector<double>& values) {
-    return sustained_alarms(record_alarms(*parse_detector(detector), values, kThreshold),
-                            {10, 0.8});
+// A record a day, or a given number of records on each day.
+HealthyRecords timed(const std::vector<double>& values, int a_day = 1) {
+    HealthyRecords records;
+    for (std::size_t i = 0; i < values.size(); ++i) {
+        const int n = static_cast<int>(i);
+        records.push_back({n / a_day + 0.01 * (n % a_day), values[i]});
+    }
+    return records;
 }
 
-TEST_CASE("A single bad record sustains no alarm of any detector, in either state") {
+// Sustained alarms with the threshold of 300 healthy records at this rate.
+std::vector<SustainedAlarm> sustained(const char* detector, const std::vector<double>& values,
+                                      double rate = 0.01) {
+    const HealthyRecords healthy = timed(normal_values(300, 4));
+    const auto parsed = *parse_detector(detector);
+    return sustained_alarms(
+        record_alarms(parsed, values, record_threshold(parsed, {&healthy, 1}, rate)), {10, 0.8});
+}
+
+TEST_CASE("A single bad record sustains no alarm of any detector, a lasting fault sustains one") {
     for (const char* detector : {"single", "2 of 3", "ewma 0.2", "cusum 0.5", "trend 100"}) {
         INFO(detector);
         auto values = normal_values(200, 1);
         values[60] = 1e6;
         CHECK(sustained(detector, values).empty());
-        // A lasting fault, with one record that is bad in the other direction.
+        // One record is bad in the other direction.
         for (std::size_t i = 100; i < values.size(); ++i) {
             values[i] += 20.0;
         }
@@ -172,6 +184,25 @@ TEST_CASE("A single bad record sustains no alarm of any detector, in either stat
         CHECK(found.front().first >= 100);
         CHECK(found.front().first <= 103);
     }
+    // What one record does not show, an average does, and goes on to show.
+    auto values = normal_values(400, 2);
+    for (std::size_t i = 200; i < values.size(); ++i) {
+        values[i] += 1.5;
+    }
+    CHECK(sustained("single", values).empty());
+    const auto found = sustained("ewma 0.1", values);
+    REQUIRE(found.size() >= 10);
+    CHECK(found.front().first >= 200);
+    CHECK(found.front().first <= 220);
+    // A fall is found by two sides only, as early as a rise of as much.
+    for (double& value : values) {
+        value = -value;
+    }
+    CHECK(sustained("ewma 0.1", values).empty());
+    const auto falls = sustained("ewma 0.1 two-sided", values);
+    REQUIRE(!falls.empty());
+    CHECK(falls.front().first >= 200);
+    CHECK(falls.front().first <= 240);
 }
 
 TEST_CASE("Eight of the next ten records sustain an alarm, seven do not") {
@@ -196,66 +227,98 @@ TEST_CASE("Eight of the next ten records sustain an alarm, seven do not") {
     CHECK(found[0].confirmed == 16);
 }
 
-TEST_CASE("Held-out healthy records alarm at the smallest rate that the others can set") {
-    // Expected rate of a threshold at the largest of n values: 1 / (n + 1).
-    CHECK(smallest_rate(262) == Approx(1.0 / 263.0));
-    long alarms = 0, records = 0;
-    for (unsigned seed = 0; seed < 400; ++seed) {
-        const HealthyLife life{normal_values(100, seed), 100.0};
-        const auto held = held_out_alarms(*parse_detector("single"), {&life, 1}, 0.001, 0.95);
-        CHECK(held.rate == Approx(1.0 / 51.0));
-        CHECK(held.records == 50);
-        alarms += held.alarms;
-        records += held.records;
+// Healthy records of a machine whose level differs from day to day.
+std::vector<double> drifting(const char* kind, int days, int records, Engine& engine) {
+    std::normal_distribution<double> normal;
+    const std::string drift = kind;
+    std::vector<double> values;
+    double level = 0.0;
+    for (int day = 0; day < days; ++day) {
+        const double step = normal(engine);
+        level = drift == "day" ? step : drift == "wandering" ? 0.9 * level + 0.44 * step : level;
+        for (int i = 0; i < records; ++i) {
+            values.push_back(level + normal(engine));
+        }
     }
-    const double rate = static_cast<double>(alarms) / static_cast<double>(records);
-    CHECK(rate == Approx(1.0 / 51.0).epsilon(0.2));  // the standard error is 7 %
-
-    HealthyLife drifting{normal_values(100, 1), 100.0};
-    for (std::size_t i = 0; i < 100; ++i) {
-        drifting.values[i] += 0.1 * static_cast<double>(i);
-    }
-    const auto held = held_out_alarms(*parse_detector("single"), {&drifting, 1}, 0.02, 0.95);
-    CHECK(held.alarms > 15);
-    CHECK(held.bounds.lower > 0.15);
+    return values;
 }
 
-TEST_CASE(
-    "Held-out records without a value do not change the rate, and none is given without "
-    "threshold") {
-    HealthyLife life{normal_values(100, 5), 100.0}, gaps{{}, 200.0};
-    for (const double value : life.values) {
-        gaps.values.insert(gaps.values.end(), {value, std::nan("")});
+TEST_CASE("Held-out healthy records alarm at the stated rate, with and without a drift") {
+    // Expected rate of a threshold at the largest of n values: 1 / (n + 1).
+    CHECK(smallest_rate(262) == Approx(1.0 / 263.0));
+    Engine engine(7);
+    for (const char* kind : {"none", "day", "wandering"}) {
+        for (const char* detector :
+             {"single", "2 of 3", "ewma 0.2", "ewma 0.05", "cusum 0.5", "trend 100"}) {
+            INFO(kind << ' ' << detector);
+            long alarms = 0, records = 0, unaware = 0;
+            for (int machine = 0; machine < 400; ++machine) {
+                const auto life = drifting(kind, 20, 12, engine);
+                const HealthyRecords of_life = timed(life, 12);
+                const auto held =
+                    held_out_alarms(*parse_detector(detector), {&of_life, 1}, 0.02, 0.95);
+                CHECK(held.rate == 0.02);
+                CHECK(held.records == 120);
+                alarms += held.alarms;
+                records += held.records;
+                // The 98th of the first 100 is the threshold without an allowance for drift.
+                std::vector<double> first(life.begin(), life.begin() + 120);
+                std::ranges::sort(first);
+                unaware += std::count_if(life.begin() + 120, life.end(),
+                                         [&](double value) { return value > first[117]; });
+            }
+            const double rate = static_cast<double>(alarms) / static_cast<double>(records);
+            CHECK(rate > 0.007);
+            CHECK(rate < 0.045);
+            if (std::string(kind) == "wandering") {
+                CHECK(static_cast<double>(unaware) / static_cast<double>(records) > 0.04);
+            }
+        }
     }
-    const auto single = *parse_detector("single");
-    const auto all = held_out_alarms(single, {&life, 1}, 0.1, 0.95),
-               some = held_out_alarms(single, {&gaps, 1}, 0.1, 0.95);
-    CHECK(some.records == all.records);
-    CHECK(some.alarms == all.alarms);
-    CHECK(some.rate == all.rate);
-    life.values.resize(10);  // nine of ten records need more than the half of them
-    const auto none = held_out_alarms(*parse_detector("9 of 10"), {&life, 1}, 0.1, 0.95);
+    auto rising = normal_values(100, 1);
+    for (std::size_t i = 0; i < 100; ++i) {
+        rising[i] += 0.1 * static_cast<double>(i);
+    }
+    const HealthyRecords trend = timed(rising);
+    const auto held = held_out_alarms(*parse_detector("single"), {&trend, 1}, 0.02, 0.95);
+    CHECK(held.alarms < 5);  // a trend of ten standard deviations
+}
+
+TEST_CASE("Run lengths without a fault are those of the rate, and longer where alarms cluster") {
+    const HealthyRecords healthy = timed(normal_values(2000, 9));
+    const auto length = [&](const char* text) {
+        const auto detector = *parse_detector(text);
+        return run_length(detector, {&healthy, 1}, record_threshold(detector, {&healthy, 1}, 0.02),
+                          1000);
+    };
+    // Median of a geometric distribution: ln 2 / 0.02 = 34.7, and 20 % standard error of 101 runs.
+    CHECK(length("single") > 20.0);
+    CHECK(length("single") < 55.0);
+    CHECK(length("ewma 0.1") > 1.2 * length("single"));
+}
+
+TEST_CASE("No held-out rate is given without a threshold") {
+    // Nine of ten records need more than half of ten.
+    const HealthyRecords records = timed(normal_values(10, 5));
+    const auto none = held_out_alarms(*parse_detector("9 of 10"), {&records, 1}, 0.1, 0.95);
     CHECK(std::isnan(none.rate));
     CHECK(std::isnan(none.bounds.upper));
 }
 
-TEST_CASE("A drift is found with its size, and white noise has none") {
-    auto values = normal_values(200, 3);
-    for (std::size_t i = 0; i < values.size(); ++i) {
-        values[i] = 10.0 + 0.1 * values[i];
+TEST_CASE("The level of another day allows for the scatter of four days") {
+    // Three or four sessions are parts: the threshold is about t_3 s (1 + 1/4)^(1/2) above the
+    // mean.
+    std::vector<double> values;
+    for (const double level : {0.0, 0.1, 0.3, 2.8}) {
+        for (int i = 0; i < 50; ++i) {
+            values.push_back(level + 1e-6 * i);
+        }
     }
-    CHECK(std::abs(drift_of(values).change) < 0.01);
-    CHECK(drift_of(values).p_value > 0.01);
-    for (std::size_t i = 0; i < values.size(); ++i) {
-        values[i] += 2.0 * static_cast<double>(i) / 199.0;
-    }
-    CHECK(drift_of(values).change == Approx(2.0 / 11.0).epsilon(0.03));
-    CHECK(drift_of(values).tau > 0.85);
-    CHECK(drift_of(values).p_value < 1e-6);
-    const std::vector<double> rising{1, 2, 3, 4, 5, 6, 7, 8, 9, 10};
-    CHECK(drift_of(rising).tau == Approx(1.0));
-    // Score 45 of 10 values: (45 - 1) / sqrt(10 * 9 * 25 / 18) = 3.9355.
-    CHECK(drift_of(rising).p_value == Approx(std::erfc(3.9354797 / std::sqrt(2.0))).epsilon(1e-6));
+    const HealthyRecords records = timed(values, 50);
+    const auto threshold = record_threshold(*parse_detector("single"), {&records, 1}, 0.01);
+    const double drift = 1.339 * std::sqrt(1.25);  // standard deviation of the four levels
+    CHECK(threshold.drift == Approx(drift).epsilon(1e-3));
+    CHECK(threshold.value == Approx(0.8 + 4.541 * drift).epsilon(0.01));  // t_3 at 1 %
 }
 
 }  // namespace gearpod::analysis::test_false_alarms

@@ -223,6 +223,25 @@ TEST_CASE("A recording is compared with a results file in one sentence") {
                   " --set gearbox.planets=4 --set gearbox.sun.teeth=15 --set "
                   "gearbox.ring.teeth=37 --against " +
                   folder.file("p.h5"));
+    // A machine of another level is not that of the study, whatever its features say.
+    for (const auto& [factor, which] : {std::pair{35.0, "loudest"}, std::pair{0.01, "quietest"}}) {
+        std::vector<double> other = s.sensor;
+        for (double& value : other) {
+            value *= factor;
+        }
+        const std::string scaled = s.write("time,sensor", {s.time, other});
+        const auto refused =
+            json_of(features(scaled, "--against " + folder.file("p.h5") + " --json -"))["against"];
+        CHECK(refused["alarm"].is_null());
+        CHECK_THAT(refused["mismatch"].get<std::string>(), Catch::Contains(which));
+        CHECK_THAT(
+            refused["sentence"].get<std::string>(),
+            Catch::Contains("no decision") && Catch::Contains("does not describe this machine"));
+        check_mentions(
+            features(scaled, "--against " + folder.file("p.h5") + " --feature window_ratio"),
+            {"no decision"});
+        s.write("time,sensor", {s.time, s.sensor});
+    }
     CHECK(features(path, "--feature window_ratio").mentions("is only used with --against"));
     CHECK(features(path, "--feature fm4 --against " + folder.file("p.h5")).code == 2);
 }

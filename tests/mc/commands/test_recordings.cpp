@@ -109,7 +109,7 @@ TEST_CASE("Many recordings have the same results for any number of threads") {
     CHECK(bits(recorded.folder.file("1.h5")) == bits(recorded.folder.file("3.h5")));
 }
 
-TEST_CASE("The report on recordings has thresholds, POD where sizes are known, alarms over time") {
+TEST_CASE("The report on recordings has thresholds, and POD where sizes are known") {
     const Recorded& recorded = recorded_once();
     const std::string& results = recorded.results;
     const auto json = json_of("report " + results + " --json -");
@@ -123,11 +123,6 @@ TEST_CASE("The report on recordings has thresholds, POD where sizes are known, a
     CHECK(level["auc"]["faulty"] == 30);
     CHECK(level["hit_miss"]["refusal"].is_null());
     CHECK(level["hit_miss"]["a90"]["estimate"]["size"].get<double>() < 1.5e-3);
-    REQUIRE(json["over_time"].size() == 7);
-    CHECK(json["over_time"][6]["recordings"] == 1);  // loud, of unknown condition
-    CHECK(json["over_time"][6]["alarms"]["window_ratio"] == 1);
-    CHECK(json["over_time"][0]["alarms"]["window_ratio"].get<int>() <= 2);
-    CHECK(program("report " + results + " --full").mentions("Alarms over time, day"));
 }
 
 TEST_CASE("The report monitors a gearbox's recordings in sequence") {
@@ -142,7 +137,7 @@ TEST_CASE("The report monitors a gearbox's recordings in sequence") {
         // Ten healthy recordings after the baseline: at a rate of 0.1 the largest sets the
         // threshold.
         CHECK(one["healthy"]["alarms"].get<int>() <= 1);
-        CHECK(one["healthy"]["recordings"] == 10);
+        CHECK(one["healthy"]["recordings"] == (one["detector"] == "2 of 3" ? 9 : 10));
         REQUIRE(one["gearboxes"].size() == 1);  // the other has one recording only
         CHECK(one["gearboxes"][0]["recordings"] == 30);
         if (one["feature"] == "window_ratio") {
@@ -170,7 +165,7 @@ TEST_CASE("The report monitors a gearbox's recordings in sequence") {
         {"\"cusum\" is not a detector", "names \"single\" twice"});
 }
 
-TEST_CASE("Alarms over time count recordings with a value, and none without a threshold") {
+TEST_CASE("Recordings without gearbox names are monitored as those of one machine") {
     const Folder folder;
     std::string table = "file,gearbox,time,label\n";
     for (int i = 0; i < 30; ++i) {
@@ -185,12 +180,6 @@ TEST_CASE("Alarms over time count recordings with a value, and none without a th
     program("features --manifest " + folder.file("m.csv") + " --study " + kSmall +
             " --samples-per-mesh 8 --set monitoring.baseline_records=5 --out " + results);
     const auto json = json_of("report " + results + " --json -");
-    const auto& last = json["over_time"].back();
-    CHECK(last["recordings"] == 10);
-    CHECK(last["values"]["sensor_rms"] == 5);
-    CHECK(last["alarms"]["sensor_rms"] == 5);
-    CHECK(last["values"]["te_rms"] == 5);
-    CHECK(last["alarms"]["te_rms"].is_null());  // no healthy recording has it
     // Recordings without gearbox names are monitored as one machine, and this is reported.
     CHECK(json["monitoring"]["note"].get<std::string>().find("of one machine") !=
           std::string::npos);
