@@ -86,12 +86,10 @@ using HealthyRecords = std::vector<TimedValue>;  // of one gearbox, in time orde
 
 struct RecordThreshold {
     double value = kNan;  // NaN if no healthy record has a statistic
-    double rate =
-        kNan;          // of false alarms: the stated one, or the smallest that the records can set
-    long records = 0;  // healthy records with a statistic
-    long alarms = 0;   // of these records
-    double drift =
-        0.0;  // s (1 + 1/parts)^(1/2), of the statistic or, where it accumulates, of the values
+    double rate = kNan;   // of false alarms: as stated, or the smallest that the records can set
+    long records = 0;     // healthy records with a statistic
+    long alarms = 0;      // of these records
+    double drift = 0.0;   // of the level of statistics or, where they accumulate, of the values
     // A detector that accumulates (ewma, cusum, trend) takes of a record what its distance from the
     // healthy median `centre` exceeds `band` by, in units of `scale`, half the distance of the
     // healthy 16 and 84 % quantiles. The drift exceeds the band with the probability of a false

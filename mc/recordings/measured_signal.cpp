@@ -556,18 +556,22 @@ std::vector<double> lines_of_gears(std::span<const double> periodic,
 
 AlignedSensor aligned_with(std::span<const double> other, std::span<const double> signal, int turns,
                            const signals::SpanLayout& span) {
+    constexpr double kBetter = 0.05, kClear = 0.5;  // correlations; few lines may agree by chance
     AlignedSensor aligned{{signal.begin(), signal.end()}, 0.0, {}};
-    if (turns > 1 && turns == span.ring_teeth) {
-        const signals::Alignment found =
-            signals::align(lines_of_gears(other, span), lines_of_gears(signal, span));
-        aligned = {signals::shifted(signal, found.shift), found.correlation, found.shift};
-    } else {
-        if (turns == 1) {
-            aligned.shift = signals::align(other, signal).shift;
-            aligned.sensor = signals::shifted(signal, aligned.shift);
+    if (turns == 1 || turns == span.ring_teeth) {
+        aligned.shift = signals::align(other, signal).shift;
+        if (turns > 1) {
+            const auto before = lines_of_gears(other, span), now = lines_of_gears(signal, span);
+            const signals::Alignment gears = signals::align(before, now);
+            const double with_all =
+                signals::correlation(before, signals::shifted(now, aligned.shift));
+            if (gears.correlation > std::max(kClear, with_all + kBetter)) {
+                return {signals::shifted(signal, gears.shift), gears.correlation, gears.shift};
+            }
         }
-        aligned.correlation = signals::correlation(other, aligned.sensor);
+        aligned.sensor = signals::shifted(signal, aligned.shift);
     }
+    aligned.correlation = signals::correlation(other, aligned.sensor);
     return aligned;
 }
 

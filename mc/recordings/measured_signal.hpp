@@ -66,13 +66,14 @@ void check_columns(const SignalSource& source, const SignalColumns& columns);
 // A sensor signal aligned with another of the same gearbox.
 struct AlignedSensor {
     std::vector<double> sensor;  // m/s^2
-    // With the other signal, after alignment; over the whole span, of the lines that decided it.
-    double correlation = 0.0;
+    double correlation =
+        0.0;  // with the other signal, after alignment, or of the lines that decided
     signals::Shift shift;
 };
 // Moves a signal over this number of planet turns to the start of the other. Only the whole span
 // and one averaged planet turn are periodic; other signals stay as they are. Over the whole span
-// the lines of planet and partner decide, so that stronger lines of other stages do not.
+// the lines of planet and partner decide if their correlation is 0.5 and higher by 0.05, so that
+// stronger lines of other stages do not.
 AlignedSensor aligned_with(std::span<const double> other, std::span<const double> signal, int turns,
                            const signals::SpanLayout& span);
 

@@ -203,8 +203,8 @@ std::vector<double> deviations_of(const Results& frame, const GearboxRecords& ge
 
 // Recordings of a series without a fault that are drawn at most.
 long longest_run(double rate) {
-    constexpr double kIntervals = 5.0;  // expected ones between alarms
-    return std::lround(kIntervals / rate);
+    constexpr double kIntervals = 5.0, kMost = 2000.0;  // expected intervals between alarms
+    return std::lround(std::min(kMost, kIntervals / rate));
 }
 
 // Monitors every feature separately, and the study's features combined ("fused").
