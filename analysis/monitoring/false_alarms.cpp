@@ -349,14 +349,16 @@ RecordThreshold record_threshold(const Detector& detector, std::span<const Healt
         };
         threshold.drift = levels.drift;
         threshold.centre = quantile(0.5);
-        if (const double scale = 0.5 * (quantile(0.84) - quantile(0.16)); scale > 0.0) {
-            threshold.scale = scale;
-            threshold.most =
-                2.0 / scale *
-                std::max(values.back() - threshold.centre, threshold.centre - values.front());
-            threshold.band = threshold.drift > 0.0
-                                 ? -student_quantile(levels.freedom, rate) * threshold.drift / scale
-                                 : 0.0;
+        const double middle = 0.5 * (quantile(0.84) - quantile(0.16)),
+                     all = 0.5 * (values.back() - values.front());
+        if (all > 0.0) {
+            threshold.scale = middle > 0.0 ? middle : all;
+            threshold.most = 4.0 * all / threshold.scale;
+            const double possible = std::max(rate, smallest_rate(static_cast<long>(values.size())));
+            const double tail = detector.two_sided ? 0.5 * possible : possible;
+            threshold.band = threshold.drift > 0.0 ? -student_quantile(levels.freedom, tail) *
+                                                         threshold.drift / threshold.scale
+                                                   : 0.0;
         }
     }
     std::vector<HealthyRecords> statistics;

@@ -93,8 +93,9 @@ struct RecordThreshold {
     // A detector that accumulates (ewma, cusum, trend) takes of a record what its distance from the
     // healthy median `centre` exceeds `band` by, in units of `scale`, half the distance of the
     // healthy 16 and 84 % quantiles. The drift exceeds the band with the probability of a false
-    // alarm. A distance counts as at most `most`, twice the largest healthy one, and only a record
-    // beyond the band alarms: a single bad one sustains no alarm.
+    // alarm. The excess counts as at most `most`, twice the range of the healthy records, and only
+    // a record beyond the band alarms: a single bad one sustains no alarm. Gearboxes share the
+    // centre, so that they are compared by their deviations from their own first records.
     double centre = 0.0, scale = 1.0, band = 0.0, most = std::numeric_limits<double>::infinity();
 };
 

@@ -35,7 +35,7 @@ def _draw_indicators(axes, monitoring, series, names):
         axes.plot(range(1, len(values) + 1), values, color=colour(position),
                   linestyle=dash(position), linewidth=1, label=name)
         one = _single(monitoring["watched"], name)
-        if one["threshold"] is not None:
+        if one["detector"] == "single" and one["threshold"] is not None:
             axes.axhline(one["threshold"], color=colour(position), linewidth=0.7)
         gearbox = next((its for its in one["gearboxes"] if its["name"] == series["name"]), None)
         if gearbox and gearbox["sustained"]:

@@ -560,6 +560,8 @@ AlignedSensor aligned_with(std::span<const double> other, std::span<const double
     AlignedSensor aligned{{signal.begin(), signal.end()}, 0.0, {}};
     if (turns == 1 || turns == span.ring_teeth) {
         aligned.shift = signals::align(other, signal).shift;
+        aligned.sensor = signals::shifted(signal, aligned.shift);
+        aligned.correlation = signals::correlation(other, aligned.sensor);
         if (turns > 1) {
             const auto before = lines_of_gears(other, span), now = lines_of_gears(signal, span);
             const signals::Alignment gears = signals::align(before, now);
@@ -568,8 +570,11 @@ AlignedSensor aligned_with(std::span<const double> other, std::span<const double
             if (gears.correlation > std::max(kClear, with_all + kBetter)) {
                 return {signals::shifted(signal, gears.shift), gears.correlation, gears.shift};
             }
+            if (aligned.correlation < kClear && with_all > kClear) {
+                aligned.correlation = with_all;
+            }
         }
-        aligned.sensor = signals::shifted(signal, aligned.shift);
+        return aligned;
     }
     aligned.correlation = signals::correlation(other, aligned.sensor);
     return aligned;

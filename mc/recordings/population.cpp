@@ -71,6 +71,12 @@ PopulationFeature feature_of(const Results& results, std::size_t f, std::size_t 
         (healthy ? feature.healthy : faulty).push_back(value);
     }
     std::sort(feature.healthy.begin(), feature.healthy.end());
+    for (const std::vector<double>* values : {&feature.healthy, &faulty}) {
+        for (const double value : *values) {
+            feature.least = std::fmin(feature.least, value);
+            feature.most = std::fmax(feature.most, value);
+        }
+    }
     feature.auc = analysis::auc(feature.healthy, faulty, feature.alarm == analysis::Alarm::high,
                                 results.request.confidence)
                       .auc;
@@ -117,27 +123,18 @@ std::vector<AlarmDecision> compare_with_population(
     return decisions;
 }
 
-std::string mismatch_text(const std::vector<AlarmDecision>& decisions) {
+std::string mismatch_text(const Population& population,
+                          const std::vector<AlarmDecision>& decisions) {
     constexpr double kFactor = 3.0;
-    constexpr std::size_t kFewestHealthy = 20;
     for (const AlarmDecision& decision : decisions) {
         const PopulationFeature& known = *decision.population;
-        const double low = known.healthy.front(), high = known.healthy.back();
-        if (known.name == kLevel &&
-            (decision.value > kFactor * high || kFactor * decision.value < low)) {
+        const bool loud = decision.value > kFactor * known.most;
+        if (!population.is_measured && known.name == kLevel &&
+            (loud || kFactor * decision.value < known.least)) {
+            const double nearest = loud ? known.most : known.least;
             return fmt::format(
-                "its sensor_rms, {:.4g} m/s^2, is {:.3g} times the {} healthy one "
-                "there, {:.4g} m/s^2",
-                decision.value, decision.value / (decision.value > high ? high : low),
-                decision.value > high ? "loudest" : "quietest", decision.value > high ? high : low);
-        }
-        const double beyond =
-            known.alarm == analysis::Alarm::high ? low - decision.value : decision.value - high;
-        if (known.healthy.size() >= kFewestHealthy && beyond > high - low && high > low) {
-            return fmt::format(
-                "its {}, {:.4g}, lies beyond the {} healthy values there, {:.4g} to "
-                "{:.4g}, on the side that no fault explains",
-                known.name, decision.value, known.healthy.size(), low, high);
+                "its {}, {:.4g} m/s^2, is {:.3g} times the {} one there, {:.4g} m/s^2", kLevel,
+                decision.value, decision.value / nearest, loud ? "largest" : "smallest", nearest);
         }
     }
     return "";
@@ -218,7 +215,7 @@ PopulationDecisions decide(const Population& population, const std::string& reco
                            const std::vector<WorstTooth>& teeth) {
     PopulationDecisions decided{compare_with_population(population, features, measured, feature),
                                 "", ""};
-    decided.mismatch = mismatch_text(decided.decisions);
+    decided.mismatch = mismatch_text(population, decided.decisions);
     if (!decided.mismatch.empty()) {
         for (AlarmDecision& decision : decided.decisions) {
             decision.alarm = false;

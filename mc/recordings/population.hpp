@@ -17,7 +17,8 @@ struct PopulationFeature {
     long threshold_count = 0;  // number of healthy gearboxes that set the threshold
     // Values of these and of test gearboxes without a fault, ascending.
     std::vector<double> healthy;
-    double auc = 0.0;  // NaN without faulty gearboxes
+    double least = kNan, most = kNan;  // of these and of the faulty ones
+    double auc = 0.0;                  // NaN without faulty gearboxes
 };
 
 struct Population {
@@ -47,9 +48,8 @@ struct AlarmDecision {
 // feature comes first.
 struct PopulationDecisions {
     std::vector<AlarmDecision> decisions;
-    // Reason why the healthy gearboxes do not describe the recording's machine, so that no alarm is
-    // decided, or "": its level, sensor_rms, lies 3 times outside of theirs, or a feature lies
-    // beyond their range on the side that no fault explains, by more than the range.
+    // Reason why simulated gearboxes do not describe the recording's machine, so that no alarm is
+    // decided, or "": its level, sensor_rms, lies 3 times outside of theirs, healthy or faulty.
     std::string mismatch;
     std::string sentence;  // on the decisive feature and the teeth with the largest vibration
 };

@@ -429,7 +429,7 @@ std::optional<MonitoringOverTime> monitoring_over_time(const Results& frame,
 
 analysis::Section monitoring_answer(const MonitoringOverTime& monitoring) {
     constexpr std::size_t kMost = 6;
-    analysis::Section section{"found", "", {}};
+    std::vector<std::string> sustained, others;
     const std::string* feature = nullptr;  // of the line before: each has its first detector
     for (const RecordingMonitorResult& one : monitoring.watched) {
         if (std::ranges::count(monitoring.shown, one.feature) == 0 ||
@@ -438,28 +438,38 @@ analysis::Section monitoring_answer(const MonitoringOverTime& monitoring) {
         }
         feature = &one.feature;
         const analysis::HeldOutAlarms& held = one.held_out;
+        const std::string false_alarms =
+            std::isnan(held.rate)
+                ? "False alarms were not counted."
+                : fmt::format(
+                      "Of the second half of the healthy ones {} alarm at a threshold from the "
+                      "first half, stated {}{}.",
+                      held_out_text(held), analysis::percent_text(held.rate),
+                      held.bounds.lower > held.rate
+                          ? ": more, because the level drifts or alarms cluster"
+                          : "");
         for (const GearboxAlarms& gearbox : one.gearboxes) {
-            if (gearbox.recordings == 0 || section.blocks.size() == kMost) {
-                continue;
+            if (gearbox.recordings > 0) {
+                (gearbox.sustained ? sustained : others)
+                    .push_back(fmt::format(
+                        "{}{} ({}): {}; {} of the {} recordings not labelled healthy alarm. {}",
+                        gearbox.name.empty() ? "" : gearbox.name + ": ", one.feature, one.detector,
+                        gearbox.sustained ? "sustained alarm from " +
+                                                alarm_text(monitoring, gearbox.sustained) + " on"
+                                          : "no sustained alarm",
+                        gearbox.alarms, gearbox.recordings, false_alarms));
             }
-            const std::string alarms = fmt::format(
-                "{}{} ({}): {}, {} of {} recordings not known as healthy alarm.",
-                gearbox.name.empty() ? "" : gearbox.name + ": ", one.feature, one.detector,
-                gearbox.sustained
-                    ? "sustained alarm from " + alarm_text(monitoring, gearbox.sustained) + " on"
-                    : "no sustained alarm",
-                gearbox.alarms, gearbox.recordings);
-            section.state(
-                fmt::format("found.{}", section.blocks.size()),
-                std::isnan(held.rate)
-                    ? alarms + " False alarms were not counted."
-                    : fmt::format("{} False alarms, held out: {}; stated {}{}.", alarms,
-                                  held_out_text(held), analysis::percent_text(held.rate),
-                                  held.bounds.lower > held.rate
-                                      ? ", exceeded by a drift that earlier recordings do not show"
-                                      : ""),
-                analysis::Shown::screen);
         }
+    }
+    sustained.insert(sustained.end(), others.begin(), others.end());
+    if (const std::size_t all = sustained.size(); all > kMost) {
+        sustained.resize(kMost);
+        sustained.push_back(
+            fmt::format("{} further results are in the section monitoring.", all - kMost));
+    }
+    analysis::Section section{"found", "", {}};
+    for (std::size_t i = 0; i < sustained.size(); ++i) {
+        section.state(fmt::format("found.{}", i), sustained[i], analysis::Shown::screen);
     }
     return section;
 }

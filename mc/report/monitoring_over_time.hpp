@@ -94,7 +94,8 @@ GEARPOD_FIELDS(MonitoringOverTime, baseline_records, false_alarm_rate, confidenc
 std::optional<MonitoringOverTime> monitoring_over_time(const Results& frame, const RowSource& rows);
 
 // Sustained alarms by the features that the study uses, each with its first detector, and how often
-// they alarmed falsely on recordings that did not set their threshold; at most six lines.
+// they alarmed falsely on recordings that did not set their threshold; at most six lines, sustained
+// alarms first.
 analysis::Section monitoring_answer(const MonitoringOverTime& monitoring);
 
 // Section with a row for each gearbox and detector of the given features, of those that the study

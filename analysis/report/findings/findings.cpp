@@ -40,11 +40,12 @@ std::string unassessable_text(const Findings& findings) {
                            rows);
     }
     if (findings.faulty == 0) {
-        return fmt::format("No {} {}, so detection cannot be assessed; only healthy {} are shown.",
-                           rows,
-                           findings.subject == Subject::recordings ? "is labelled faulty"
-                                                                   : "of this study has a fault",
-                           plural(findings.subject));
+        return findings.subject == Subject::recordings
+                   ? "No recording is labelled faulty, so detection cannot be assessed."
+                   : fmt::format(
+                         "No {} of this study has a fault, so detection cannot be assessed; "
+                         "only healthy {} are shown.",
+                         rows, plural(findings.subject));
     }
     if (findings.healthy == 0) {
         return fmt::format(
