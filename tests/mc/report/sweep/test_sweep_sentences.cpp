@@ -21,8 +21,8 @@ const analysis::Table& table_of(const analysis::Report& report, const std::strin
     throw std::logic_error("no table " + key);
 }
 
-// Number of the points of which the headline says this, from "... at 2 of 7 points" or "none in 2 of
-// 7 studies"; all points share "... in 7 of 7 studies".
+// Number of the points of which the headline says this, from "... at 2 of 7 points" or "none in 2
+// of 7 studies"; all points share "... in 7 of 7 studies".
 int said(const std::string& text, const std::string& what, std::size_t points) {
     const std::size_t at = text.find(what);
     if (at == std::string::npos) {
@@ -154,8 +154,7 @@ TEST_CASE("The headline of a sweep of lives accounts for every point of its tabl
             }
             CHECK(said(text, "it has no rank at ", points) == unranked);
             CHECK(said(text, "no share is known at ", points) == unknown);
-            CHECK((text.find("at every point") != std::string::npos) ==
-                  (least == most));
+            CHECK((text.find("at every point") != std::string::npos) == (least == most));
         }
     }
 }
