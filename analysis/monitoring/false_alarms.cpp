@@ -287,8 +287,8 @@ double mean_of(std::span<const TimedValue> records) {
     return sum / static_cast<double>(records.size());
 }
 
-// P(T > t) of Student's distribution: M. Abramowitz, I. A. Stegun, Handbook of Mathematical
-// Functions (1964), 26.7.3 and 26.7.4.
+// P(T > t) of Student's distribution, fast enough for every record: M. Abramowitz, I. A. Stegun,
+// Handbook of Mathematical Functions (1964), 26.7.3 and 26.7.4.
 double student_upper_tail(double t, int freedom) {
     const double sine = t / std::sqrt(freedom + t * t), square = 1.0 - sine * sine;
     const bool odd = freedom % 2 != 0;
@@ -380,7 +380,8 @@ RecordThreshold record_threshold(const Detector& detector, std::span<const Healt
     threshold.rate = std::max(rate, smallest_rate(threshold.records));
     const long rank = threshold_rank(threshold.records, threshold.rate);
     threshold.value = ordered[static_cast<std::size_t>(rank - 1)];
-    if (const Levels levels(statistics); !accumulates(detector) && levels.drift > 0.0) {
+    const Levels levels(accumulates(detector) ? std::span<const HealthyRecords>() : statistics);
+    if (levels.drift > 0.0) {
         threshold.drift = levels.drift;
         const auto most = static_cast<double>(threshold.records - rank + 1);
         double low = ordered.front() - levels.drift, high = ordered.back(), step = levels.drift;

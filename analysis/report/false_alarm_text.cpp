@@ -303,9 +303,9 @@ std::string sample_shortage(std::span<const FeatureDetection> features,
         text = undetermined_rate_text(features, request, rate.upper);
     } else if (subject == Subject::recordings && rate.upper > 2.0 * request.false_alarm_rate) {
         text = fmt::format(
-            "Recordings of too few gearboxes for a false-alarm rate of {:g}: they show only that "
-            "it "
-            "is below {:.2g} at {:g} % confidence. Recordings of more gearboxes are needed.",
+            "Recordings of too few gearboxes for a false-alarm rate of {:g}: they show only "
+            "that it is below {:.2g} at {:g} % confidence. Recordings of more gearboxes are "
+            "needed.",
             request.false_alarm_rate, rate.upper, 100.0 * request.confidence);
     }
     return without.empty() || without.size() == levels || text.empty()

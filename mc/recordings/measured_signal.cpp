@@ -561,22 +561,19 @@ AlignedSensor aligned_with(std::span<const double> other, std::span<const double
     if (turns == 1 || turns == span.ring_teeth) {
         aligned.shift = signals::align(other, signal).shift;
         aligned.sensor = signals::shifted(signal, aligned.shift);
-        aligned.correlation = signals::correlation(other, aligned.sensor);
-        if (turns > 1) {
-            const auto before = lines_of_gears(other, span), now = lines_of_gears(signal, span);
-            const signals::Alignment gears = signals::align(before, now);
-            const double with_all =
-                signals::correlation(before, signals::shifted(now, aligned.shift));
-            if (gears.correlation > std::max(kClear, with_all + kBetter)) {
-                return {signals::shifted(signal, gears.shift), gears.correlation, gears.shift};
-            }
-            if (aligned.correlation < kClear && with_all > kClear) {
-                aligned.correlation = with_all;
-            }
-        }
-        return aligned;
     }
     aligned.correlation = signals::correlation(other, aligned.sensor);
+    if (turns > 1 && turns == span.ring_teeth) {
+        const auto before = lines_of_gears(other, span), now = lines_of_gears(signal, span);
+        const signals::Alignment gears = signals::align(before, now);
+        const double with_all = signals::correlation(before, signals::shifted(now, aligned.shift));
+        if (gears.correlation > std::max(kClear, with_all + kBetter)) {
+            return {signals::shifted(signal, gears.shift), gears.correlation, gears.shift};
+        }
+        if (aligned.correlation < kClear && with_all > kClear) {
+            aligned.correlation = with_all;
+        }
+    }
     return aligned;
 }
 

@@ -66,8 +66,8 @@ void check_columns(const SignalSource& source, const SignalColumns& columns);
 // A sensor signal aligned with another of the same gearbox.
 struct AlignedSensor {
     std::vector<double> sensor;  // m/s^2
-    double correlation =
-        0.0;  // with the other signal, after alignment, or of the lines that decided
+    // With the other signal after alignment, or of the lines that decided.
+    double correlation = 0.0;
     signals::Shift shift;
 };
 // Moves a signal over this number of planet turns to the start of the other. Only the whole span

@@ -184,7 +184,7 @@ TEST_CASE("A single bad record sustains no alarm of any detector, a lasting faul
         CHECK(found.front().first >= 100);
         CHECK(found.front().first <= 103);
     }
-    // What one record does not show, an average does, and goes on to show.
+    // A small lasting shift shows in an average, and goes on to show, but not in one record.
     auto values = normal_values(400, 2);
     for (std::size_t i = 200; i < values.size(); ++i) {
         values[i] += 1.5;
