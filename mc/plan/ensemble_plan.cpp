@@ -94,7 +94,6 @@ std::string identity_text(const Study& study) {
     essence.numerics.instruction_set = Numerics{}.instruction_set;
     essence.ensemble = {};
     essence.ensemble.threshold_instances = study.ensemble.threshold_instances;
-    essence.ensemble.sampling = study.ensemble.sampling;
     essence.ensemble.threshold_records = study.ensemble.threshold_records;
     essence.ensemble.importance_sampling = study.ensemble.importance_sampling;
     return resolved_text(essence);

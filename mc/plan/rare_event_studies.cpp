@@ -47,7 +47,6 @@ Study study_for_rare_rate(const Study& study, const RareRateRequest& request) {
     restricted.ensemble.instances = request.gearboxes;
     restricted.ensemble.threshold_records = 1;
     restricted.ensemble.importance_sampling.reset();
-    restricted.ensemble.sampling = SamplingKind::plain;
     return restricted;
 }
 

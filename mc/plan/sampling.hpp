@@ -10,42 +10,11 @@
 #include "mc/plan/gearbox_streams.hpp"
 #include "mc/plan/instance_inputs.hpp"
 #include "mc/study/copula.hpp"
-#include "mc/study/random/scrambled_sobol.hpp"
 #include "mc/study/study.hpp"
 
 namespace gearpod::mc {
 
 // Plan of what is drawn for each gearbox of a study.
-
-// Sampling plan of the random inputs (ensemble.sampling): independent, or a randomized quasi-Monte
-// Carlo sequence that fills their ranges evenly. It assigns a dimension to every input that is
-// sampled by a distribution's quantile, in the order of the study's random inputs. Gearboxes of one
-// group with the same `levels` and `grid` values are the points of one sequence, scrambled by the
-// seed. A larger ensemble continues the sequences.
-class SamplingPlan {
-  public:
-    explicit SamplingPlan(const Study& study);
-
-    // True if the study's random input at this index is sampled by variate().
-    bool has(std::size_t input) const {
-        return input < dimension_.size() && dimension_[input] >= 0;
-    }
-    // Uniform variate in (0, 1) of an input of a gearbox.
-    double variate(std::size_t input, Group group, std::uint64_t index) const;
-
-  private:
-    struct SequencePoint {
-        std::uint64_t sequence, number;
-    };
-    SequencePoint point_of(Group group, std::uint64_t index) const;
-
-    std::uint64_t seed_;
-    // Number of fault sizes, which vary fastest, and of combinations of `levels` and `grid` values.
-    std::uint64_t sizes_, combinations_;
-    std::vector<int> dimension_;           // by input; -1: not sampled by the plan
-    std::vector<StreamPurpose> purposes_;  // by dimension
-    Sobol sobol_;
-};
 
 // Random input of a study, with what its draws need.
 struct DrawnInput {
@@ -68,7 +37,6 @@ struct DrawPlan {
     RowOrder rows;
     std::vector<DrawnInput> inputs;  // in the order of the schema
     Copula copula;
-    SamplingPlan sampling;
     InputsRecipe recipe;
     InputId fault_size;  // is 0 in the threshold group
     std::optional<PlanetScatter> planets;

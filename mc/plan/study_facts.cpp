@@ -28,7 +28,6 @@ std::optional<RunFacts> run_facts(const std::string& study_text, const std::stri
     const std::string other_fault = other_fault_text(*study);
     return RunFacts{.ensemble = EnsemblePlan(*study),
                     .rows = RowOrder(study->ensemble),
-                    .sampling = study->ensemble.sampling,
                     .fault = make_fault_plan(*study),
                     .other_fault = other_fault.empty() ? "another fault" : other_fault,
                     .conditions = assumptions(*study, false),

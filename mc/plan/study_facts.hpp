@@ -24,7 +24,6 @@ struct MeasuringFacts {
 struct RunFacts {
     EnsemblePlan ensemble;
     RowOrder rows;
-    SamplingKind sampling;
     FaultPlan fault;
     std::string other_fault;   // in words; "another fault" without one
     std::string conditions;    // see assumptions()

@@ -93,11 +93,6 @@ std::string assumptions(const Study& study, bool lives) {
     if (alike) {
         text += " Only the fault and the noise vary.";
     }
-    if (study.ensemble.sampling == SamplingKind::sobol) {
-        text +=
-            " The gearboxes' inputs are points of a Sobol sequence (ensemble.sampling), but "
-            "intervals treat them as independent and are therefore wider than necessary.";
-    }
     if (!has_tooth_errors(study)) {
         text += " Real teeth can hide faults that identical teeth show (gearbox.tooth_quality).";
     }

@@ -391,17 +391,12 @@ struct Monitoring {
     bool operator==(const Monitoring&) const = default;
 };
 
-// Sampling of the gearboxes' random inputs: independent, or as points of a scrambled Sobol sequence
-// (mc/plan/sampling.hpp).
-enum class SamplingKind { plain, sobol };
-
 struct Ensemble {
     std::int64_t instances = 0;               // gearboxes over all fault sizes
     std::int64_t threshold_instances = 0;     // further healthy gearboxes that set the thresholds
     int threshold_records = 1;                // records of each of those, with independent noise
     std::optional<bool> importance_sampling;  // most records with exponentially tilted noise
     std::int64_t seed = 0;                    // 0..2^63-1
-    SamplingKind sampling = SamplingKind::plain;
     double checkpoint_s = 30.0;  // interval of writing finished gearboxes to disk
 
     bool uses_importance_sampling() const { return importance_sampling.value_or(false); }

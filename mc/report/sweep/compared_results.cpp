@@ -45,13 +45,6 @@ ComparedRows compared_rows(const ComparedSide& a, const ComparedSide& b) {
                                     printable(b.frame.provenance_value("seed")));
         return rows;
     }
-    const auto sampling = [](const ComparedSide& side) {
-        return side.facts ? side.facts->sampling : SamplingKind::plain;
-    };
-    if (sampling(a) != sampling(b)) {
-        rows.unpaired = "ensemble.sampling differs";
-        return rows;
-    }
     // With the same seed, rows at the same position of a group have the same random inputs.
     const std::size_t test = std::min(a.test.size(), b.test.size());
     for (std::size_t i = 0; i < test; ++i) {

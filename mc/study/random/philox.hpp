@@ -17,11 +17,10 @@ namespace gearpod::mc {
 // The numbers are stable, because results depend on them: FNV-1a hashes of the texts. A test lists
 // all of them.
 enum class StreamPurpose : std::uint64_t {
-    // Inputs of a gearbox. The first three, and those of bearings, are completed by
+    // Inputs of a gearbox. The first two, and those of bearings, are completed by
     // with_suffix().
     random_input = fnv1a(""),                           // and a key of [random]
     table_row = fnv1a("random.rows."),                  // and the number of a table
-    sobol_scrambling = fnv1a("ensemble.sampling."),     // and a key of [random]
     baseline_torque = fnv1a("operation.torque"),        // relative to the test record
     planets = fnv1a("gearbox.planets"),                 // differences between planets
     pitch_errors = fnv1a("gearbox.pitch_error.teeth"),  // of single teeth

@@ -56,6 +56,7 @@ constexpr RemovedKey kRemoved[] = {
     {"life.record_turns", "", "give record_s: a turn of the carrier takes 60 s over its speed in rpm"},
     {"life.fracture_toughness_MPa_m05", "", "give the depth at which the tooth breaks as last_depth_mm"},
     {"life.smallest_depth_mm", "", "remove it: interpolation_tolerance is relative to a crack of half of last_depth_mm"},
+    {"ensemble.sampling", "plain", "remove it, and give more instances instead: gearboxes are drawn independently"},
     {"ensemble.until", "", "remove it; run --resume with more --instances adds gearboxes until an interval is narrow enough"},
 };
 

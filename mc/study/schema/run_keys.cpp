@@ -13,8 +13,6 @@ constexpr ChoiceName kStepGrids[] = {name("uniform", StepGrid::uniform),
                                      name("graded", StepGrid::graded)};
 constexpr ChoiceName kPrecisions[] = {name("double", Precision::double_precision),
                                       name("single", Precision::single_precision)};
-constexpr ChoiceName kSamplings[] = {name("plain", SamplingKind::plain),
-                                     name("sobol", SamplingKind::sobol)};
 constexpr ChoiceName kHorizons[] = {name("periodic", Horizon::periodic),
                                     name("superposed", Horizon::superposed),
                                     name("full", Horizon::full)};
@@ -143,7 +141,6 @@ const Key kRunKeys[] = {
     {"ensemble", "threshold_records", integer<&Ensemble::threshold_records>, kNone, closed_range(1, 10000), may, kShared, "number of records of each of these healthy gearboxes: the same vibration with new sensor and encoder noise (and another first tooth if records have a length), for false-alarm rates below one in the number of gearboxes"},
     {"ensemble", "threshold_tilt", boolean<&Ensemble::importance_sampling>, kNone, kAny, white_records, kShared, "importance sampling of the noise by exponential tilting: three in four of those records have a part of the noise sampled with a higher probability of an alarm, and a weight that corrects for it. For false-alarm rates down to 1e-6 of accelerometer features whose alarms are caused by noise rather than by the gearbox"},
     {"ensemble", "seed", integer<&Ensemble::seed>, kNone, kNotNegative, always, kShared, "seed of all random numbers"},
-    {"ensemble", "sampling", choice<&Ensemble::sampling>(kSamplings), kNone, kAny, may, kShared, "sampling of the random inputs: plain (every gearbox independently) or sobol (a Sobol sequence that fills the inputs' ranges evenly, so that thresholds and rates scatter less where inputs rather than noise decide; best with a power of 2 of gearboxes for each fault size)"},
     {"ensemble", "checkpoint_s", number<&Ensemble::checkpoint_s>, kS, closed_range(0, 1e6), may, kShared, "seconds between two checkpoints"},
 };
 // clang-format on

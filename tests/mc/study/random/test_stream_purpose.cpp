@@ -9,7 +9,6 @@ namespace gearpod::mc::test_stream_purpose {
 constexpr std::pair<StreamPurpose, std::uint64_t> kStableNumbers[] = {
     {StreamPurpose::random_input, 0xcbf29ce484222325u},
     {StreamPurpose::table_row, 0xcca84f0f226b7f25u},
-    {StreamPurpose::sobol_scrambling, 0xc35a0976845e81edu},
     {StreamPurpose::baseline_torque, 0xf446d155c2b14336u},
     {StreamPurpose::planets, 0xe7e8bf720e731aeeu},
     {StreamPurpose::pitch_errors, 0x90ad7ed49f020ccau},
@@ -83,7 +82,6 @@ TEST_CASE("No two streams of a gearbox have the same purpose") {
         }
         const std::string path = flat_path(key.path());
         add_variants(with_suffix(StreamPurpose::random_input, path), path);
-        add(with_suffix(StreamPurpose::sobol_scrambling, path), "scrambling of " + path);
         add(with_suffix(StreamPurpose::calibration_prior, path), "prior of " + path);
     }
     for (int number = 1; number <= 50; ++number) {
