@@ -92,11 +92,6 @@ void make_monotone(std::vector<RatePoint>& points) {
     }
 }
 
-double share_beyond(std::span<const double> ascending, double threshold) {
-    const auto beyond = ascending.end() - std::ranges::upper_bound(ascending, threshold);
-    return static_cast<double>(beyond) / static_cast<double>(ascending.size());
-}
-
 }  // namespace
 
 FalseAlarmCurve false_alarm_curve(const TestValues& values, std::span<const PodForm> forms,
@@ -146,65 +141,6 @@ FalseAlarmCurve false_alarm_curve(const TestValues& values, std::span<const PodF
     }
     make_monotone(curve.points);
     return curve;
-}
-
-std::optional<LeastCost> least_cost(const TestValues& values, const Costs& costs,
-                                    double confidence) {
-    const double sign = alarm_sign(values.alarm);
-    const HealthyThresholds all(values.healthy, values.alarm);
-    const std::vector<double>& healthy = all.sorted().ascending();
-    const double half = 1.0 - 0.5 * (1.0 - confidence);
-    std::vector<double> faulty;
-    for (std::size_t i = 0; i < values.value.size(); ++i) {
-        if (values.size[i] > 0.0 && std::isfinite(values.value[i])) {
-            faulty.push_back(sign * values.value[i]);
-        }
-    }
-    if (healthy.empty() || faulty.empty()) {
-        return std::nullopt;
-    }
-    std::ranges::sort(faulty);
-    const auto cost = [&](double rate, double pd) {
-        return (1.0 - costs.fault_share) * rate * costs.alarm +
-               costs.fault_share * (1.0 - pd) * costs.miss;
-    };
-    const auto sample = static_cast<double>(healthy.size());
-    LeastCost least;
-    least.cost = std::numeric_limits<double>::infinity();
-    least.without = cost(0.0, 0.0);
-    double rarest = 1.0;
-    bool counted = true;  // the minimum is at an order statistic
-    const auto consider = [&](double value, double rate, bool order_statistic) {
-        const double pd = share_beyond(faulty, value), expected = cost(rate, pd);
-        rarest = std::min(rarest, rate);
-        if (expected < least.cost) {
-            least.threshold = sign * value;
-            least.false_alarm_rate = rate;
-            least.pd = pd;
-            least.cost = expected;
-            counted = order_statistic;
-        }
-    };
-    for (std::size_t i = 0; i < healthy.size(); ++i) {
-        consider(healthy[i], (sample - static_cast<double>(i)) / (sample + 1.0), true);
-    }
-    for (const double rate : kCurveRates) {
-        if (const Threshold beyond = all.at(rate, half); beyond.tail || beyond.importance_sampled) {
-            consider(sign * beyond.value, rate, false);
-        }
-    }
-    // A rate between two whole ranks has the same order statistic.
-    const Threshold chosen = counted ? all.sorted().threshold(least.false_alarm_rate)
-                                     : all.at(least.false_alarm_rate, half);
-    least.extrapolation = extrapolation_of(chosen, least.false_alarm_rate);
-    least.importance_sampled = chosen.importance_sampled.has_value();
-    least.rate_bounds = all.rate_bounds(chosen, least.false_alarm_rate, half);
-    least.pd_bounds = wilson_interval(std::lround(least.pd * static_cast<double>(faulty.size())),
-                                      static_cast<long>(faulty.size()), half);
-    least.bounds = {cost(least.rate_bounds.lower, least.pd_bounds.upper),
-                    cost(least.rate_bounds.upper, least.pd_bounds.lower)};
-    least.rarest = least.false_alarm_rate <= rarest;
-    return least;
 }
 
 }  // namespace gearpod::analysis

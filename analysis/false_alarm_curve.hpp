@@ -1,6 +1,5 @@
 // Detectable size against false-alarm rate: a90 at thresholds for rates from 0.1 down to 1e-6, as
-// far as the healthy sample supports them (analysis/detection/threshold.hpp). Also the threshold of
-// least expected cost, where an alarm and a miss have a cost.
+// far as the healthy sample supports them (analysis/detection/threshold.hpp).
 #pragma once
 
 #include <array>
@@ -57,34 +56,5 @@ struct TestValues {
 // none of them falls as the rate falls.
 FalseAlarmCurve false_alarm_curve(const TestValues& values, std::span<const PodForm> forms,
                                   double confidence);
-
-// Costs of a false alarm and of a miss in the same unit of money, and the share of records that
-// come from machines with a fault.
-struct Costs {
-    double alarm = 0.0, miss = 0.0, fault_share = 0.0;
-};
-
-struct LeastCost {
-    double threshold = 0.0;
-    double extrapolation = 0.0;  // as in RatePoint
-    bool importance_sampled = false;
-    double false_alarm_rate = 0.0;
-    Interval rate_bounds;
-    double pd = 0.0;  // for the study's faults, over all sizes as drawn
-    Interval pd_bounds;
-    double cost = 0.0;  // expected cost per record
-    Interval bounds;    // from rate_bounds and pd_bounds, each with half of the error probability
-    double without = 0.0;  // expected cost without any alarm
-    // The minimum lies at the rarest rate that the sample supports, or beyond it.
-    bool rarest = false;
-};
-GEARPOD_FIELDS(LeastCost, threshold, extrapolation_, tilted, false_alarm_rate, rate_bounds, pd,
-               pd_bounds, cost, bounds, without, rarest)
-
-// Minimises the expected cost (1 - share) rate alarm + share (1 - Pd) miss over the thresholds for
-// the rates of kCurveRates and over every order statistic of the healthy sample. Empty without
-// healthy or without faulty values.
-std::optional<LeastCost> least_cost(const TestValues& values, const Costs& costs,
-                                    double confidence);
 
 }  // namespace gearpod::analysis

@@ -90,9 +90,6 @@ LevelReliability assess_level(const ReliabilityData& data, const FeatureColumns&
     level.by_rate = level.hit_miss.refusal.empty()
                         ? false_alarm_curve(test, level.hit_miss.supported, confidence)
                         : FalseAlarmCurve{{}, {}, level.hit_miss.refusal};
-    if (data.costs) {
-        level.least_cost = least_cost(test, *data.costs, confidence);
-    }
     level.demonstrated_size =
         demonstrated_size(detection, data.test_size, hit, kReliablePd, confidence);
     return level;

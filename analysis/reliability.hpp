@@ -34,13 +34,12 @@ struct LevelReliability {
     EpistemicBand uncertain;
     // Detection rates of the size groups above 0, ascending; NaN where none was tested.
     std::vector<double> pd;
-    FalseAlarmCurve by_rate;              // a90 at other false-alarm rates
-    std::optional<LeastCost> least_cost;  // if costs were requested
+    FalseAlarmCurve by_rate;  // a90 at other false-alarm rates
     // Smallest size demonstrated by the tested rates alone, without a curve; NaN if there is none.
     double demonstrated_size = kNan;
 };
 GEARPOD_FIELDS(LevelReliability, noise_level, has_threshold_, hit_miss, signal_response, auc,
-               auc_by_size, roc, misses, inputs_, uncertain, pd_, by_false_alarm_rate, least_cost,
+               auc_by_size, roc, misses, inputs_, uncertain, pd_, by_false_alarm_rate,
                demonstrated_size_)
 
 struct FeatureReliability {
@@ -78,7 +77,6 @@ struct ReliabilityData {
     std::vector<InputColumn> inputs;         // inputs of the test gearboxes
     std::vector<InputColumn> uncertain;      // epistemic inputs among them (input_effects.hpp)
     std::vector<ConditionColumn> condition;  // at most one
-    std::optional<Costs> costs = {};
     // Gearbox of each row of the features' `records`, or of the threshold sample if there are none.
     // Empty if every row is a gearbox of its own.
     std::vector<std::size_t> record_gearbox = {};

@@ -172,14 +172,6 @@ std::string record_shortage(long gearboxes, long records, double false_alarm_rat
         records, gearboxes, found);
 }
 
-// For RatePoint and LeastCost: null for a threshold from an order statistic.
-template <class Rated>
-Json rated_json(const Rated& rated) {
-    Json json = fields_json(rated);
-    json["extrapolation"] = rated.extrapolation > 0.0 ? Json(rated.extrapolation) : nullptr;
-    return json;
-}
-
 }  // namespace
 
 long tests_to_show(double pd, double confidence) {
@@ -319,12 +311,11 @@ bool without_threshold(std::span<const FeatureDetection> features, std::size_t l
     });
 }
 
+// `extrapolation` is null for a threshold from an order statistic.
 Json to_json(const RatePoint& point) {
-    return rated_json(point);
-}
-
-Json to_json(const LeastCost& least) {
-    return rated_json(least);
+    Json json = fields_json(point);
+    json["extrapolation"] = point.extrapolation > 0.0 ? Json(point.extrapolation) : nullptr;
+    return json;
 }
 
 }  // namespace gearpod::analysis

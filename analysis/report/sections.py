@@ -85,8 +85,7 @@ def thresholds(report, page):
     body += ("<details><summary>Thresholds of every feature and noise level</summary>"
              + report.tables("thresholds.") + "</details>")
     if report.curves:
-        body += (influence_figures.false_alarm_curves(report, page) + report.notes("no_false_alarms.")
-                 + report.tables("costs.") + report.notes("costs_rarest."))
+        body += (influence_figures.false_alarm_curves(report, page) + report.notes("no_false_alarms."))
     body += "".join(map(paragraph, report.texts("other_fault."))) + report.table("other_fault")
     if report.table("tails"):
         body += (note("Thresholds beyond the healthy sample are extrapolated by a generalised "

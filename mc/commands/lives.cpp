@@ -250,10 +250,9 @@ int lives_study(const LivesOptions& options, const Ranks& ranks) {
 }
 
 int report_lives(const ReportOptions& options) {
-    if (!options.csv.empty() || !options.pdf.empty() || !options.condition.empty() ||
-        options.alarm_cost) {
+    if (!options.csv.empty() || !options.pdf.empty() || !options.condition.empty()) {
         fmt::print(stderr,
-                   "{}: holds lives; --csv, --pdf, --by and costs are only for results of "
+                   "{}: holds lives; --csv, --pdf and --by are only for results of "
                    "`run`, omit them\n",
                    options.results);
         return kBadInput;

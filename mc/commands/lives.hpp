@@ -21,7 +21,6 @@ struct ReportOptions {
     bool full = false;
     std::string condition;  // random input; each of its values gets its own threshold; "": none
     // Cost of a false alarm, cost of a missed fault, share of records with a fault: all or none.
-    std::optional<double> alarm_cost, miss_cost, fault_share;
     bool shows_withheld = false;  // of lives with too large an interpolation error
     bool force = false;           // replaces outputs of another kind
 };

@@ -61,33 +61,14 @@ bool write_report_files(const ReportOptions& options, const Results& results, co
     return true;
 }
 
-// Reads the cost options: all three or none. Returns false after printing the problem.
-bool read_costs(const ReportOptions& options, std::optional<analysis::Costs>& costs) {
-    const auto& [alarm, miss, share] =
-        std::tie(options.alarm_cost, options.miss_cost, options.fault_share);
-    if (!alarm && !miss && !share) {
-        return true;
-    }
-    if (!alarm || !miss || !share) {
-        fmt::print(stderr,
-                   "--alarm-cost, --miss-cost, --fault-share: expected costs need all "
-                   "three\n");
-        return false;
-    }
-    costs = analysis::Costs{*alarm, *miss, *share};
-    return true;
-}
-
 int report_command(const ReportOptions& options) {
     const FileRole read{"the results file", options.results}, json{"--json", options.json},
         html{"--html", options.html};
     const bool json_good = can_write(json, {read}, {json_output(), options.force});
     const bool pdf_good =
         can_write({"--pdf", options.pdf}, {read, json, html}, {sheet_output(), options.force});
-    std::optional<analysis::Costs> costs;
-    const bool costs_good = read_costs(options, costs);
     const bool html_good = can_write(html, {read, json}, {page_output(), options.force});
-    if (!html_good || !json_good || !pdf_good || !costs_good) {
+    if (!html_good || !json_good || !pdf_good) {
         return kBadInput;
     }
     Results results = read_frame(options.results);
@@ -97,8 +78,7 @@ int report_command(const ReportOptions& options) {
     const FileRows rows(options.results, results);
     check_results(options.results, results, rows);
     results.detection = detect_all(results, rows);
-    const auto reliability = reliability_of(results, rows, options.condition, thread_count(),
-                                            kMostAssessedValues, costs);
+    const auto reliability = reliability_of(results, rows, options.condition, thread_count());
     const RunFindings run = findings_of_run(results, rows, reliability);
     const std::pair<const char*, const std::string&> outputs[] = {{"page", options.html},
                                                                   {"sheet", options.pdf},
@@ -124,9 +104,6 @@ int report_command(const ReportOptions& options) {
     if (!options.full && options.sections.empty()) {
         if (!options.condition.empty()) {
             printed.sections.emplace_back("conditions");
-        }
-        if (costs) {
-            printed.sections.emplace_back("false_alarms");
         }
     }
     if (!print_report(printed, run.report, !results.provenance_value("part").empty())) {
@@ -189,13 +166,6 @@ void add_report(CLI::App& app, int& code) {
     command.add_option("--by", options.condition,
                        "random input, e.g. torque_N_m; also use a separate threshold for each of "
                        "its values");
-    add_number(command, "--alarm-cost", options.alarm_cost,
-               "cost of a false alarm; with the next two options, find the threshold of least "
-               "expected cost",
-               at_least(0.0));
-    add_number(command, "--miss-cost", options.miss_cost, "cost of a missed fault", at_least(0.0));
-    add_number(command, "--fault-share", options.fault_share, "share of records that have a fault",
-               from_to(0.0, 1.0));
     command.add_flag("--show-withheld", options.shows_withheld,
                      "report lives although their signals are interpolated too coarsely");
     add_force(command, options.force);

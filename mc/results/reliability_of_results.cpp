@@ -73,10 +73,9 @@ std::optional<AssessedColumns> assessed_columns(const Results& frame, const RowS
 }
 
 AssessedData::AssessedData(const Results& frame, const AssessedColumns& columns,
-                           const std::string& condition, std::optional<analysis::Costs> costs)
+                           const std::string& condition)
     : no_fault_(std::max(columns.healthy.rows, columns.test.rows), 0.0) {
     const auto& [healthy, test, repeats, healthy_gearbox, record_gearbox] = columns;
-    data_.costs = costs;
     data_.record_gearbox = record_gearbox;
     std::span<const double> weights;
     data_.healthy_size = {no_fault_.data(), healthy.rows};
@@ -111,14 +110,13 @@ AssessedData::AssessedData(const Results& frame, const AssessedColumns& columns,
 
 std::optional<analysis::Reliability> reliability_of(const Results& frame, const RowSource& rows,
                                                     const std::string& condition, int threads,
-                                                    std::size_t most_values,
-                                                    std::optional<analysis::Costs> costs) {
+                                                    std::size_t most_values) {
     check_condition(frame, condition);
     const auto columns = assessed_columns(frame, rows, most_values);
     if (!columns) {
         return std::nullopt;
     }
-    const AssessedData data(frame, *columns, condition, costs);
+    const AssessedData data(frame, *columns, condition);
     return analysis::assess_reliability(*data, frame.detection, frame.request, threads);
 }
 

@@ -42,12 +42,12 @@ GEARPOD_FIELDS(AssessedColumns, healthy, test, repeats, healthy_gearbox, record_
 std::optional<AssessedColumns> assessed_columns(const Results& frame, const RowSource& rows,
                                                 std::size_t most_values = kMostAssessedValues);
 
-// Columns with their names and units. Refers to both arguments. `condition` and `costs` as in
+// Columns with their names and units. Refers to both arguments. `condition` as in
 // reliability_of(), which checks the condition.
 class AssessedData {
   public:
-    AssessedData(const Results& frame, const AssessedColumns& columns, const std::string& condition,
-                 std::optional<analysis::Costs> costs);
+    AssessedData(const Results& frame, const AssessedColumns& columns,
+                 const std::string& condition);
     AssessedData(const AssessedData&) = delete;
     AssessedData& operator=(const AssessedData&) = delete;
     const analysis::ReliabilityData& operator*() const { return data_; }
@@ -60,11 +60,9 @@ class AssessedData {
 // Assesses all features. `frame.detection` must be up to date (detect_all). `condition`: name of a
 // parameter with separate thresholds for its values, "" for none. Throws std::runtime_error with
 // the names of the parameters if it is unknown. Empty if there are more than `most_values` values.
-// With `costs`, the threshold of least expected cost is included.
 std::optional<analysis::Reliability> reliability_of(const Results& frame, const RowSource& rows,
                                                     const std::string& condition, int threads,
-                                                    std::size_t most_values = kMostAssessedValues,
-                                                    std::optional<analysis::Costs> costs = {});
+                                                    std::size_t most_values = kMostAssessedValues);
 
 // Kind of object that a row of the results file describes.
 analysis::Subject subject_of(const Results& frame);

@@ -1,4 +1,4 @@
-// Checks a90 and cost over the false-alarm rate where both are known: a normal feature whose mean
+// Checks a90 over the false-alarm rate where both are known: a normal feature whose mean
 // grows with the size.
 #include "analysis/detection/threshold.hpp"
 #include "analysis/false_alarm_curve.hpp"
@@ -106,71 +106,6 @@ TEST_CASE("Rates that a sample cannot determine leave the bounds of a90 at other
         CHECK(point.a90.lower.size > true_a90(0.1) - 0.4);
         CHECK(point.a90.lower.size < true_a90(point.false_alarm_rate));
     }
-}
-
-TEST_CASE("The threshold of least cost has the likelihood ratio that the costs require") {
-    // Faults of one size, 3: the optimum of a normal pair is at 1.5 + log(odds) / 3 with odds of (1
-    // - share) alarm to share miss.
-    Study study(20000, 20000, 9);
-    std::mt19937_64 engine(10);
-    std::normal_distribution<double> noise(3.0, 1.0);
-    for (std::size_t i = 0; i < study.size.size(); ++i) {
-        study.size[i] = 3.0;
-        study.value[i] = noise(engine);
-    }
-    const Costs costs{10.0, 500.0, 0.005};
-    const auto least = least_cost(study.values(), costs, 0.95);
-    REQUIRE(least);
-    const double best = 1.5 + std::log(0.995 * 10.0 / (0.005 * 500.0)) / 3.0;
-    const auto cost_at = [&](double t) {
-        return 0.995 * 10.0 * cdf(complement(kNormal, t)) + 0.005 * 500.0 * cdf(kNormal, t - 3.0);
-    };
-    CHECK(least->threshold == Approx(best).margin(0.15));
-    CHECK(least->cost == Approx(cost_at(best)).epsilon(0.03));
-    CHECK(least->bounds.lower <= cost_at(least->threshold));
-    CHECK(least->bounds.upper >= cost_at(least->threshold));
-    CHECK(least->without == Approx(2.5));
-    CHECK(!least->rarest);
-    // Alarms of overwhelming cost lead to the rarest threshold.
-    CHECK(least_cost(study.values(), {1e12, 1.0, 0.005}, 0.95)->rarest);
-    CHECK(!least_cost({Alarm::high, {}, study.size, study.value}, costs, 0.95));
-}
-
-TEST_CASE("A threshold of least cost has the bounds of the method that determined it") {
-    // 300 healthy gearboxes of 8 records, most of them exponentially tilted towards alarms. The
-    // first records, which alone set order statistics, have few alarms, so that these thresholds
-    // seem inexpensive.
-    std::mt19937_64 engine(11);
-    std::normal_distribution<double> noise;
-    std::vector<double> healthy, weights, size(4000, 3.0), value;
-    std::vector<std::size_t> gearbox;
-    for (std::size_t i = 0; i < 300 * 8; ++i) {
-        const double z = (i % 8 == 0 ? 0.8 : 1.0) * noise(engine) + kShifts[i % kShifts.size()];
-        healthy.push_back(z);
-        weights.push_back(weight_of(z));
-        gearbox.push_back(i / 8);
-    }
-    for (std::size_t i = 0; i < size.size(); ++i) {
-        value.push_back(3.0 + noise(engine));
-    }
-    const TestValues values{Alarm::high, {healthy, gearbox, weights}, size, value};
-    const HealthyThresholds all(values.healthy, Alarm::high);
-    int counted = 0;
-    for (const double miss : {300.0, 500.0, 700.0, 1000.0, 1500.0}) {
-        const auto least = least_cost(values, {10.0, miss, 0.005}, 0.95);
-        REQUIRE(least);
-        const Threshold at = all.at(least->false_alarm_rate, 0.975);
-        REQUIRE(
-            at.importance_sampled);  // exponentially tilted thresholds exist at all of these rates
-        CHECK(least->importance_sampled == (least->threshold == at.value));
-        const Interval own = least->importance_sampled
-                                 ? at.importance_sampled->rate
-                                 : threshold_rate_interval(300, least->false_alarm_rate, 0.975);
-        CHECK(least->rate_bounds.lower == Approx(own.lower));
-        CHECK(least->rate_bounds.upper == Approx(own.upper));
-        counted += least->importance_sampled ? 0 : 1;
-    }
-    CHECK(counted > 0);
 }
 
 }  // namespace gearpod::analysis::test_false_alarm_curve

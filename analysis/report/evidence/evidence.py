@@ -34,7 +34,7 @@ SECTIONS = {"state": "limits", "found": "detection", "answer": "detection", "hea
             "other_fault": "false_alarms", "contact": "limits", "numerical": "limits",
             "failures": "limits", "results": "detection", "basis": "data", "method": "detection"}
 # Subject of findings that is not their section's, by the beginning of the key.
-KEYS = {"threshold": ("thresholds.", "threshold", "tails", "costs", "facts", "monitoring.how",
+KEYS = {"threshold": ("thresholds.", "threshold", "tails", "facts", "monitoring.how",
                       "basis.thresholds"),
         "false_alarms": ("shortage", "false_", "no_false_alarms.", "monitoring.sample",
                          "monitoring.note", "noise.", "trade_off", "effect"),

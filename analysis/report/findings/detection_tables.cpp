@@ -341,39 +341,6 @@ void add_false_alarms(Section& section, const Findings& findings, std::size_t n)
     section.add(std::move(table));
 }
 
-void add_costs(Section& section, const Findings& findings, std::size_t n) {
-    Table table{fmt::format("costs.{}", n),
-                fmt::format("Thresholds of least expected cost per record{}, for the study's "
-                            "faults; joint bounds at {}",
-                            findings.at_noise(n), findings.percent()),
-                {"feature", "alarm beyond", "false-alarm rate", "Pd", "cost", "without any alarm"},
-                {}};
-    table.labels = 2;
-    std::vector<std::string> rarest;
-    for (const std::size_t f : findings.order[n]) {
-        const auto& least = findings.reliable(f, n).least_cost;
-        if (!least) {
-            continue;
-        }
-        if (least->rarest) {
-            rarest.push_back(findings.name(f));
-        }
-        table.rows.push_back(
-            {findings.name(f), number_text(least->threshold, 4),
-             rate_text(least->false_alarm_rate, least->rate_bounds),
-             rate_text(least->pd, least->pd_bounds),
-             fmt::format("{} [{}, {}]", number_text(least->cost), number_text(least->bounds.lower),
-                         number_text(least->bounds.upper)),
-             number_text(least->without)});
-    }
-    section.add(std::move(table));
-    section.state(fmt::format("costs_rarest.{}", n),
-                  rarest.empty() ? ""
-                                 : fmt::format("Rarer alarms of {} may cost even less, but the "
-                                               "healthy sample is too small for them.",
-                                               joined(rarest)));
-}
-
 std::string condition_title(const Findings& findings, const ConditionDetection& detection,
                             const ConditionLevel& level, std::size_t n) {
     std::vector<std::string> thresholds;
@@ -481,10 +448,9 @@ Section ranking_section(const Findings& findings) {
 }
 
 Section false_alarms_section(const Findings& findings) {
-    Section section{"false_alarms", "Detection by false-alarm rate and cost", {}};
+    Section section{"false_alarms", "Detection by false-alarm rate", {}};
     for (std::size_t n = 0; has_sizes(findings.request) && n < findings.levels(); ++n) {
         add_false_alarms(section, findings, n);
-        add_costs(section, findings, n);
     }
     return section;
 }

@@ -97,7 +97,7 @@ void evaluate_share(const EnsemblePlan& plan, const Ranks& ranks) {
     try {
         AssessedColumns columns;
         read_bytes(std::move(bytes), columns, frame.detection);
-        const AssessedData data(frame, columns, "", {});
+        const AssessedData data(frame, columns, "");
         evaluated.levels =
             analysis::assess_pairs(*data, frame.detection, frame.request,
                                    {evaluated.machine, static_cast<std::size_t>(ranks.machines())},
@@ -120,7 +120,7 @@ std::optional<analysis::Reliability> reliability_on_machines(const Results& fram
     if (!columns) {
         return std::nullopt;
     }
-    const AssessedData data(frame, *columns, "", {});
+    const AssessedData data(frame, *columns, "");
     std::string bytes = bytes_of(*columns, frame.detection);
     ranks.from_leader(kAssess);
     ranks.from_leader_to_machines(std::move(bytes));

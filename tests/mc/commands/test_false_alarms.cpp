@@ -62,26 +62,6 @@ TEST_CASE("A sample that does not determine its rate is reported, one that does 
     CHECK(enough.mentions("with 100 healthy gearboxes the true rate is between"));
 }
 
-TEST_CASE("Costs of an alarm and of a miss give a threshold; all three keys are required") {
-    const Folder folder;
-    const std::string results = folder.file("r.h5");
-    require_success("run " + kSmall + " --quiet --out " + results);
-    const std::string costs = " --alarm-cost 10 --miss-cost 500";
-    check_refused("report " + results + costs, {"need all three"});
-    check_mentions(require_success("report " + results + costs + " --fault-share 0.01"),
-                   {"Thresholds of least expected cost", "without any alarm"});
-    CHECK(program("report " + results).output.find("expected cost") == std::string::npos);
-    const Outcome bad =
-        check_refused("report " + results + " --alarm-cost nan --miss-cost -1 --fault-share 2");
-    CHECK(bad.output ==
-          "--alarm-cost: nan is not a finite number\n"
-          "--miss-cost: must be at least 0, but is -1\n"
-          "--fault-share: must be 0 to 1, but is 2\n"
-          "Run with --help for more information.\n");
-    check_mentions(program("report " + results + costs + " --fault-share 0.01 --json -"),
-                   {"\"least_cost\"", "\"by_false_alarm_rate\""});
-}
-
 TEST_CASE("Uncertainty left by a calibration is a separate band in text, data and page") {
     const Folder folder;
     const std::string results = folder.file("r.h5");
