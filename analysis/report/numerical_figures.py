@@ -12,8 +12,6 @@ def numerical(report, page):
     body = ("".join(paragraph(text) for key in ("numerical.text", "step_error") if (text := report.text(key)))
             + report.notes("numerical.none"))
     data = report.table("numerical")
-    if correction := report.text("numerical.correction"):
-        body += paragraph(correction) + report.table("correction")
     given = report.data.get("numerical") or {"shares": []}
     here = [s for s in given["shares"] if s["noise_level"] == report.levels[report.reference]]
     here.sort(key=lambda s: report.order(report.reference).index(report.feature_number(s["feature"])))

@@ -21,96 +21,12 @@ namespace gearpod::mc {
 
 namespace {
 
-constexpr double kNormalQuantile = 1.959964;  // of 0.975
-
 double mean(const std::vector<double>& values) {
     double sum = 0.0;
     for (const double value : values) {
         sum += value;
     }
     return sum / static_cast<double>(values.size());
-}
-
-// Slope of y over x, and the residuals of y; 0 where x does not vary.
-struct Regression {
-    double slope = 0.0;
-    std::vector<double> residuals;
-};
-Regression regress(const std::vector<double>& y, const std::vector<double>& x) {
-    const double mean_x = mean(x), mean_y = mean(y);
-    double xx = 0.0, xy = 0.0;
-    for (std::size_t i = 0; i < x.size(); ++i) {
-        xx += (x[i] - mean_x) * (x[i] - mean_x);
-        xy += (x[i] - mean_x) * (y[i] - mean_y);
-    }
-    Regression found{xx > 0.0 ? xy / xx : 0.0, {}};
-    for (std::size_t i = 0; i < x.size(); ++i) {
-        found.residuals.push_back(y[i] - mean_y - found.slope * (x[i] - mean_x));
-    }
-    return found;
-}
-
-PairedCorrection no_correction() {
-    return {kNan, kNan, kNan, kNan, kNan, kNan, kNan, kNan, kNan};
-}
-
-// Rows with corrected features. `deviations`: standard errors by which the part that grows with the
-// fault is changed.
-class CorrectedRows final : public RowSource {
-  public:
-    CorrectedRows(const RowSource& rows, const Results& frame, double deviations)
-        : rows_(rows), frame_(frame), deviations_(deviations) {}
-
-    std::size_t rows() const override { return rows_.rows(); }
-    void visit(const std::function<void(const RowBlock&)>& use) const override {
-        const RowShape shape = row_shape(frame_);
-        const std::vector<PairedCorrection>& all = frame_.numerical->corrections;
-        rows_.visit([&](const RowBlock& block) {
-            RowBlock corrected = block;
-            for (std::size_t row = 0; row < block.count(); ++row) {
-                double* const values = corrected.values.data() + row * shape.values();
-                const bool test = block.group[row] == static_cast<int>(Group::test);
-                const double size = test ? values[shape.fault_size()] : 0.0;
-                for (std::size_t at = 0; at < all.size(); ++at) {
-                    if (!std::isfinite(all[at].by_size)) {
-                        continue;  // too few pairs
-                    }
-                    double& value = values[shape.parameters + at];
-                    value += all[at].offset + all[at].by_value * value +
-                             (all[at].by_size + deviations_ * all[at].by_size_error) * size;
-                }
-            }
-            use(corrected);
-        });
-    }
-
-  private:
-    const RowSource& rows_;
-    const Results& frame_;
-    const double deviations_;
-};
-
-struct CorrectedResults {
-    std::vector<analysis::FeatureDetection> rates;
-    std::optional<analysis::Reliability> reliability;
-
-    double a90(std::size_t feature, std::size_t level) const {
-        using Where = analysis::SizeEstimate::Where;
-        if (!reliability) {
-            return kNan;
-        }
-        const analysis::HitMissPod& pod = reliability->features[feature].levels[level].hit_miss;
-        return pod.refusal.empty() && pod.a90.estimate.where == Where::reached
-                   ? pod.a90.estimate.size
-                   : kNan;
-    }
-};
-
-CorrectedResults results_with(const Results& frame, const RowSource& rows, double deviations) {
-    const CorrectedRows corrected(rows, frame, deviations);
-    Results own = frame;
-    own.detection = detect_all(own, corrected);
-    return {own.detection, reliability_of(own, corrected, "", machine::processors())};
 }
 
 }  // namespace
@@ -122,88 +38,6 @@ double standard_deviation(const std::vector<double>& values) {
         squares += (value - middle) * (value - middle);
     }
     return values.size() > 1 ? std::sqrt(squares / static_cast<double>(values.size() - 1)) : kNan;
-}
-
-PairedCorrection fit_correction(const PairedValues& pairs) {
-    std::vector<double> own, size, difference, healthy_own, healthy_fine, healthy, test;
-    for (std::size_t i = 0; i < pairs.own.size(); ++i) {
-        const double change = pairs.fine[i] - pairs.own[i];
-        if (!std::isfinite(change)) {
-            continue;
-        }
-        own.push_back(pairs.own[i]);
-        size.push_back(pairs.size[i]);
-        difference.push_back(change);
-        (pairs.size[i] > 0.0 ? test : healthy).push_back(-change);
-        if (!(pairs.size[i] > 0.0)) {
-            healthy_own.push_back(pairs.own[i]);
-            healthy_fine.push_back(pairs.fine[i]);
-        }
-    }
-    constexpr std::size_t kFewest = kFewestPairs;
-    if (healthy.size() < kFewest || test.size() < kFewest) {
-        return no_correction();
-    }
-    // The part that grows with the size, apart from what grows with the value.
-    const std::vector<double> net_size = regress(size, own).residuals;
-    const Regression by_size = regress(regress(difference, own).residuals, net_size);
-    double squares = 0.0, weighted = 0.0;
-    for (std::size_t i = 0; i < net_size.size(); ++i) {
-        squares += net_size[i] * net_size[i];
-        weighted += std::pow(net_size[i] * by_size.residuals[i], 2);
-    }
-    const double count = static_cast<double>(own.size());
-    std::vector<double> rest = difference;
-    for (std::size_t i = 0; i < rest.size(); ++i) {
-        rest[i] -= by_size.slope * size[i];
-    }
-    const double by_value = regress(rest, own).slope;
-    const auto standard_error = [](const std::vector<double>& values) {
-        return standard_deviation(values) / std::sqrt(static_cast<double>(values.size()));
-    };
-    return {mean(rest) - by_value * mean(own),
-            by_value,
-            by_size.slope,
-            squares > 0.0 ? std::sqrt(weighted * count / (count - 3.0)) / squares : 0.0,
-            mean(healthy),
-            standard_error(healthy),
-            mean(test),
-            standard_error(test),
-            standard_deviation(healthy_own) / standard_deviation(healthy_fine)};
-}
-
-std::vector<CorrectedDetection> corrected_detection(const Results& frame, const RowSource& rows) {
-    if (!frame.numerical || frame.numerical->corrections.empty()) {
-        return {};
-    }
-    const CorrectedResults middle = results_with(frame, rows, 0.0),
-                           low = results_with(frame, rows, -kNormalQuantile),
-                           high = results_with(frame, rows, kNormalQuantile);
-    std::vector<CorrectedDetection> all;
-    for (std::size_t f = 0; f < frame.features.size(); ++f) {
-        for (std::size_t level = 0; level < frame.noise_levels.size(); ++level) {
-            const auto& own = frame.detection[f].levels[level].cells;
-            const auto& corrected = middle.rates[f].levels[level].cells;
-            const std::size_t at = f * frame.noise_levels.size() + level;
-            if (!std::isfinite(frame.numerical->corrections[at].by_size)) {
-                all.push_back({kNan, kNan, kNan, kNan});
-                continue;
-            }
-            CorrectedDetection one;
-            one.pd_change = std::isfinite(frame.detection[f].levels[level].threshold) ? 0.0 : kNan;
-            for (std::size_t c = 0; c < own.size(); ++c) {
-                one.pd_change = std::max(one.pd_change, std::abs(corrected[c].pd - own[c].pd));
-            }
-            one.a90 = middle.a90(f, level);
-            const double ends[] = {one.a90, low.a90(f, level), high.a90(f, level)};
-            const bool reached =
-                std::ranges::all_of(ends, [](double a) { return std::isfinite(a); });
-            one.a90_lower = reached ? *std::ranges::min_element(ends) : kNan;
-            one.a90_upper = reached ? *std::ranges::max_element(ends) : kNan;
-            all.push_back(one);
-        }
-    }
-    return all;
 }
 
 namespace {
@@ -332,23 +166,6 @@ void set_rate_contribution(const analysis::LevelDetection& level, const Counts& 
     }
 }
 
-void set_size_contribution(const analysis::HitMissPod& pod, NumericalContribution& contribution) {
-    using Where = analysis::SizeEstimate::Where;
-    contribution.a90 = contribution.a90_interval = kNan;
-    if (!pod.refusal.empty() || pod.a90.estimate.where != Where::reached ||
-        !std::isfinite(contribution.pd)) {
-        return;
-    }
-    constexpr double kStep = 1e-4;
-    const double size = pod.a90.estimate.size;
-    const analysis::PodCurve& curve = pod.chosen.curve;
-    const double slope =
-        (curve.pod(size * (1.0 + kStep)) - curve.pod(size * (1.0 - kStep))) / (2.0 * kStep * size);
-    contribution.a90 = contribution.pd / slope;
-    contribution.a90_interval =
-        pod.a90.upper.where == Where::reached ? pod.a90.upper.size - size : INFINITY;
-}
-
 }  // namespace
 
 std::optional<SolverSetting> finer_setting(const Planner& planner, const Numerics& numerics) {
@@ -386,23 +203,42 @@ std::optional<SolverSetting> finer_setting(const Planner& planner, const Numeric
 
 std::vector<GearboxId> paired_gearboxes(const Sampler& sampler, const EnsemblePlan& ensemble,
                                         int pairs) {
-    std::vector<GearboxId> faulty, spread;
+    std::vector<std::pair<double, GearboxId>> faulty;
     for (std::int64_t i = 0; pairs > 0 && i < ensemble.test_gearboxes; ++i) {
         const GearboxId id{Group::test, static_cast<std::uint64_t>(i)};
-        if (sampler.draw(id).inputs.fault_size > 0.0) {
-            faulty.push_back(id);
+        const double size = sampler.draw(id).inputs.fault_size;
+        if (size > 0.0) {
+            faulty.emplace_back(size, id);
         }
     }
-    const auto count = static_cast<std::size_t>(pairs);
-    const std::size_t stride =
-        std::max<std::size_t>(1, faulty.size() / std::max<std::size_t>(1, count));
-    for (std::size_t i = stride / 2; i < faulty.size() && spread.size() < count; i += stride) {
-        spread.push_back(faulty[i]);
+    std::ranges::stable_sort(faulty, {}, &std::pair<double, GearboxId>::first);
+    std::vector<GearboxId> spread;
+    const std::size_t count = std::min(static_cast<std::size_t>(pairs), faulty.size());
+    for (std::size_t i = 0; i < count; ++i) {
+        spread.push_back(faulty[(2 * i + 1) * faulty.size() / (2 * count)].second);
     }
     for (std::int64_t i = 0; i < std::min<std::int64_t>(pairs, ensemble.threshold_gearboxes); ++i) {
         spread.push_back({Group::threshold, static_cast<std::uint64_t>(i)});
     }
     return spread;
+}
+
+AssumptionRows changed_rows(const RowOrder& order, std::span<const GearboxId> ids) {
+    AssumptionRows all;
+    std::ranges::transform(ids, std::back_inserter(all.rows),
+                           [&](const GearboxId& id) { return order.row_of(id); });
+    return all;
+}
+
+std::vector<double> feature_values(const RowShape& shape, const BatchRows& rows) {
+    std::vector<double> values;
+    for (std::size_t row = 0; row < rows.count(); ++row) {
+        std::ranges::copy(
+            std::span(rows.values)
+                .subspan(row * shape.values() + shape.parameters, shape.features * shape.levels),
+            std::back_inserter(values));
+    }
+    return values;
 }
 
 std::optional<NumericalError> find_numerical_error(const Planner& planner, const RowSource* run,
@@ -457,33 +293,25 @@ std::optional<NumericalError> find_numerical_error(const Planner& planner, const
                          static_cast<int>(test_count),
                          {},
                          {}};
-    error.healthy_pairs = static_cast<int>(ids.size() - test_count);
-    error.faulty_pairs = static_cast<int>(faulty);
     for (std::size_t value = 0; value < coarse.count; ++value) {
         add_differences(coarse, fine_values, test_count, value, error);
-        PairedValues values;
-        for (std::size_t g = 0; g < ids.size(); ++g) {
-            values.own.push_back(coarse.features[g][value]);
-            values.fine.push_back(fine_values.features[g][value]);
-            values.size.push_back(g < test_count ? coarse.size[g] : 0.0);
-        }
-        if (pairs > 0) {
-            error.corrections.push_back(fit_correction(values));
-        }
+    }
+    if (faulty > 0 && order.threshold_noise == NoiseSampling::plain) {
+        error.pairs = changed_rows(order, ids);
+        error.pairs.changed.push_back(
+            {kFineSteps, 1.0, feature_values(ensemble.shape, *fine_rows)});
     }
     return error;
 }
 
-std::vector<NumericalContribution> numerical_contributions(
-    const Results& frame, const RowSource& rows,
-    const std::optional<analysis::Reliability>& reliability) {
+std::vector<NumericalContribution> numerical_contributions(const Results& frame,
+                                                           const RowSource& rows) {
     std::vector<NumericalContribution> contributions;
     if (!frame.numerical) {
         return contributions;
     }
     const std::size_t levels = frame.noise_levels.size();
     const std::vector<Counts> counts = count_near(frame, rows);
-    const std::vector<CorrectedDetection> corrected = corrected_detection(frame, rows);
     for (std::size_t i = 0; i < counts.size(); ++i) {
         const std::size_t f = i / levels, level = i % levels;
         NumericalContribution contribution;
@@ -492,15 +320,6 @@ std::vector<NumericalContribution> numerical_contributions(
         contribution.rms = frame.numerical->rms[i];
         contribution.spread = standard_deviation(counts[i].healthy);
         set_rate_contribution(frame.detection[f].levels[level], counts[i], contribution);
-        if (reliability) {
-            set_size_contribution(reliability->features[f].levels[level].hit_miss, contribution);
-        } else {
-            contribution.a90 = contribution.a90_interval = kNan;
-        }
-        if (!corrected.empty()) {
-            contribution.corrected = corrected[i];
-            contribution.correction = frame.numerical->corrections[i];
-        }
         contribution.numerical_dominates =
             std::isfinite(contribution.pd)
                 ? contribution.pd > contribution.pd_half_width

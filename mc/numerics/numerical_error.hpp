@@ -16,36 +16,8 @@
 
 namespace gearpod::mc {
 
-// Correction of a run's features for the error of its steps (two-level Monte Carlo: M. B. Giles,
-// Acta Numerica 24 (2015), 259-328): some gearboxes are computed twice, with the run's steps and
-// with fine ones, and all are corrected by the fitted difference.
-//
-// Only a difference that grows with the fault changes detection. One that all gearboxes have in
-// common moves the threshold as well.
-
 // Standard deviation of a sample; NaN for fewer than two values.
 double standard_deviation(const std::vector<double>& values);
-
-// Values of one feature of gearboxes computed twice, with their fault sizes (0: healthy).
-struct PairedValues {
-    std::vector<double> own, fine, size;
-};
-
-// Least squares fit of the difference; pairs without a value are left out. NaN for fewer than
-// eight healthy or eight faulty pairs.
-PairedCorrection fit_correction(const PairedValues& pairs);
-
-// a90 and detection rates of one feature at one noise level from corrected values.
-struct CorrectedDetection {
-    double pd_change = 0.0;  // largest change of a detection rate, over all sizes
-    // a90, and its values at the ends of the 95 % interval of the correction alone; NaN if not
-    // reached.
-    double a90 = 0.0, a90_lower = 0.0, a90_upper = 0.0;
-};
-GEARPOD_FIELDS(CorrectedDetection, pd_change, a90, a90_lower, a90_upper)
-
-// By feature and noise level; empty if the frame has no corrections.
-std::vector<CorrectedDetection> corrected_detection(const Results& frame, const RowSource& rows);
 
 // Setting with four times the steps of these numerics (or as many as the integrator allows),
 // converged to 1e-10; with mass scaling instead without it, with the steps of the integrator's own
@@ -59,10 +31,15 @@ struct FineRows {
     BatchRows rows;
 };
 
-// Gearboxes of numerics.paired_gearboxes: faulty ones spread over the test group, then as many
-// healthy ones, the first of the threshold group.
+// Gearboxes of numerics.paired_gearboxes: faulty ones of the test group spread over its sizes, then
+// as many healthy ones, the first of the threshold group.
 std::vector<GearboxId> paired_gearboxes(const Sampler& sampler, const EnsemblePlan& ensemble,
                                         int pairs);
+
+// The rows of these gearboxes, still without values, and the values of the features of computed
+// rows (rows x features x noise levels).
+AssumptionRows changed_rows(const RowOrder& order, std::span<const GearboxId> ids);
+std::vector<double> feature_values(const RowShape& shape, const BatchRows& rows);
 
 // Integrates eight test gearboxes, spread over the ensemble, as the run did and again with
 // finer_setting(); with numerics.paired_gearboxes that many, and as many healthy ones. For
@@ -85,21 +62,12 @@ struct NumericalContribution {
     // pd_half_width: largest half width of the intervals of the same detection rates. NaN without a
     // threshold.
     double pd = 0.0, pd_half_width = 0.0;
-    // a90: the fraction `pd` converted to a size by the slope of the POD curve at a90.
-    // a90_interval: upper bound of a90 minus a90. Both in the unit of the sizes. NaN without an
-    // a90, infinite if the bound is not reached.
-    double a90 = 0.0, a90_interval = 0.0;
-    // After numerics.paired_gearboxes: the fitted difference from fine steps, and detection without
-    // it.
-    std::optional<PairedCorrection> correction = {};
-    std::optional<CorrectedDetection> corrected = {};
     bool numerical_dominates = false;  // for Pd, or without a threshold for the feature itself
 };
 GEARPOD_FIELDS(NumericalContribution, feature, noise_level, rms, healthy_spread, pd, pd_half_width,
-               a90, a90_interval, correction_, corrected_, dominates_)
-std::vector<NumericalContribution> numerical_contributions(
-    const Results& frame, const RowSource& rows,
-    const std::optional<analysis::Reliability>& reliability);
+               dominates_)
+std::vector<NumericalContribution> numerical_contributions(const Results& frame,
+                                                           const RowSource& rows);
 
 // Discretization error of the signals of gearboxes whose teeth lose contact. Loss of contact
 // happens at times that lie between grid nodes, which reduces an integrator's order. A tolerance

@@ -7,6 +7,7 @@
 
 #include "analysis/report/false_alarm_text.hpp"
 #include "mc/plan/record_plan.hpp"
+#include "mc/plan/sampling.hpp"
 #include "mc/study/gears.hpp"
 #include "mc/study/other_sources.hpp"
 #include "mc/study/schema/sizes.hpp"
@@ -106,6 +107,9 @@ std::vector<ParameterColumn> input_columns(const Study& study) {
             const Key& key = *find_key(input.key);
             columns.push_back({key.column(), std::string(key.unit.si_name)});
         }
+    }
+    if (stored_baselines(study) > 0) {
+        columns.push_back({kBaselineTorque, "1"});
     }
     if (study.ensemble.uses_importance_sampling()) {
         columns.push_back({kNoiseWeight, "1"});

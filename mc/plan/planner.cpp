@@ -9,7 +9,9 @@
 
 namespace gearpod::mc {
 
-std::vector<EffectVariant> effect_variants(const Study& study);  // effect_variants.cpp
+// study_variants.cpp
+std::vector<EffectVariant> effect_variants(const Study& study);
+std::vector<AssumptionVariant> assumption_variants(const Study& study);
 
 namespace {
 
@@ -172,6 +174,10 @@ Planner Planner::with_short_records(const signals::SpanLayout& span,
 
 std::vector<EffectVariant> Planner::effect_variants() const {
     return mc::effect_variants(plans_->study);
+}
+
+std::vector<AssumptionVariant> Planner::assumption_variants() const {
+    return mc::assumption_variants(plans_->study);
 }
 
 std::vector<DescriptionSection> Planner::description(const Numerics& numerics) const {

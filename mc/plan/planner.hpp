@@ -39,6 +39,13 @@ struct EffectVariant {
     std::function<Planner()> planner;  // throws SceneError if the study is then invalid
 };
 
+// Study with an assumption at `factor` times its value: the key that states it.
+struct AssumptionVariant {
+    std::string key;
+    double factor = 1.0;
+    std::function<Planner()> planner;  // throws SceneError if the study is then invalid
+};
+
 // Steps per mesh period of a plan.
 struct PlannedSteps {
     lockstep::Integrator integrator = lockstep::kUsualExplicit;
@@ -81,6 +88,9 @@ class Planner {
     Planner with_short_records(const signals::SpanLayout& span, double mesh_frequency_Hz) const;
     // Plans of the study without each optional effect that it has, and with each that it lacks.
     std::vector<EffectVariant> effect_variants() const;
+    // Plans of the study at half and at twice each assumption that it has, the most uncertain
+    // first: the torque scatter of the baseline, the noise and the errors of the teeth.
+    std::vector<AssumptionVariant> assumption_variants() const;
     // Description of the nominal gearbox and of the effects simulated and omitted, with these
     // numerics.
     std::vector<DescriptionSection> description(const Numerics& numerics) const;

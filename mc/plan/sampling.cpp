@@ -66,6 +66,13 @@ GearboxId owner(GearboxId id, DrawnPer per) {
 
 }  // namespace
 
+std::uint64_t stored_baselines(const Study& study) {
+    return compares_records(study) && study.features.baseline_torque_scatter > 0.0 &&
+                   !study.life.interval_h
+               ? static_cast<std::uint64_t>(study.features.baseline_records)
+               : 0;
+}
+
 DrawPlan::DrawPlan(const Study& study)
     : seed(static_cast<std::uint64_t>(study.ensemble.seed)),
       rows(study.ensemble),
@@ -74,6 +81,7 @@ DrawPlan::DrawPlan(const Study& study)
       recipe(study),
       fault_size(input_id("fault." + std::string(size_defining_kind(study).size().name))),
       baseline_torque_scatter(study.features.baseline_torque_scatter),
+      stored_baselines(mc::stored_baselines(study)),
       redraws_teeth(redraws(study, "teeth")) {
     if (has_random_planets(study)) {
         planets.emplace(study.gearbox,
@@ -97,6 +105,12 @@ double Sampler::draw_alone(const DrawnInput& input, const GearboxId& id) const {
     Philox engine = record_stream(plan_.seed, owner_id, input.whole);
     return distribution.draw(engine,
                              source_index(plan_.seed, id, input.whole) / input.level_stride);
+}
+
+// Torque of a baseline record relative to that of the test record.
+double Sampler::baseline_torque(const GearboxId& id) const {
+    Normals unit = Normals::of_record(plan_.seed, id, StreamPurpose::baseline_torque);
+    return std::exp(plan_.baseline_torque_scatter * unit());
 }
 
 Realization Sampler::draw(const GearboxId& id, std::span<const GivenInput> given) const {
@@ -130,10 +144,19 @@ Realization Sampler::draw(const GearboxId& id, std::span<const GivenInput> given
     }
     if (id.record == Record::baseline) {
         inputs.fault_size = 0.0;
-        Normals unit = Normals::of_record(plan_.seed, id, StreamPurpose::baseline_torque);
-        const double share = std::exp(plan_.baseline_torque_scatter * unit());
+        const double share = baseline_torque(id);
         inputs.torque_N_m *= share;
         inputs.fixed_shaft.load_torque_N_m *= share;
+    } else if (plan_.stored_baselines > 0) {
+        double sum = 0.0;
+        GearboxId baseline = id;
+        baseline.record = Record::baseline;
+        for (baseline.baseline = 0; baseline.baseline < plan_.stored_baselines;
+             ++baseline.baseline) {
+            sum += baseline_torque(baseline);
+        }
+        realization.random_values.push_back(
+            std::abs(sum / static_cast<double>(plan_.stored_baselines) - 1.0));
     }
     return realization;
 }

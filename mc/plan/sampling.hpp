@@ -43,15 +43,23 @@ struct DrawPlan {
     // Standard deviation of the logarithm of a baseline record's torque relative to that of the
     // test record.
     double baseline_torque_scatter;
+    // Baseline records of whose mean torque the difference from that of the test record, relative
+    // and without its sign, is a value of the gearbox.
+    std::uint64_t stored_baselines;
     bool redraws_teeth;  // true if the gears are turned for the baseline's assembly
 };
+
+inline constexpr const char* kBaselineTorque = "baseline_torque_difference";  // its column
+// DrawPlan::stored_baselines: 0 without features that compare records, and in lives.
+std::uint64_t stored_baselines(const Study& study);
 
 // One random gearbox of the ensemble. It is drawn once: its tile, its features and its row in the
 // results use the same values.
 struct Realization {
     GearboxId id;
     InstanceInputs inputs;
-    // Values of the random inputs of the study except the fault's size, SI, in the study's order.
+    // Values of the random inputs of the study except the fault's size, SI, in the study's order,
+    // and of a test record kBaselineTorque, if the plan stores it.
     std::vector<double> random_values = {};
 };
 
@@ -79,6 +87,7 @@ class Sampler {
   private:
     std::vector<double> uniform_variates(const GearboxId& id) const;
     double draw_alone(const DrawnInput& input, const GearboxId& id) const;
+    double baseline_torque(const GearboxId& id) const;
 
     const DrawPlan plan_;
 };

@@ -49,7 +49,6 @@ analysis::Section numerical_section(const Results& frame,
 
 // Both errors of a feature's detection rate at a noise level; "" if they are not known.
 std::string numerical_limit(const std::vector<NumericalContribution>& contributions,
-                            const std::string& feature, double noise_level,
-                            const analysis::SizeUnit& unit);
+                            const std::string& feature, double noise_level);
 
 }  // namespace gearpod::mc

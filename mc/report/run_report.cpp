@@ -16,6 +16,7 @@
 #include "analysis/report/wording.hpp"
 #include "features/feature.hpp"
 #include "mc/files/input/terminal_text.hpp"
+#include "mc/report/assumption_limits.hpp"
 #include "mc/report/example_gearboxes.hpp"
 #include "mc/results/reliability_of_results.hpp"
 
@@ -110,8 +111,7 @@ std::string numerical_of(const analysis::Findings& findings,
         return "";
     }
     return numerical_limit(contributions, findings.smallest[findings.reference]->feature,
-                           findings.request.noise_levels[findings.reference],
-                           findings.request.size);
+                           findings.request.noise_levels[findings.reference]);
 }
 
 std::string other_fault_words(const RunFindings& run) {
@@ -198,8 +198,12 @@ void fill_report(const Results& frame, const RowSource& rows,
         report.add(monitoring_answer(*run.monitoring));
     }
     report.add(std::move(answer));
-    report.add(analysis::limits_section(findings, numerical_of(findings, run.numerical),
-                                        other_fault_of(findings, frame, run)));
+    AssumptionLimits assumptions = assumption_limits(frame, rows, findings);
+    analysis::Section limits = analysis::limits_section(
+        findings, {assumptions.strongest, numerical_of(findings, run.numerical),
+                   assumptions.fine_steps, other_fault_of(findings, frame, run)});
+    limits.add(std::move(assumptions.table));
+    report.add(std::move(limits));
     analysis::Section values = feature_values(frame, rows);
     if (values.blocks.empty()) {
         add_detection_sections(report, findings);
@@ -234,16 +238,10 @@ Json numerical_json(const Results& frame, const std::vector<NumericalContributio
     Json json{{"setting", frame.numerical->setting},
               {"finer", frame.numerical->finer},
               {"gearboxes", frame.numerical->gearboxes},
-              {"healthy_pairs", frame.numerical->healthy_pairs},
-              {"faulty_pairs", frame.numerical->faulty_pairs},
               {"shares", Json::array()}};
     for (const NumericalContribution& contribution : contributions) {
         Json share = analysis::fields_json(contribution);
         share["larger"] = contribution.numerical_dominates ? "numerical" : "statistical";
-        if (contribution.correction) {
-            share["correction"] = analysis::fields_json(*contribution.correction);
-            share["correction"].update(analysis::fields_json(*contribution.corrected));
-        }
         json["shares"].push_back(std::move(share));
     }
     return json;
@@ -311,7 +309,7 @@ RunFindings findings_of_run(const Results& frame, const RowSource& rows,
                             const std::optional<analysis::Reliability>& reliability) {
     RunFindings run{.facts = run_facts(frame.provenance_value("study")),
                     .failures = failures_of(frame, rows),
-                    .numerical = numerical_contributions(frame, rows, reliability),
+                    .numerical = numerical_contributions(frame, rows),
                     .other_fault = other_fault_alarms(frame, rows),
                     .monitoring = monitoring_over_time(frame, rows),
                     .sensors = sensor_detections(frame, rows),

@@ -1,5 +1,7 @@
 #include "mc/results/layout.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <functional>
 #include <iterator>
@@ -32,13 +34,49 @@ const char* failure_text(Status status) {
 
 namespace {
 
-constexpr const char* kFirstCorrection = "offset";  // of PairedCorrection
+constexpr const char* kAssumptions = "assumptions";
+constexpr const char* kPairs = "pairs";
 
-// Calls use(field) for every dataset of paired corrections.
-template <class Use>
-void for_each_correction(const Use& use) {
-    const PairedCorrection any;
-    for_each_field(any, [&](auto field, double) { use(field); });
+void write_rows(hid_t parent, const char* group_name, const AssumptionRows& again,
+                const Results& frame) {
+    const auto& [rows, changed] = again;
+    if (changed.empty()) {
+        return;
+    }
+    const Hdf5Handle group = create_group(parent, group_name);
+    write_integers(group.get(), "rows", {rows.size()}, rows);
+    for (const ChangedAssumption& assumption : changed) {
+        const std::string name = fmt::format("{} x {:g}", assumption.key, assumption.factor);
+        write_numbers(group.get(), name,
+                      {rows.size(), frame.features.size(), frame.noise_levels.size()},
+                      assumption.values);
+        write_text(group.get(), name, "key", assumption.key);
+        write_number(group.get(), name, "factor", assumption.factor);
+    }
+}
+
+AssumptionRows read_rows(hid_t parent, const char* group_name, std::size_t most,
+                         const Results& results) {
+    AssumptionRows again;
+    if (std::ranges::count(link_names(parent), group_name) == 0) {
+        return again;
+    }
+    const Hdf5Handle group = open_group(parent, group_name);
+    again.rows = read_integers(group.get(), "rows", most);
+    const Shape shape{again.rows.size(), results.features.size(), results.noise_levels.size()};
+    for (const std::string& name : link_names(group.get())) {
+        if (name == "rows") {
+            continue;
+        }
+        Numbers numbers = read_numbers(group.get(), name, most);
+        if (numbers.shape != shape) {
+            throw Hdf5Error(name);
+        }
+        again.changed.push_back({read_text(group.get(), name, "key"),
+                                 read_number(group.get(), name, "factor"),
+                                 std::move(numbers.values)});
+    }
+    return again;
 }
 
 void write_numerical(hid_t root, const NumericalError& error, const Results& frame) {
@@ -46,10 +84,7 @@ void write_numerical(hid_t root, const NumericalError& error, const Results& fra
     write_text(group.get(), ".", "setting", error.setting);
     write_text(group.get(), ".", "finer", error.finer);
     write_number(group.get(), ".", "gearboxes", error.gearboxes);
-    if (!error.corrections.empty()) {
-        write_number(group.get(), ".", "healthy_pairs", error.healthy_pairs);
-        write_number(group.get(), ".", "faulty_pairs", error.faulty_pairs);
-    }
+    write_rows(group.get(), kPairs, error.pairs, frame);
     const std::size_t levels = frame.noise_levels.size();
     for (std::size_t f = 0; f < frame.features.size(); ++f) {
         const Hdf5Handle feature = create_group(group.get(), frame.features[f].name);
@@ -61,13 +96,6 @@ void write_numerical(hid_t root, const NumericalError& error, const Results& fra
         };
         write("rms", error.rms, std::identity());
         write("largest", error.largest, std::identity());
-        if (!error.corrections.empty()) {
-            for_each_correction([&](auto field) {
-                write(field.name, error.corrections, [](const PairedCorrection& correction) {
-                    return std::get<decltype(field)::index>(fields_of(correction));
-                });
-            });
-        }
         write_text(feature.get(), ".", "unit", frame.features[f].unit);
     }
 }
@@ -94,26 +122,8 @@ NumericalError read_numerical(hid_t root, std::size_t most, const Results& resul
         };
         std::ranges::copy(read("rms"), std::back_inserter(error.rms));
         std::ranges::copy(read("largest"), std::back_inserter(error.largest));
-        if (std::ranges::count(link_names(feature.get()), kFirstCorrection) > 0) {
-            const std::size_t first = error.corrections.size();
-            error.corrections.resize(first + levels);
-            for_each_correction([&](auto field) {
-                const std::vector<double> values = read(field.name);
-                for (std::size_t level = 0; level < levels; ++level) {
-                    auto members = fields_of(error.corrections[first + level]);
-                    std::get<decltype(field)::index>(members) = values[level];
-                }
-            });
-        }
     }
-    if (error.corrections.empty()) {
-        return error;
-    }
-    if (error.corrections.size() != error.rms.size()) {
-        throw Hdf5Error(kFirstCorrection);
-    }
-    error.healthy_pairs = static_cast<int>(read_number(group.get(), ".", "healthy_pairs"));
-    error.faulty_pairs = static_cast<int>(read_number(group.get(), ".", "faulty_pairs"));
+    error.pairs = read_rows(group.get(), kPairs, most, results);
     return error;
 }
 
@@ -129,6 +139,7 @@ void write_numerical_groups(hid_t root, const Results& frame) {
             write_number(group.get(), ".", std::string(field.name), value);
         });
     }
+    write_rows(root, kAssumptions, frame.assumptions, frame);
 }
 
 void read_numerical_groups(hid_t root, std::size_t most, Results& results) {
@@ -143,6 +154,7 @@ void read_numerical_groups(hid_t root, std::size_t most, Results& results) {
                 read_number(group.get(), ".", std::string(field.name)));
         });
     }
+    results.assumptions = read_rows(root, kAssumptions, most, results);
 }
 
 }  // namespace gearpod::mc

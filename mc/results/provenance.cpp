@@ -27,8 +27,8 @@ std::string version_text(const std::string& code_version, const std::string& git
 
 std::string build_text(const std::string& mpi) {
     return fmt::format("{}\ncompiler: gcc {}\nkernels: {}\nMPI: {}\nHDF5: {}.{}.{}\n",
-                       version_text(), __VERSION__, lockstep::built_kernels(), mpi,
-                       H5_VERS_MAJOR, H5_VERS_MINOR, H5_VERS_RELEASE);
+                       version_text(), __VERSION__, lockstep::built_kernels(), mpi, H5_VERS_MAJOR,
+                       H5_VERS_MINOR, H5_VERS_RELEASE);
 }
 
 std::string host_name() {

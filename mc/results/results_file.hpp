@@ -21,11 +21,14 @@
 //                          threshold_alarms (levels), pd, lower, upper, detected, tested, failed
 //                          (levels x sizes); attributes `alarm`, `warnings`
 //   /numerical/<feature>/  after verification: rms, largest (levels), the changes of the feature in
-//                          some gearboxes with finer steps; after numerics.paired_gearboxes also
-//                          PairedCorrection (levels); attributes of /numerical: setting, finer,
-//                          gearboxes, healthy_pairs, faulty_pairs
+//                          some gearboxes with finer steps; attributes of /numerical: setting,
+//                          finer, gearboxes; after numerics.paired_gearboxes /numerical/pairs, as
+//                          /assumptions
 //   /step_error            if teeth lose contact and the run is long enough: attributes sensor,
 //                          te, steps, finer_steps, gearboxes, meshes (StepError)
+//   /assumptions           rows (of the results), and for each changed assumption a dataset of
+//   these
+//                          rows x features x noise levels, attributes `key` and `factor`
 //   /timing/<name>         seconds, or a count (attribute `unit`)
 //   /signals/<row>/<name>  one value per sample, attribute `unit`: signals of the requested rows
 //
@@ -116,18 +119,17 @@ struct RowSignals {
     std::vector<SignalColumn> columns;
 };
 
-// Difference of a feature at one noise level between gearboxes computed with fine steps and with
-// those of the run: fine - own = offset + by_value * own + by_size * size, fitted by least squares
-// (mc/numerics/numerical_error.hpp). NaN for too few pairs.
-struct PairedCorrection {
-    double offset = 0.0, by_value = 0.0;             // in the feature's unit; relative
-    double by_size = 0.0, by_size_error = 0.0;       // per unit of fault size; standard error
-    double healthy_bias = 0.0, healthy_error = 0.0;  // mean of own - fine; its standard error
-    double faulty_bias = 0.0, faulty_error = 0.0;
-    double scatter_ratio = 0.0;  // standard deviation of healthy gearboxes, own over fine
+// Features of some rows with an assumption of the study at `factor` times its value.
+struct ChangedAssumption {
+    std::string key;
+    double factor = 1.0;
+    std::vector<double> values;  // rows x features x noise levels
 };
-GEARPOD_FIELDS(PairedCorrection, offset, by_value, by_size, by_size_error, healthy_bias,
-               healthy_error, faulty_bias, faulty_error, scatter_ratio)
+inline constexpr const char* kFineSteps = "numerics.steps_per_mesh";
+struct AssumptionRows {
+    std::vector<std::int64_t> rows;  // of Results
+    std::vector<ChangedAssumption> changed;
+};
 
 // Change of the features of some gearboxes when they are integrated with finer steps.
 struct NumericalError {
@@ -135,9 +137,7 @@ struct NumericalError {
     int gearboxes = 0;           // test gearboxes of which `rms` and `largest` are
     // [feature * noise levels + level], in the feature's unit.
     std::vector<double> rms, largest;
-    // After numerics.paired_gearboxes: number of healthy and of faulty ones; the same shape.
-    int healthy_pairs = 0, faulty_pairs = 0;
-    std::vector<PairedCorrection> corrections = {};
+    AssumptionRows pairs = {};  // after numerics.paired_gearboxes: with fine steps (kFineSteps)
 };
 
 // Error due to the time step in signals of gearboxes whose teeth lose contact, estimated with finer
@@ -167,6 +167,7 @@ struct Results {
     std::vector<analysis::FeatureDetection> detection;
     std::optional<NumericalError> numerical;
     std::optional<StepError> step_error;
+    AssumptionRows assumptions;
     std::vector<Timing> timing;
     std::vector<RowSignals> signals;  // of chosen rows; not read back
 

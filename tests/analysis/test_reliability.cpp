@@ -86,7 +86,7 @@ std::string text_of(const Study& study, const Reliability& reliability) {
     const Findings findings({detections, &reliability, study.request});
     Report report;
     report.add(headline_section(findings, "", ""));
-    report.add(limits_section(findings, ""));
+    report.add(limits_section(findings));
     add_detection_sections(report, findings);
     return report_text(report);
 }

@@ -578,8 +578,7 @@ Section headline_section(const Findings& findings, const std::string& assumption
     return section;
 }
 
-Section limits_section(const Findings& findings, const std::string& numerical,
-                       const std::string& other_fault) {
+Section limits_section(const Findings& findings, const OtherLimits& others) {
     Section section{"limits", "What limits it", {}};
     if (!findings.unassessable.empty() || !has_sizes(findings.request)) {
         return section;
@@ -589,13 +588,15 @@ Section limits_section(const Findings& findings, const std::string& numerical,
     constexpr std::size_t kOnScreen = 2;
     // The strongest first.
     for (const auto& [key, text] : std::initializer_list<std::pair<const char*, std::string>>{
-             {"limit.other_fault", other_fault},
+             {"limit.other_fault", others.other_fault},
+             {"limit.assumption", others.assumption},
              {"limit.noise", noise_limit(findings)},
              {"limit.sample", found ? sample_limit(findings, *found) : ""},
              {"limit.misses",
               curves ? misses_text(findings, findings.best(findings.reference), findings.reference)
                      : ""},
-             {"limit.numerical", found ? numerical : ""}}) {
+             {"limit.numerical", found ? others.numerical : ""},
+             {"limit.fine_steps", others.fine_steps}}) {
         section.state(key, text, section.blocks.size() < kOnScreen ? Shown::screen : Shown::full);
     }
     return section;

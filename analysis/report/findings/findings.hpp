@@ -79,10 +79,13 @@ Table noise_table(const Findings& findings);
 // The answer at the reference level, `assumptions`, the next step, `facts`, and tables by noise.
 Section headline_section(const Findings& findings, const std::string& assumptions,
                          const std::string& facts);
-// Limits of the answer. `numerical`, `other_fault`: sentences on the numerical error of the
-// answer's feature, and on the alarms that another fault raises.
-Section limits_section(const Findings& findings, const std::string& numerical,
-                       const std::string& other_fault = "");
+// Sentences on limits that findings do not have: the assumption that changes the answer most, the
+// numerical error of its feature, the answer with fine steps, and the alarms of another fault.
+struct OtherLimits {
+    std::string assumption, numerical, fine_steps, other_fault;
+};
+// Limits of the answer.
+Section limits_section(const Findings& findings, const OtherLimits& others = {});
 // At every noise level, in order.
 Section thresholds_section(const Findings& findings);
 Section rates_section(const Findings& findings);

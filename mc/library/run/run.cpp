@@ -15,6 +15,7 @@
 #include "mc/library/run/command_files.hpp"
 #include "mc/library/run/reliability_on_machines.hpp"
 #include "mc/library/run/run_preparation.hpp"
+#include "mc/numerics/assumption_rows.hpp"
 #include "mc/numerics/numerical_error.hpp"
 #include "mc/report/numerical_quality.hpp"
 #include "mc/report/run_report.hpp"
@@ -126,6 +127,7 @@ class Run {
                     find_numerical_error(*planner_, &rows, choice_ ? choice_->fine.get() : nullptr);
                 all.step_error = find_step_error_of_run(
                     *planner_, plan_.threshold_gearboxes() + plan_.test_rows());
+                all.assumptions = assumption_rows(*planner_);
             }
         } catch (const machine::Cancelled&) {
             const std::string reason = interruption.reason({});
@@ -172,6 +174,7 @@ class Run {
                 all.signals = std::move(examples.signals);
                 all.numerical = std::move(examples.numerical);
                 all.step_error = examples.step_error;
+                all.assumptions = std::move(examples.assumptions);
                 all.timing = timing_of(outcome);
                 all.timing.push_back({"setup_s", setup_s_});
                 all.timing.push_back({"output_s", outcome.output_s});

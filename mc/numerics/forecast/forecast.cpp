@@ -17,6 +17,7 @@
 #include "mc/ensemble/gearbox/integration_cache.hpp"
 #include "mc/ensemble/gearbox/simulation.hpp"
 #include "mc/ensemble/gearbox/solution_choice.hpp"
+#include "mc/numerics/assumption_rows.hpp"
 #include "mc/numerics/forecast/memory.hpp"
 #include "mc/numerics/numerical_error.hpp"
 #include "mc/results/reliability_of_results.hpp"
@@ -506,6 +507,14 @@ double gearboxes_s(const RunCost& calibration, const BatchPlan& plan,
         last = std::max(last, done);
     }
     return last;
+}
+
+double assumptions_s(const Planner& planner, const RunCost& cost) {
+    const auto [variants, pairs] = assumption_pairs(planner);
+    const double batches = std::ceil(2.0 * pairs / kBatchRows / cost.threads);
+    return static_cast<double>(variants.size()) * batches * kBatchRows /
+           static_cast<double>(cost.lanes) *
+           cost.cost[static_cast<std::size_t>(Group::test)].integrated.seconds(cost.lanes);
 }
 
 double verification_s(const Planner& planner, const RunCost& cost, bool chosen) {

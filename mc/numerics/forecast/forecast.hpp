@@ -110,6 +110,9 @@ double memory_bytes(const MemoryUse& memory, const IntegrationCounts& integratio
 // faulty ones beside them.
 double verification_s(const Planner& planner, const RunCost& cost, bool chosen);
 
+// Time for computing some gearboxes with changed assumptions.
+double assumptions_s(const Planner& planner, const RunCost& cost);
+
 // Lower limit of the additional memory of a run: the motion of one tile per thread, or the columns
 // of the analysis. See memory_bytes() for an estimate.
 double least_memory_bytes(double motion_bytes, const RowShape& shape, const BatchPlan& plan,

@@ -550,7 +550,9 @@ void print_forecast(const Scene& scene, const Planner& planner, double setup_s, 
     const RunCost calibration = measure_run_cost(scene.tile(), ensemble, plan, threads, kBudget_s);
     const bool chosen = scene.solve().settings.numerics.scatter_tolerance > 0.0;
     const RunForecast forecast = forecast_run(
-        calibration, ensemble.shape, plan, verification_s(planner, calibration, chosen), setup_s);
+        calibration, ensemble.shape, plan,
+        verification_s(planner, calibration, chosen) + assumptions_s(planner, calibration),
+        setup_s);
     if (!ensemble.meshes.empty()) {
         print_heading("contact");
     }

@@ -206,7 +206,7 @@ TEST_CASE("A transferred bound names its origin") {
     findings.smallest[0] = SmallestFault{"te_rms", 1e-3, true, {"te_fc", 5.0}, false};
     findings.reliability = &curves;
     findings.unassessable = "";
-    const Report report{{limits_section(findings, "")}};
+    const Report report{{limits_section(findings)}};
     CHECK_THAT(report_text(report),
                Catch::Contains("this is the bound of te_fc at noise x 5, which finds no more"));
     findings.reliability = nullptr;

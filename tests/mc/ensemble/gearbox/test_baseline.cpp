@@ -88,9 +88,12 @@ TEST_CASE("The torque of baseline records has the requested scatter on both shaf
     double sum = 0.0, squares = 0.0;
     constexpr int kGearboxes = 4000;
     for (std::uint64_t i = 0; i < kGearboxes; ++i) {
-        const InstanceInputs now = sampler.draw({Group::test, i}).inputs;
+        const Realization drawn = sampler.draw({Group::test, i});
+        const InstanceInputs& now = drawn.inputs;
         const InstanceInputs then = sampler.draw({Group::test, i, Record::baseline}).inputs;
         CHECK(then.fault_size == 0.0);
+        CHECK(drawn.random_values.back() ==
+              Approx(std::abs(then.torque_N_m / now.torque_N_m - 1.0)).margin(1e-12));
         const double share = std::log(then.torque_N_m / now.torque_N_m);
         CHECK(std::log(then.fixed_shaft.load_torque_N_m / now.fixed_shaft.load_torque_N_m) ==
               Approx(share).margin(1e-12));

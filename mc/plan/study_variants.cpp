@@ -1,5 +1,6 @@
-// Optional effects of a study: which ones it has, and the study without them or with them.
+// A study without its optional effects or with others, and with other values of its assumptions.
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "mc/plan/planner.hpp"
@@ -120,6 +121,51 @@ const OptionalEffect kOptionalEffects[] = {
      },
      [](Study& s) { s.effects.path = &signals::path_window("rectangular"); }}};
 
+bool scales_tooth_errors(const Study& s) {
+    return (s.errors.tooth_quality || s.errors.pitch_error_m > 0.0 ||
+            s.errors.eccentricity_m > 0.0) &&
+           std::ranges::none_of(s.random, [](const RandomInput& input) {
+               return input.key.ends_with("quality") || input.key == "gearbox.pitch_error_um" ||
+                      input.key == "gearbox.eccentricity_um";
+           });
+}
+void scale_tooth_errors(Study& s, double factor) {
+    const double grades = 2.0 * std::log2(factor);  // ISO 1328-1: a grade is a factor of sqrt(2)
+    if (s.errors.tooth_quality) {
+        *s.errors.tooth_quality += grades;
+    }
+    for (MemberValues& body : s.gearbox.bodies.values) {
+        if (body.quality) {
+            *body.quality += grades;
+        }
+    }
+    s.errors.pitch_error_m *= factor;
+    s.errors.eccentricity_m *= factor;
+}
+
+// Values that a study assumes, because measuring them takes the machine.
+struct Assumption {
+    const char* key;
+    bool (*present)(const Study&);
+    void (*scale)(Study&, double factor);
+};
+
+const Assumption kAssumptions[] = {
+    {"features.baseline_torque_scatter",
+     [](const Study& s) { return compares_records(s) && s.features.baseline_torque_scatter > 0.0; },
+     [](Study& s, double factor) { s.features.baseline_torque_scatter *= factor; }},
+    // Several levels show their effect themselves.
+    {"sensor.noise_levels",
+     [](const Study& s) {
+         return std::ranges::count_if(s.sensor.noise_levels, [](double x) { return x > 0.0; }) == 1;
+     },
+     [](Study& s, double factor) {
+         for (double& level : s.sensor.noise_levels) {
+             level *= factor;
+         }
+     }},
+    {"gearbox.tooth_quality", scales_tooth_errors, scale_tooth_errors}};
+
 // Plans of a changed study, which must be valid as if it were read.
 Planner planner_of(const Study& changed) {
     const StudyReading reading = read_study_text(resolved_text(changed), "");
@@ -146,6 +192,22 @@ std::vector<EffectVariant> effect_variants(const Study& study) {
         }
         variants.push_back(
             {effect.name, present, [changed = std::move(changed)] { return planner_of(changed); }});
+    }
+    return variants;
+}
+
+std::vector<AssumptionVariant> assumption_variants(const Study& study) {
+    std::vector<AssumptionVariant> variants;
+    for (const Assumption& assumption : kAssumptions) {
+        if (!assumption.present(study)) {
+            continue;
+        }
+        for (const double factor : {0.5, 2.0}) {
+            Study changed = study;
+            assumption.scale(changed, factor);
+            variants.push_back({assumption.key, factor,
+                                [changed = std::move(changed)] { return planner_of(changed); }});
+        }
     }
     return variants;
 }

@@ -1,0 +1,52 @@
+#include "mc/numerics/assumption_rows.hpp"
+
+#include <algorithm>
+
+#include "mc/ensemble/batch_workers.hpp"
+#include "mc/numerics/numerical_error.hpp"
+
+namespace gearpod::mc {
+
+AssumptionPairs assumption_pairs(const Planner& planner) {
+    constexpr long kFewest = 8, kMost = 16;
+    AssumptionPairs all{planner.assumption_variants(), 0};
+    const auto affordable = [&] {
+        return planner.facts().gearboxes / 10 / static_cast<long>(all.variants.size());
+    };
+    while (!all.variants.empty() && affordable() < kFewest) {
+        const std::string last = all.variants.back().key;
+        std::erase_if(all.variants,
+                      [&](const AssumptionVariant& variant) { return variant.key == last; });
+    }
+    if (all.variants.empty() ||
+        planner.tile(planner.facts().numerics).draw().rows.threshold_noise !=
+            NoiseSampling::plain) {
+        return {};
+    }
+    all.pairs = static_cast<int>(std::min(kMost, affordable()));
+    return all;
+}
+
+AssumptionRows assumption_rows(const Planner& planner) {
+    const auto [variants, pairs] = assumption_pairs(planner);
+    const Numerics& numerics = planner.facts().numerics;
+    const TilePlan tile = planner.tile(numerics);
+    const std::vector<GearboxId> ids =
+        paired_gearboxes(*tile.sampler, planner.ensemble(numerics), pairs);
+    AssumptionRows all = changed_rows(tile.draw().rows, ids);
+    for (const AssumptionVariant& variant : variants) {
+        try {
+            const Planner changed = variant.planner();
+            const EnsemblePlan ensemble = changed.ensemble(numerics);
+            all.changed.push_back(
+                {variant.key, variant.factor,
+                 feature_values(ensemble.shape,
+                                rows_of_gearboxes(changed.tile(numerics), ensemble, ids))});
+        } catch (const SceneError&) {
+            continue;  // beyond the range of the key, such as a grade above 12
+        }
+    }
+    return all;
+}
+
+}  // namespace gearpod::mc
