@@ -6,9 +6,7 @@
 #include <cmath>
 
 #include "analysis/comparison/predicted_detection.hpp"
-#include "analysis/statistics/every_nth.hpp"
 #include "machine/team.hpp"
-#include "mc/results/reliability_of_results.hpp"
 
 namespace gearpod::mc {
 namespace {
@@ -28,27 +26,24 @@ std::size_t level_of(const analysis::Findings& findings) {
 // Values of the feature that is best at a noise level, from which detection is predicted.
 class Answer {
   public:
-    Answer(const Results& frame, const RowSource& rows, const AssessedColumns& columns,
-           std::size_t feature, std::size_t level)
-        : frame_(frame),
-          gearbox_(columns.record_gearbox),
-          request_(frame.request),
-          feature_(feature),
-          level_(level) {
+    Answer(const Results& frame, const RowSource& rows, std::size_t feature, std::size_t level)
+        : frame_(frame), request_(frame.request), feature_(feature), level_(level) {
         request_.noise_levels = {frame.noise_levels[level]};
         const std::size_t size = *frame.parameter_index(frame.request.size.name);
         const RowShape shape = row_shape(frame);
-        const auto values_of = [&](const ResultColumns& all) {
-            return analysis::every_nth(all.features[feature], level, shape.levels);
-        };
-        healthy_ = values_of(columns.repeats.rows > 0 ? columns.repeats : columns.healthy);
-        test_ = values_of(columns.test);
-        test_size_ = columns.test.parameters[size];
+        std::vector<std::size_t> healthy_rows;
         for_each_row(rows, [&](const ResultRow& row) {
             const bool test = row.group == static_cast<int>(Group::test);
-            own_.push_back(
-                {test ? row.values[size] : 0.0, row.values[shape.value_of(feature, level)], kNan});
+            const double value = row.values[shape.value_of(feature, level)];
+            own_.push_back({test ? row.values[size] : 0.0, value, kNan});
+            (test ? test_ : healthy_).push_back(value);
+            if (test) {
+                test_size_.push_back(row.values[size]);
+            } else {
+                healthy_rows.push_back(row.index);
+            }
         });
+        gearbox_ = gearboxes_of(frame, healthy_rows);
     }
 
     PredictedDetection as_is() const { return analysis::detection_as_is(values(), request_); }
@@ -70,10 +65,10 @@ class Answer {
     }
 
     const Results& frame_;
-    std::span<const std::size_t> gearbox_;
     analysis::DetectionRequest request_;
     std::size_t feature_, level_;
     std::vector<double> healthy_, test_size_, test_;
+    std::vector<std::size_t> gearbox_;      // of each healthy value
     std::vector<analysis::ValuePair> own_;  // by row, without changed values
 };
 
@@ -106,7 +101,7 @@ std::string name_of(const std::string& key) {
                                                      : "noise";
 }
 
-// "2.41 [2.2, none]", or a rate "55 [42, 67]".
+// "2.41 [2.2, none]", a rate "55 [42, 67]", or "none" alone.
 std::string cell(const PredictedDetection& detection, bool by_size, const analysis::SizeUnit& unit,
                  bool interval = true) {
     const auto shown = [&](double value) {
@@ -117,8 +112,9 @@ std::string cell(const PredictedDetection& detection, bool by_size, const analys
     const double value = by_size ? detection.size : detection.pd,
                  low = by_size ? detection.size_low : detection.pd_low,
                  high = by_size ? detection.size_high : detection.pd_high;
-    return interval ? fmt::format("{} [{}, {}]", shown(value), shown(low), shown(high))
-                    : shown(value);
+    return interval && !std::isinf(low)
+               ? fmt::format("{} [{}, {}]", shown(value), shown(low), shown(high))
+               : shown(value);
 }
 
 }  // namespace
@@ -129,16 +125,12 @@ AssumptionLimits assumption_limits(const Results& frame, const RowSource& rows,
     const AssumptionRows& fine = frame.numerical ? frame.numerical->pairs : kNone;
     const auto& [pair_rows, changed] = frame.assumptions;
     AssumptionLimits limits;
-    if ((changed.empty() && fine.changed.empty()) || !findings.unassessable.empty() ||
+    if ((changed.empty() && fine.changed.empty()) || !findings.has_curves() ||
         !has_sizes(findings.request)) {
         return limits;
     }
-    const auto columns = assessed_columns(frame, rows);
-    if (!columns) {
-        return limits;
-    }
     const std::size_t level = level_of(findings), best = findings.best(level);
-    const Answer answer(frame, rows, *columns, best, level);
+    const Answer answer(frame, rows, best, level);
     const PredictedDetection as_is = answer.as_is();
     const analysis::SizeUnit& unit = findings.request.size;
     const std::string shown_unit = unit.shown_unit().empty() ? "" : " " + unit.shown_unit();
@@ -187,7 +179,7 @@ AssumptionLimits assumption_limits(const Results& frame, const RowSource& rows,
                                      "twice {} %, instead of {} %{}.",
                                      first.name, feature, half, largest, twice, present, at);
     limits.table = {
-        "assumptions",
+        "limit.assumptions",
         fmt::format("{}{} if an assumption is half or twice as large, predicted with its 95 % "
                     "interval from {} gearboxes computed with both",
                     by_size ? fmt::format("Smallest {} found by {}", fault, feature)
