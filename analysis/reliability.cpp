@@ -111,20 +111,6 @@ FeatureRanking ranking_at(const ReliabilityData& data, std::size_t level, std::s
 
 using Where = SizeEstimate::Where;
 
-std::optional<SmallestFault> single_feature_fault(const std::string& feature,
-                                                  const LevelReliability& reliability) {
-    const HitMissPod& pod = reliability.hit_miss;
-    const SmallestFault::Source source{feature, reliability.noise_level};
-    if (pod.refusal.empty() && !pod.doubtful && pod.a90.upper.where != Where::not_reached) {
-        const bool inside = pod.a90.upper.where == Where::reached;
-        return SmallestFault{feature, inside ? pod.a90.upper.size : pod.smallest, true, source};
-    }
-    if (std::isnan(reliability.demonstrated_size)) {
-        return std::nullopt;
-    }
-    return SmallestFault{feature, reliability.demonstrated_size, false, source};
-}
-
 // True if `a` finds at least as many faults as `b` in every size group, and both tested the same
 // groups, at least one.
 bool finds_no_less(const LevelReliability& a, const LevelReliability& b) {
@@ -219,14 +205,28 @@ std::vector<std::size_t> in_rank_order(const Reliability& reliability, std::size
     return order;
 }
 
+std::optional<SmallestFault> own_smallest_fault(const std::string& feature,
+                                                const LevelReliability& reliability) {
+    const HitMissPod& pod = reliability.hit_miss;
+    const SmallestFault::Source source{feature, reliability.noise_level};
+    if (pod.refusal.empty() && !pod.doubtful && pod.a90.upper.where != Where::not_reached) {
+        const bool inside = pod.a90.upper.where == Where::reached;
+        return SmallestFault{feature, inside ? pod.a90.upper.size : pod.smallest, true, source};
+    }
+    if (std::isnan(reliability.demonstrated_size)) {
+        return std::nullopt;
+    }
+    return SmallestFault{feature, reliability.demonstrated_size, false, source};
+}
+
 std::optional<SmallestFault> smallest_fault(const Reliability& reliability, std::size_t level,
                                             std::size_t feature) {
     const FeatureReliability& requested_feature = reliability.features[feature];
     const LevelReliability& requested_level = requested_feature.levels[level];
-    auto least = single_feature_fault(requested_feature.feature, requested_level);
+    auto least = own_smallest_fault(requested_feature.feature, requested_level);
     for (const FeatureReliability& other : reliability.features) {
         for (const LevelReliability& there : other.levels) {
-            const auto bound = single_feature_fault(other.feature, there);
+            const auto bound = own_smallest_fault(other.feature, there);
             if (bound && (!least || bound->size < least->size) &&
                 finds_no_less(requested_level, there)) {
                 least = bound;

@@ -130,6 +130,10 @@ struct SmallestFault {
 GEARPOD_FIELDS(SmallestFault, feature, size, from_curve, source_, from_itself_)
 GEARPOD_FIELDS(SmallestFault::Source, feature, noise_level)
 
+// Smallest fault of one feature at one noise level by its own bound or demonstrated size alone.
+std::optional<SmallestFault> own_smallest_fault(const std::string& feature,
+                                                const LevelReliability& reliability);
+
 // Smallest fault of one feature (index in `reliability.features`) at a noise level.
 std::optional<SmallestFault> smallest_fault(const Reliability& reliability, std::size_t level,
                                             std::size_t feature);

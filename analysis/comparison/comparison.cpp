@@ -17,6 +17,10 @@
 
 namespace gearpod::analysis {
 
+std::size_t uniform_index(std::mt19937_64& engine, std::size_t count) {
+    return static_cast<std::size_t>((engine() >> 32) * count >> 32);
+}
+
 namespace {
 
 constexpr double kComparedPod = 0.9;
@@ -45,8 +49,7 @@ double a90_of(const HitMissTable& table, const PodForm& form) {
 std::vector<int> bootstrap_counts(std::size_t count, std::mt19937_64& engine) {
     std::vector<int> counts(count, 0);
     for (std::size_t i = 0; i < count; ++i) {
-        // Upper half of the product: uniform to count / 2^32, and the same with every library.
-        ++counts[static_cast<std::size_t>((engine() >> 32) * count >> 32)];
+        ++counts[uniform_index(engine, count)];
     }
     return counts;
 }

@@ -3,6 +3,7 @@
 // (paired), the variation common to both is removed from the difference.
 #pragma once
 
+#include <random>
 #include <span>
 #include <string>
 #include <vector>
@@ -63,5 +64,8 @@ struct Comparison {
 // differ in length or sizes. Results do not depend on the number of threads.
 Comparison compare_detection(const ComparedSample& a, const ComparedSample& b,
                              const ComparisonRequest& request, int threads);
+
+// Index below `count` for a resample: uniform to count / 2^32, and the same with every library.
+std::size_t uniform_index(std::mt19937_64& engine, std::size_t count);
 
 }  // namespace gearpod::analysis

@@ -7,6 +7,7 @@
 #include <random>
 #include <vector>
 
+#include "analysis/comparison/comparison.hpp"
 #include "analysis/reliability.hpp"
 #include "machine/team.hpp"
 
@@ -52,9 +53,8 @@ class Line {
   private:
     void fit() { terms_ = known_.colPivHouseholderQr().solve(changed_); }
     double residual(std::mt19937_64& engine) const {
-        // Upper half of the product: uniform, and the same with every library.
-        return residuals_[static_cast<Eigen::Index>(
-            (engine() >> 32) * static_cast<std::uint64_t>(residuals_.size()) >> 32)];
+        const auto count = static_cast<std::size_t>(residuals_.size());
+        return residuals_[static_cast<Eigen::Index>(uniform_index(engine, count))];
     }
 
     Eigen::MatrixXd known_;
@@ -77,18 +77,19 @@ Found found_in(const FeatureValues& values, const DetectionRequest& request) {
     level.hit_miss = pod_of_outcomes(values.test_size, hit, rates, request.confidence, 2);
     level.demonstrated_size =
         demonstrated_size(rates, values.test_size, hit, kReliablePd, request.confidence);
-    const auto fault = smallest_fault(Reliability{{{"", values.alarm, {level}}}, {}, {}}, 0, 0);
+    const auto fault = own_smallest_fault("", level);
     return {fault ? fault->size : std::numeric_limits<double>::infinity(),
             rates.cells.empty() ? kNan : rates.cells.back().pd};
 }
 
+// `values`: logarithms of the feature if `logarithm`.
 Found found_in_resample(const FeatureValues& values, const Line& healthy, const Line& faulty,
                         bool logarithm, const DetectionRequest& request, std::size_t resample) {
     std::mt19937_64 engine(resample);
     const Line healthy_line = healthy.resampled(engine), faulty_line = faulty.resampled(engine);
     const auto predicted = [&](double own, double size) {
         const Line& line = size > 0.0 ? faulty_line : healthy_line;
-        const double value = line.predict(logarithm ? std::log(own) : own, size, engine);
+        const double value = line.predict(own, size, engine);
         return logarithm ? std::exp(value) : value;
     };
     std::vector<double> sample, test;
@@ -130,11 +131,19 @@ PredictedDetection predicted_detection(const FeatureValues& values,
     if (healthy.size() < 4 || faulty.size() < 5) {
         return {};
     }
+    std::vector<double> sample(values.healthy.begin(), values.healthy.end()),
+        test(values.test.begin(), values.test.end());
+    for (std::vector<double>* const known : {&sample, &test}) {
+        for (double& value : *known) {
+            value = logarithm ? std::log(value) : value;
+        }
+    }
+    const FeatureValues own{values.alarm, sample, values.gearbox, values.test_size, test};
     const Line healthy_line(healthy, false), faulty_line(faulty, true);
     std::vector<double> sizes(kResamples), rates(kResamples);
     machine::for_each_index(kResamples, threads, [&](std::size_t r) {
         const Found found =
-            found_in_resample(values, healthy_line, faulty_line, logarithm, request, r);
+            found_in_resample(own, healthy_line, faulty_line, logarithm, request, r);
         sizes[r] = found.size;
         rates[r] = found.pd;
     });

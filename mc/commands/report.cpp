@@ -7,7 +7,6 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <span>
-#include <tuple>
 
 #include "mc/commands/commands.hpp"
 #include "mc/commands/lives.hpp"

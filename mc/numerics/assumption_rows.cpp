@@ -9,6 +9,12 @@ namespace gearpod::mc {
 
 AssumptionPairs assumption_pairs(const Planner& planner) {
     constexpr long kFewest = 8, kMost = 16;
+    const analysis::DetectionRequest request = planner.ensemble(planner.facts().numerics).request;
+    const bool faulty = std::ranges::any_of(
+        request.groups, [](const analysis::SizeGroup& group) { return group.high > 0.0; });
+    if (!faulty || request.importance_sampling) {
+        return {};
+    }
     AssumptionPairs all{planner.assumption_variants(), 0};
     const auto affordable = [&] {
         return planner.facts().gearboxes / 10 / static_cast<long>(all.variants.size());
@@ -18,17 +24,17 @@ AssumptionPairs assumption_pairs(const Planner& planner) {
         std::erase_if(all.variants,
                       [&](const AssumptionVariant& variant) { return variant.key == last; });
     }
-    if (all.variants.empty() ||
-        planner.tile(planner.facts().numerics).draw().rows.threshold_noise !=
-            NoiseSampling::plain) {
-        return {};
+    if (!all.variants.empty()) {
+        all.pairs = static_cast<int>(std::min(kMost, affordable()));
     }
-    all.pairs = static_cast<int>(std::min(kMost, affordable()));
     return all;
 }
 
 AssumptionRows assumption_rows(const Planner& planner) {
     const auto [variants, pairs] = assumption_pairs(planner);
+    if (variants.empty()) {
+        return {};
+    }
     const Numerics& numerics = planner.facts().numerics;
     const TilePlan tile = planner.tile(numerics);
     const std::vector<GearboxId> ids =

@@ -8,8 +8,8 @@ namespace gearpod::mc {
 
 // The study at half and at twice each assumption, and the number of healthy gearboxes, and of as
 // many faulty ones, that a run computes of each. All take at most a fifth of the number of the
-// run's gearboxes; assumptions for which that leaves too few are omitted, the last first. Empty for
-// tilted noise, whose rows have weights.
+// run's gearboxes; assumptions for which that leaves too few are omitted, the last first. Empty
+// without faults, and for tilted noise, whose rows have weights.
 struct AssumptionPairs {
     std::vector<AssumptionVariant> variants;
     int pairs = 0;

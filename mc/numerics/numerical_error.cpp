@@ -9,13 +9,11 @@
 #include "analysis/detection/detection.hpp"
 #include "lockstep/kernels/kernel_table.hpp"
 #include "machine/no_value.hpp"
-#include "machine/team.hpp"
 #include "mc/ensemble/batch_workers.hpp"
 #include "mc/ensemble/gearbox/gearbox_tile.hpp"
 #include "mc/ensemble/gearbox/solution_choice.hpp"
 #include "mc/numerics/pilot.hpp"
 #include "mc/numerics/solver_setting.hpp"
-#include "mc/results/reliability_of_results.hpp"
 
 namespace gearpod::mc {
 
@@ -74,31 +72,15 @@ std::optional<BatchRows> rows_among(const std::vector<GearboxId>& ids, std::size
     return found == ids.size() ? std::optional(rows) : std::nullopt;
 }
 
-// Values of the features of some gearboxes, by gearbox, and their fault sizes.
-struct Values {
-    std::vector<std::span<const double>> features;  // NaN for a gearbox that failed
-    std::vector<double> size;
-    std::size_t count = 0;  // of values of a gearbox
-};
-Values values_of(const RowShape& shape, const BatchRows& rows) {
-    Values values{{}, {}, shape.features * shape.levels};
-    for (std::size_t row = 0; row < rows.count(); ++row) {
-        const std::span all(rows.values);
-        values.features.push_back(
-            all.subspan(row * shape.values() + shape.parameters, values.count));
-        values.size.push_back(rows.values[row * shape.values() + shape.fault_size()]);
-    }
-    return values;
-}
-
-// Adds the differences of the first `test_count` gearboxes in one value. Infinite if a gearbox has
-// it with fine steps only.
-void add_differences(const Values& coarse, const Values& fine, std::size_t test_count,
-                     std::size_t value, NumericalError& error) {
+// Adds the differences of the first `test_count` gearboxes in one of their `count` values. Infinite
+// if a gearbox has it with fine steps only.
+void add_differences(const std::vector<double>& coarse, const std::vector<double>& fine,
+                     std::size_t test_count, std::size_t value, std::size_t count,
+                     NumericalError& error) {
     double squares = 0.0, largest = 0.0;
     std::size_t compared = 0;
     for (std::size_t g = 0; g < test_count; ++g) {
-        const double here = coarse.features[g][value], there = fine.features[g][value];
+        const double here = coarse[g * count + value], there = fine[g * count + value];
         if (std::isfinite(there)) {
             const double difference = std::isfinite(here) ? std::abs(here - there) : INFINITY;
             squares += difference * difference;
@@ -286,20 +268,20 @@ std::optional<NumericalError> find_numerical_error(const Planner& planner, const
         fine_rows = rows_of_gearboxes(planner.tile(finer->numerics),
                                       planner.ensemble(finer->numerics), ids);
     }
-    const Values coarse = values_of(ensemble.shape, *coarse_rows),
-                 fine_values = values_of(ensemble.shape, *fine_rows);
+    const std::vector<double> coarse = feature_values(ensemble.shape, *coarse_rows),
+                              fine_values = feature_values(ensemble.shape, *fine_rows);
+    const std::size_t count = ensemble.shape.features * ensemble.shape.levels;
     NumericalError error{with_steps(own_setting(numerics), planner).text(),
                          with_steps(*finer, planner).text(),
                          static_cast<int>(test_count),
                          {},
                          {}};
-    for (std::size_t value = 0; value < coarse.count; ++value) {
-        add_differences(coarse, fine_values, test_count, value, error);
+    for (std::size_t value = 0; value < count; ++value) {
+        add_differences(coarse, fine_values, test_count, value, count, error);
     }
     if (faulty > 0 && order.threshold_noise == NoiseSampling::plain) {
         error.pairs = changed_rows(order, ids);
-        error.pairs.changed.push_back(
-            {kFineSteps, 1.0, feature_values(ensemble.shape, *fine_rows)});
+        error.pairs.changed.push_back({kFineSteps, 1.0, fine_values});
     }
     return error;
 }

@@ -7,7 +7,6 @@
 #include <string>
 #include <vector>
 
-#include "analysis/reliability.hpp"
 #include "machine/fields.hpp"
 #include "mc/numerics/solver_setting.hpp"
 #include "mc/plan/planner.hpp"

@@ -13,16 +13,6 @@ namespace {
 
 using analysis::PredictedDetection;
 
-// Highest noise level up to that of the answer at which a fault is found, or that of the answer.
-std::size_t level_of(const analysis::Findings& findings) {
-    for (std::size_t level = findings.reference + 1; level-- > 0;) {
-        if (findings.smallest[level]) {
-            return level;
-        }
-    }
-    return findings.reference;
-}
-
 // Values of the feature that is best at a noise level, from which detection is predicted.
 class Answer {
   public:
@@ -129,7 +119,11 @@ AssumptionLimits assumption_limits(const Results& frame, const RowSource& rows,
         !has_sizes(findings.request)) {
         return limits;
     }
-    const std::size_t level = level_of(findings), best = findings.best(level);
+    const std::size_t reference = findings.reference,
+                      level = findings.smallest[reference]
+                                  ? reference
+                                  : quieter_level(findings).value_or(reference),
+                      best = findings.best(level);
     const Answer answer(frame, rows, best, level);
     const PredictedDetection as_is = answer.as_is();
     const analysis::SizeUnit& unit = findings.request.size;

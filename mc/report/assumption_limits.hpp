@@ -1,5 +1,4 @@
-// What detection would be at half and at twice an assumption of the study, as a limit of the
-// answer.
+// Limits of an answer: detection at half and at twice each assumption of its study.
 #pragma once
 
 #include <string>
@@ -15,8 +14,8 @@ struct AssumptionLimits {
     std::string fine_steps;  // the same on the steps of the integration
     analysis::Table table;   // all assumptions
 };
-// Of the best feature at the noise level of the answer, or at the next lower one at which a fault
-// is found.
+// The limits concern the best feature at the noise level of the answer, or at the next lower one at
+// which a fault is found.
 AssumptionLimits assumption_limits(const Results& frame, const RowSource& rows,
                                    const analysis::Findings& findings);
 

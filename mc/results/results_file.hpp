@@ -26,8 +26,7 @@
 //                          /assumptions
 //   /step_error            if teeth lose contact and the run is long enough: attributes sensor,
 //                          te, steps, finer_steps, gearboxes, meshes (StepError)
-//   /assumptions           rows (of the results), and for each changed assumption a dataset of
-//   these
+//   /assumptions           rows (of the results); for each changed assumption a dataset of these
 //                          rows x features x noise levels, attributes `key` and `factor`
 //   /timing/<name>         seconds, or a count (attribute `unit`)
 //   /signals/<row>/<name>  one value per sample, attribute `unit`: signals of the requested rows

@@ -311,7 +311,8 @@ std::string more_gearboxes(const Findings& findings, const LevelDetection& detec
                        needed * sizes, needed, sizes);
 }
 
-// Loudest noise below the reference at which a fault is found.
+}  // namespace
+
 std::optional<std::size_t> quieter_level(const Findings& findings) {
     for (std::size_t n = findings.reference; n-- > 0;) {
         if (findings.smallest[n]) {
@@ -320,8 +321,6 @@ std::optional<std::size_t> quieter_level(const Findings& findings) {
     }
     return std::nullopt;
 }
-
-}  // namespace
 
 Findings::Findings(const AssessedDetection& assessed) : AssessedDetection(assessed) {
     count_sample(*this);

@@ -64,6 +64,8 @@ TEST_CASE("A run without enough gearboxes or with tilted noise changes no assump
                                 "features.baseline_torque_scatter=0.02", "ensemble.instances=4000",
                                 "ensemble.threshold_records=8", "ensemble.threshold_tilt=true"})))
               .variants.empty());
+    CHECK(assumption_pairs(Planner(study_with({"fault.kind=none", "ensemble.instances=4000"})))
+              .variants.empty());
     // Several levels of noise show its effect themselves.
     CHECK(assumption_pairs(Planner(study_with({"sensor.noise_levels=[0.5,1]"}))).variants.size() ==
           2);
