@@ -99,7 +99,7 @@ struct InputEffect {
     std::vector<SizeBounds> a90;  // one per value
     std::string refusal;          // reason why there are no test and no a90, or ""
 };
-GEARPOD_FIELDS(InputEffect, name_, unit_, bins, statistic, degrees, p_value, values_, a90_, refusal)
+GEARPOD_FIELDS(InputEffect, name_, unit_, bins, statistic, degrees, p_value, values, a90, refusal)
 
 struct InputEffects {
     double smallest = 0.0, largest = 0.0;  // fault sizes of the bins; NaN if there are none

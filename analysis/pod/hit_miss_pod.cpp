@@ -93,7 +93,7 @@ Fitted fit_form(const HitMissTable& table, Scales& scales, const PodForm& form,
         return result;
     }
     if (form.floor == 0.0 && !form.free_ceiling && !form.firth && separated(table)) {
-        fit.refusal = "hits and misses do not overlap, so the slope is undetermined";
+        fit.refusal = "hits and misses do not overlap in size, so a curve of any steepness fits";
         return result;
     }
     if (static_cast<int>(table.size()) < form.parameters()) {

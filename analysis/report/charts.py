@@ -11,8 +11,7 @@ import matplotlib
 
 matplotlib.use("svg")
 import matplotlib.pyplot as plt  # noqa: E402
-from matplotlib.colors import to_hex, to_rgb  # noqa: E402
-from matplotlib.patches import Rectangle  # noqa: E402
+from matplotlib.colors import to_hex  # noqa: E402
 from matplotlib.transforms import ScaledTranslation  # noqa: E402
 
 # Distinguishable with any colour vision, and with a contrast of at least 3 : 1 to the page in
@@ -32,7 +31,6 @@ _SCHEME.update({light: f"--series-{i}" for i, (light, _) in enumerate(SERIES)})
 warnings.filterwarnings("ignore", message="Glyph")
 
 LABELS = 30  # points from an axis to the text below its tick labels and axis label
-GAP = "#d3d8dd"  # colour of a map square that has no number
 
 # Colours from low to high noise. (light scheme, dark scheme)
 LOW_NOISE = ((0.42, 0.68, 0.88), (0.65, 0.85, 1.0))
@@ -71,7 +69,7 @@ def shade(share):
 
 def panel(height=3.2):
     """One chart, of a width that keeps its text readable on a phone."""
-    return plt.subplots(figsize=(4.4, height), layout="constrained")
+    return plt.subplots(figsize=(4.4, height), layout="tight")
 
 
 # Line at a value that the numbers of a chart are compared with.
@@ -133,28 +131,6 @@ def between(low, high, share):
 _SHADES = [tuple(to_hex(between(LOW_NOISE[i], HIGH_NOISE[i], step / (SHADES - 1))) for i in (0, 1))
            for step in range(SHADES)]
 _SCHEME.update({light: f"--shade-{i}" for i, (light, _) in enumerate(_SHADES)})
-
-
-def cell(axes, column, row, fill, text):
-    """Coloured square of a map with a number on it, in dark or light text for contrast."""
-    axes.add_patch(Rectangle((column + 0.02, row + 0.03), 0.96, 0.94, facecolor=fill,
-                             edgecolor="none"))
-    red, green, blue = (part / 12.92 if part <= 0.04045 else ((part + 0.055) / 1.055) ** 2.4
-                        for part in to_rgb(fill))
-    bright = 0.2126 * red + 0.7152 * green + 0.0722 * blue > 0.18
-    # Not INK: the text is on the square, whatever the page's scheme.
-    axes.text(column + 0.5, row + 0.5, text, ha="center", va="center", fontsize=9,
-              color="#101418" if bright else "#fefefe")
-
-
-def map_axes(axes, title, columns, rows, axis, rotation=0):
-    """Axes of a map of squares over noise, with the names of its columns and rows."""
-    axes.set(xlim=(0, max(1, len(columns))), ylim=(0, max(1, len(rows))), xlabel=axis,
-             ylabel="noise", title=title)
-    axes.set_xticks([i + 0.5 for i in range(len(columns))], columns, rotation=rotation)
-    axes.set_yticks([i + 0.5 for i in range(len(rows))], rows)
-    axes.tick_params(length=0)
-    axes.grid(False)
 
 
 class SvgNames:

@@ -1,15 +1,13 @@
-"""Figures on detection: POD, ROC curve, detection rates over noise, ranking of the features."""
+"""Figures on detection: POD, ROC curve, ranking of the features."""
 
 import math
 
-from charts import (DASHED, GAP, RULE, between, cell, colour, dash, legend_below, map_axes, mark_size, marker, marks,
-                    panel, shade, to_svg)
+from charts import (DASHED, RULE, colour, dash, legend_below, mark_size, marker, marks, panel, shade, to_svg)
 from words import joined, noise, number, percent, rate
 
 REJECTED = "Dotted: curves that do not fit the hits and misses, without bounds."
 POOR = " (poor fit)"
 MOST_INSIDE = 12  # entries of a legend within the axes
-MISSED, FOUND = (0.93, 0.95, 0.98), (0.03, 0.25, 0.48)
 
 
 def _limits(axes, report):
@@ -91,7 +89,7 @@ def headline(report, page):
                   page.names)
 
 
-def _comparison(report, page):
+def comparison(report, page):
     n = report.reference
     labels = [name + (POOR if report.reliable(f, n)["hit_miss"]["doubtful"] else "")
               for f, name in enumerate(report.names)]
@@ -146,50 +144,26 @@ def of_feature(axes, report, f):
         axes.legend(title="noise", loc="best", title_fontsize=9, handletextpad=0.2)
 
 
-def _by_feature(report, page):
+def by_feature(report, page):
+    """Detection rates over size at every noise level, with the curves where they exist."""
     charts = []
     for f in report.order(report.reference):
         figure, axes = panel()
         of_feature(axes, report, f)
-        states = "; ".join(f"{noise(level)}: {_state(report, f, n).split(': ', 1)[1]}"
-                           for n, level in enumerate(report.levels))
+        rates = "; ".join(f"{noise(level)}: " + ", ".join(rate(c["pd"]) for c in report.cells(f, n))
+                          for n, level in enumerate(report.levels))
         charts.append(to_svg(figure, f"Probability of detection of {report.names[f]} by noise",
-                             states, page.names))
+                             rates, page.names))
     refused = [f"{report.names[f]} at {noise(level)}"
                for f in report.order(report.reference) for n, level in enumerate(report.levels)
-               if report.reliable(f, n)["hit_miss"]["refusal"]]
+               if report.reliability and report.reliable(f, n)["hit_miss"]["refusal"]]
     how = ("Marks are detection rates with their Wilson bounds, at "
-           f"{percent(report.confidence)}; lines are the fitted curves with their bounds, from blue "
-           "for the least noise to red for the most. " + REJECTED
+           f"{percent(report.confidence)}, from blue for the least noise to red for the most"
+           + ("; lines are the fitted curves with their bounds. " + REJECTED if report.reliability else ".")
            + (f" There is no curve for {joined(refused)}: the reasons are listed with the numbers."
               if refused else ""))
     return page.figure("Probability of detection by feature and noise", charts, how,
-                       report.tables("curves."))
-
-
-def heat_maps(report, page):
-    """Detection rates over noise and size."""
-    charts = []
-    for f in report.order(report.reference):
-        cells = [report.cells(f, n) for n in range(len(report.levels))]
-        sizes = [report.sizes.group(c["size_low"], c["size_high"]).replace(
-            f"\u00a0{report.sizes.unit}", "") for c in cells[0]]
-        figure, axes = panel(0.95 + 0.36 * len(cells))
-        for n, row in enumerate(cells):
-            for i, c in enumerate(row):
-                known = c["pd"] is not None
-                cell(axes, i, n, between(MISSED, FOUND, c["pd"]) if known else GAP, rate(c["pd"]))
-        map_axes(axes, report.names[f], sizes, [f"× {number(level)}" for level in report.levels],
-                 report.sizes.axis(), rotation=40 if any(len(s) > 5 for s in sizes) else 0)
-        about = "; ".join(
-            f"{noise(level)}: " + ", ".join(rate(c["pd"]) for c in cells[n])
-            for n, level in enumerate(report.levels))
-        charts.append(to_svg(figure, f"Detection rate of {report.names[f]} over noise and size",
-                             about, page.names))
-    how = ("Share of gearboxes that raise an alarm, by fault size (horizontal) and noise "
-           "(vertical); dark means that many are found. A column of size 0 shows false alarms.")
-    return page.figure("Detection rate over noise and fault size", charts, how,
-                       report.tables("rates."))
+                       report.tables("rates.") + report.tables("curves."))
 
 
 def roc(report, page):
@@ -270,7 +244,3 @@ def ranking(report, page):
            f"{percent(report.confidence)}. {report.text(f'ranking.{report.reference}')}")
     return page.figure("Ranking of the features", [svg], how,
                        report.tables("ranks.") + report.notes("unranked."))
-
-
-def pod(report, page):
-    return _comparison(report, page) + _by_feature(report, page)

@@ -89,10 +89,9 @@ InputEffect effect_of(const LevelReliability& level, const std::string& input) {
     return found == all.end() ? none : *found;
 }
 
-// Every input that varies among the test gearboxes of any feature: its unit, and what `level_json`
-// makes of its effect, by feature and level.
-template <typename LevelJson>
-Json by_input(const Reliability& reliability, LevelJson level_json) {
+// Every input that varies among the test gearboxes of any feature: its unit, and its effect by
+// feature and level.
+Json by_input(const Reliability& reliability) {
     Json inputs = Json::object();
     for (const FeatureReliability& feature : reliability.features) {
         for (const LevelReliability& level : feature.levels) {
@@ -105,7 +104,11 @@ Json by_input(const Reliability& reliability, LevelJson level_json) {
         for (const FeatureReliability& feature : reliability.features) {
             Json levels = Json::array();
             for (const LevelReliability& level : feature.levels) {
-                levels.push_back(level_json(level, effect_of(level, name)));
+                Json of_level = fields_json(effect_of(level, name));
+                of_level["noise_level"] = level.noise_level;
+                of_level["size_low"] = number(level.inputs.smallest);
+                of_level["size_high"] = number(level.inputs.largest);
+                levels.push_back(std::move(of_level));
             }
             input["features"].push_back({{"name", feature.feature}, {"levels", levels}});
         }
@@ -132,29 +135,10 @@ Json noise_json(const Reliability& reliability, double confidence) {
     return {{"unit", "1"}, {"features", features}};
 }
 
-// Dependence of detection on every random input and on the noise, in bins.
+// Dependence of detection on every random input and on the noise.
 Json robustness_json(const Reliability& reliability, const DetectionRequest& request) {
-    Json json = by_input(reliability, [](const LevelReliability& level, const InputEffect& effect) {
-        Json of_level = fields_json(effect);
-        of_level["noise_level"] = level.noise_level;
-        of_level["size_low"] = number(level.inputs.smallest);
-        of_level["size_high"] = number(level.inputs.largest);
-        return of_level;
-    });
+    Json json = by_input(reliability);
     json["noise_level"] = noise_json(reliability, request.confidence);
-    return json;
-}
-
-// a90 over values of every random input.
-Json a90_maps_json(const Reliability& reliability, const DetectionRequest& request) {
-    Json json = by_input(reliability, [](const LevelReliability&, const InputEffect& effect) {
-        return Json{{"values", effect.values},
-                    {"a90", json_of(effect.a90)},
-                    {"refusal", text_or_null(effect.refusal)}};
-    });
-    for (Json& input : json) {
-        input["noise_levels"] = request.noise_levels;
-    }
     return json;
 }
 
@@ -218,8 +202,7 @@ nlohmann::json reliability_json(const Reliability& reliability, const DetectionR
             {"levels", levels},
             {"features", features},
             {"conditions", json_of(reliability.conditions)},
-            {"robustness", robustness_json(reliability, request)},
-            {"a90_maps", a90_maps_json(reliability, request)}};
+            {"robustness", robustness_json(reliability, request)}};
 }
 
 nlohmann::json smallest_faults_json(std::span<const FeatureDetection> detection,

@@ -1,12 +1,11 @@
-"""Figures on the dependence of detection on every random input: rates in bins, and a90 as a map over noise and input."""
+"""Figure on the dependence of detection on every random input: rates in bins."""
 
 from blocks import note
-from charts import GAP, MUTED, between, cell, colour, map_axes, panel, to_svg
+from charts import MUTED, colour, panel, to_svg
 from detection_figures import best
-from words import input_name, noise, number, percent, quantity, rate_with_bounds, with_unit
+from words import input_name, noise, percent, quantity, rate_with_bounds, with_unit
 
 MOST_CHARTS = 6
-SMALL, LARGE = (0.93, 0.95, 0.98), (0.45, 0.13, 0.20)  # colours of small and large a90
 
 
 def _effects(report, f, n):
@@ -73,50 +72,3 @@ def _axis_scale(bins, unit):
         if largest * factor >= (1 if factor < 1 else 0.1):
             return factor, prefix + shown
     return 1.0, shown
-
-
-def a90_maps(report, page):
-    """a90 over noise and one input, for the inputs with a significant influence."""
-    maps = report.reliability.get("a90_maps")
-    if not maps:
-        return ""
-    f, n = best(report), report.reference
-    names = [e[0] for e in _clear(_effects(report, f, n))]
-    shown = [name for name in names if any(
-        level["a90"] for level in maps[name]["features"][f]["levels"])][:MOST_CHARTS]
-    if not shown:
-        return ""
-    charts = [_map_chart(report, page, f, name, maps[name]) for name in shown]
-    how = (f"Fault size that {report.names[f]} finds with 90 % probability (estimate), for "
-           "gearboxes with the given value of one input (its 5, 25, 50, 75 and 95 % quantiles, "
-           "or all its values), at each noise level. Dark: only large faults are found; ‘>’: "
-           "larger than tested, ‘<’: smaller than tested, –: no curve. Bounds are listed with "
-           "the numbers.")
-    return page.figure("Smallest fault found over noise and input", charts, how,
-                       "".join(report.table(f"a90_map.{name}") for name in shown))
-
-
-def _map_chart(report, page, f, name, entry):
-    levels = entry["features"][f]["levels"]
-    values = max((level["values"] for level in levels), key=len)
-    largest = max((c["size_high"] for c in report.cells(f, 0)), default=1) or 1
-    figure, axes = panel(0.95 + 0.36 * len(levels))
-    texts = []
-    for n, level in enumerate(levels):
-        row = ["–"] * len(values)
-        fills = [GAP] * len(values)
-        for i, found in enumerate(level["a90"]):
-            estimate = found["estimate"]
-            row[i] = report.sizes.estimate(estimate, report.reliable(f, n)["hit_miss"],
-                                           lambda size: number(report.sizes.shown(size)))
-            fills[i] = between(SMALL, LARGE, {"below_tested": 0.0, "not_reached": 1.0}.get(
-                estimate["where"], (estimate["size"] or 0.0) / largest))
-        for i, (fill, text) in enumerate(zip(fills, row)):
-            cell(axes, i, n, fill, text)
-        texts.append(f"{noise(report.levels[n])}: {', '.join(row)}")
-    factor, shown = _axis_scale([{"high": v} for v in values], entry["unit"])
-    map_axes(axes, f"a90, {report.sizes.unit or report.sizes.name}",
-             [number(v * factor) for v in values], [f"× {number(v)}" for v in report.levels],
-             with_unit(input_name(name, entry["unit"]).capitalize(), shown, ", "))
-    return to_svg(figure, f"a90 of {report.names[f]} over noise and "
-                  f"{input_name(name, entry['unit'])}", "; ".join(texts), page.names)

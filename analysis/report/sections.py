@@ -12,11 +12,11 @@ from words import escape, percent
 
 def detection(report, page):
     if report.curves:
-        body = detection_figures.pod(report, page)
+        body = detection_figures.comparison(report, page)
     else:
         body = (note(report.text("headline")) if not report.assessable else "") + report.notes("too_many")
     if any(c["tested"] for f in report.detection for level in f["levels"] for c in level["sizes"]):
-        body += detection_figures.heat_maps(report, page)
+        body += detection_figures.by_feature(report, page)
     return page.section("detection", "Detection", body + report.tables("values."))
 
 
@@ -37,8 +37,7 @@ def features(report, page):
 def inputs(report, page):
     if not report.curves:
         return ""
-    body = (influence_figures.misses(report, page) + input_figures.rates_by_input(report, page)
-            + input_figures.a90_maps(report, page))
+    body = influence_figures.misses(report, page) + input_figures.rates_by_input(report, page)
     if "conditions.how" in report.findings:
         body += ("<h3>Thresholds by operating condition</h3>" + report.notes("conditions.")
                  + report.tables("conditions."))

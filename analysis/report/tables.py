@@ -136,14 +136,13 @@ def inputs(report, _unit):
 
 
 def a90_by_input(report, unit):
-    for name, entry in (at(report, "reliability", "a90_maps") or {}).items():
-        for feature in entry["features"]:
-            for noise, level in zip(entry["noise_levels"], feature["levels"]):
-                for value, found in zip(level["values"], level["a90"]):
-                    yield {"input": name, "unit": entry["unit"], "feature": feature["name"],
-                           "noise_level": noise, "value": value,
-                           **{column + unit: at(found, end, "size") for column, end in (
-                               ("a90", "estimate"), ("a90_lower", "lower"), ("a90_upper", "upper"))}}
+    for name, entry in (at(report, "reliability", "robustness") or {}).items():
+        for feature, level in lines(entry, "features", "levels"):
+            for value, found in zip(level.get("values", ()), level.get("a90", ())):
+                yield {"input": name, "unit": entry["unit"], "feature": feature["name"],
+                       "noise_level": level["noise_level"], "value": value,
+                       **{column + unit: at(found, end, "size") for column, end in (
+                           ("a90", "estimate"), ("a90_lower", "lower"), ("a90_upper", "upper"))}}
 
 
 def conditions(report, unit):

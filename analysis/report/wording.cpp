@@ -143,6 +143,9 @@ std::string input_name(const std::string& name, const std::string& unit) {
         return "sensor noise";
     }
     std::string suffix = unit.empty() || unit == "1" ? "" : "_" + unit;
+    if (unit.ends_with("/sqrt(Hz)")) {
+        suffix.replace(suffix.find("/sqrt(Hz)"), std::string::npos, "_per_sqrt_Hz");
+    }
     std::erase(suffix, '^');
     std::replace(suffix.begin(), suffix.end(), '/', '_');
     std::replace(suffix.begin(), suffix.end(), ' ', '_');

@@ -96,7 +96,7 @@ def input_name(name, unit):
     stiffness."""
     if name == "noise_m_s2":
         return "sensor noise"
-    suffix = re.sub("[/ ]", "_", unit).replace("^", "")
+    suffix = re.sub("[/ ]", "_", unit.replace("/sqrt(Hz)", "_per_sqrt_Hz")).replace("^", "")
     return (name if unit in ("", "1") else name.removesuffix("_" + suffix)).replace("_", " ")
 
 

@@ -90,7 +90,7 @@ nlohmann::json model_options(const CLI::App& command, const NewOptions& options)
           std::tuple{"--load-case", "load_case", nlohmann::json(options.load_case)},
           std::tuple{"--input", "input", nlohmann::json(data.input)},
           std::tuple{"--planets", "planets", nlohmann::json(data.planets)},
-          std::tuple{"--quality", "quality", nlohmann::json(data.quality)},
+          std::tuple{"--quality", "quality", nlohmann::json(data.quality.value_or(0))},
           std::tuple{"--addendum", "addendum", nlohmann::json(data.addendum.value_or(0))},
           std::tuple{"--face-width", "face_width_mm",
                      nlohmann::json(data.face_width_mm.value_or(0))},

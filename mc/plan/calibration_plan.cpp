@@ -139,6 +139,7 @@ std::string text_without_distributions(Study study, std::span<const CalibratedIn
     study.detection.uncertain_inputs.clear();
     for (const CalibratedInput& input : inputs) {
         study.detection.uncertain_inputs.push_back(input.key);
+        std::erase(study.detection.chosen_values, input.key);
     }
     std::erase_if(study.random, [&](const RandomInput& random) {
         return std::ranges::count(inputs, random.key, &CalibratedInput::key) > 0;

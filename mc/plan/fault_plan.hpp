@@ -27,6 +27,8 @@ struct FaultPlan {
 
     bool given() const { return !kind.empty(); }
     const Unit& unit() const { return size_key->unit; }
+    // "a crack in planet 1, sun side"; "" without a fault.
+    std::string phrase() const { return given() ? words + " in " + location : ""; }
     // "crack_3mm", or "chip_0.1" for a pure number.
     std::string name_at(double size) const;
 };

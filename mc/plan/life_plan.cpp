@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "analysis/statistics/distributions.hpp"
+#include "mc/plan/fault_plan.hpp"
 #include "mc/study/assumptions.hpp"
 #include "mc/study/faults/crack.hpp"
 #include "mc/study/fluctuations.hpp"
@@ -213,7 +214,7 @@ CampaignPlan make_campaign_plan(const Study& study) {
     EnsemblePlan ensemble(study);
     ensemble.inputs = EnsemblePlan(study_of_gearboxes(study)).inputs;
     return {.ensemble = std::move(ensemble),
-            .assumptions = mc::assumptions(study, true),
+            .assumptions = mc::assumptions(study, true, make_fault_plan(study).phrase()),
             .counting_lives = study.life.healthy_lives,
             .records = study.life.records,
             .baseline_records = study.monitoring.baseline_records,

@@ -1,11 +1,38 @@
 #include "mc/plan/study_facts.hpp"
 
+#include <fmt/format.h>
+
+#include <numbers>
+
+#include "analysis/report/wording.hpp"
 #include "mc/plan/record_plan.hpp"
 #include "mc/study/assumptions.hpp"
+#include "mc/study/gears.hpp"
 #include "mc/study/noise.hpp"
 #include "mc/study/other_sources.hpp"
 
 namespace gearpod::mc {
+namespace {
+
+// Noise that x 1 stands for.
+std::string noise_unit_text(const Study& study) {
+    constexpr double kArcSeconds = 180.0 * 3600.0 / std::numbers::pi;  // per radian
+    const double sensor = study.effects.quasi_static() ? 0.0 : sensor_noise_m_s2(study),
+                 encoder = kArcSeconds * study.sensor.encoder_noise_rad;
+    std::vector<std::string> parts;
+    if (sensor > 0.0) {
+        parts.push_back(fmt::format("{} m/s^2 rms at the sensor{}", analysis::number_text(sensor),
+                                    chosen_mark(study, noise_key(study))));
+    }
+    if (encoder > 0.0) {
+        parts.push_back(fmt::format("{} arc second{} rms on the transmission error",
+                                    analysis::number_text(encoder), encoder == 1.0 ? "" : "s"));
+    }
+    return parts.empty() ? "The study adds no noise."
+                         : "Noise x 1 is " + analysis::joined(parts) + ".";
+}
+
+}  // namespace
 
 std::optional<MeasuringFacts> measuring_facts(const std::string& study_text,
                                               const std::string& name) {
@@ -25,14 +52,19 @@ std::optional<RunFacts> run_facts(const std::string& study_text, const std::stri
     if (!study) {
         return std::nullopt;
     }
+    const FaultPlan fault = make_fault_plan(*study);
     const std::string other_fault = other_fault_text(*study);
     return RunFacts{.ensemble = EnsemblePlan(*study),
                     .rows = RowOrder(study->ensemble),
-                    .fault = make_fault_plan(*study),
+                    .fault = fault,
                     .other_fault = other_fault.empty() ? "another fault" : other_fault,
-                    .conditions = assumptions(*study, false),
+                    .conditions = assumptions(*study, false, fault.phrase()),
                     .record = record_conditions(*study),
                     .false_alarms = false_alarm_target_text(*study),
+                    .noise = noise_unit_text(*study),
+                    .untested = has_gears(*study) && !has_tooth_errors(*study)
+                                    ? "repeat it with real teeth (gearbox.tooth_quality)"
+                                    : "",
                     .sensor_noise_m_s2 = study->effects.quasi_static()
                                              ? std::nullopt
                                              : std::optional(sensor_noise_m_s2(*study)),

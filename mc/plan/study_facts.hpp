@@ -29,6 +29,8 @@ struct RunFacts {
     std::string conditions;    // see assumptions()
     std::string record;        // see record_conditions()
     std::string false_alarms;  // see false_alarm_target_text()
+    std::string noise;         // "Noise x 1 is 0.02 m/s^2 rms at the sensor"
+    std::string untested;      // next step that removes an idealization, or ""
     // Nominal noise at level 1; no value for quasi-static gearboxes.
     std::optional<double> sensor_noise_m_s2;
     double encoder_noise_rad;

@@ -164,14 +164,16 @@ AssumptionLimits assumption_limits(const Results& frame, const RowSource& rows,
                       twice = cell(first.twice, by_size, unit),
                       present = cell(as_is, by_size, unit, false);
     limits.strongest = by_size ? fmt::format(
-                                     "Assumed {}: at half {} would find a {} of {}, at twice {}, "
-                                     "instead of {}{}{}.",
+                                     "Assumed {}: if half as large, {} would find a {} of {}, if "
+                                     "twice as large {}, instead of {}{}{}.",
                                      first.name, feature, fault, half, twice, present,
                                      std::isinf(as_is.size) ? "" : shown_unit, at)
                                : fmt::format(
-                                     "Assumed {}: at half {} would find {} % of those of {}, at "
-                                     "twice {} %, instead of {} %{}.",
+                                     "Assumed {}: if half as large, {} would find {} % of those of "
+                                     "{}, if twice as large {} %, instead of {} %{}.",
                                      first.name, feature, half, largest, twice, present, at);
+    constexpr double kLittle = 0.1;  // of the size, or of all faults
+    limits.decides = first.strength(by_size) > kLittle;
     limits.table = {
         "limit.assumptions",
         fmt::format("{}{} if an assumption is half or twice as large, predicted with its 95 % "

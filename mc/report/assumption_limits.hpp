@@ -11,6 +11,7 @@ namespace gearpod::mc {
 // "" and no rows where the results have no rows with changed assumptions (AssumptionRows).
 struct AssumptionLimits {
     std::string strongest;   // sentence on the assumption that changes the answer most
+    bool decides = false;    // it changes a size, or the share that is found, by more than 10 %
     std::string fine_steps;  // the same on the steps of the integration
     analysis::Table table;   // all assumptions
 };

@@ -4,6 +4,7 @@
 #include <bit>
 #include <cmath>
 #include <exception>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <numeric>
 #include <optional>
@@ -75,8 +76,8 @@ Json time_json(std::span<const double> values, int samples_per_mesh) {
 }
 
 // One-sided amplitude spectrum over the whole span.
-std::vector<double> amplitudes_of(const std::vector<double>& signal) {
-    signals::OrderSpectrum spectrum(static_cast<int>(signal.size()));
+std::vector<double> amplitudes_of(signals::OrderSpectrum& spectrum,
+                                  const std::vector<double>& signal) {
     spectrum.load(signal);
     std::vector<double> amplitude(static_cast<std::size_t>(spectrum.orders()));
     spectrum.amplitudes(0.0, amplitude);
@@ -85,10 +86,11 @@ std::vector<double> amplitudes_of(const std::vector<double>& signal) {
 
 // Spectra over the whole band and around the largest noise-free line, one-sided amplitudes over the
 // whole span, thinned to the largest line of each interval. `meshes`: lines per mesh frequency.
-Json spectrum_json(const std::vector<double>& clean, const std::vector<double>& noisy,
-                   std::size_t meshes, double period_s) {
+Json spectrum_json(signals::OrderSpectrum& spectrum, const std::vector<double>& clean,
+                   const std::vector<double>& noisy, std::size_t meshes, double period_s) {
     const double resolution_Hz = 1.0 / (static_cast<double>(meshes) * period_s);
-    const std::vector<double> without = amplitudes_of(clean), with = amplitudes_of(noisy);
+    const std::vector<double> without = amplitudes_of(spectrum, clean),
+                              with = amplitudes_of(spectrum, noisy);
     const auto top = static_cast<std::size_t>(std::max_element(without.begin() + 1, without.end()) -
                                               without.begin());
     const auto reach = static_cast<std::size_t>(kZoomMeshes * static_cast<double>(meshes));
@@ -319,7 +321,7 @@ class Examples {
     // Spectrum and RMS of each tooth of a sensor's record, whose features were computed last.
     Json sensor_json(const SensorPlan& sensor, const Signals& signals,
                      const RealizationFeatures& features, const std::vector<double>& noisy_rms,
-                     double period_s) const {
+                     double period_s) {
         std::vector<double> clean_rms(noisy_rms.size());
         signals::Windowing windowing(signals.layout, plan_.record.samples,
                                      plan_.features.tukey_taper);
@@ -327,8 +329,10 @@ class Examples {
                                                             : features.record().folded);
         windowing.search(0.0, clean_rms);
         rotate_to_first_tooth(features.record(), 1, clean_rms);
+        const auto points = static_cast<int>(signals.noisy.size());
+        signals::OrderSpectrum& spectrum = spectra_.try_emplace(points, points).first->second;
         return {{"spectrum",
-                 spectrum_json(signals.record.sensor, signals.noisy,
+                 spectrum_json(spectrum, signals.record.sensor, signals.noisy,
                                static_cast<std::size_t>(signals.layout.meshes()), period_s)},
                 {"tooth_rms", {{"clean", clean_rms}, {"noisy", noisy_rms}}}};
     }
@@ -347,7 +351,7 @@ class Examples {
                 {"highest_Hz", kBeyondBand * plan_.features.low_pass_Hz}};
     }
 
-    Json additional_sensors(const GearboxTile& tile, LaneId lane, double period_s) const {
+    Json additional_sensors(const GearboxTile& tile, LaneId lane, double period_s) {
         Json all = Json::array();
         for (const SensorPlan& sensor : std::span(*plan_.sensors).subspan(1)) {
             const HealthyReference healthy = healthy_reference(plan_, sensor.number);
@@ -373,6 +377,8 @@ class Examples {
     const HealthyReference healthy_;
     RealizationFeatures features_;
     const std::size_t level_;
+    // By number of samples: their tables cost more than a transform.
+    std::map<int, signals::OrderSpectrum> spectra_;
 };
 
 Json gearboxes_json(const TilePlan& tile, const EnsemblePlan& ensemble, const Results& frame,

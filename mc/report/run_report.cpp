@@ -7,7 +7,6 @@
 #include <functional>
 #include <map>
 #include <nlohmann/json.hpp>
-#include <numbers>
 #include <utility>
 
 #include "analysis/report/detection_json.hpp"
@@ -44,23 +43,6 @@ analysis::Section state_section(const Results& frame, const RowCounts& counts) {
     return section;
 }
 
-// Noise that x 1 stands for.
-std::string noise_unit_text(const RunFacts& facts) {
-    const double encoder = facts.encoder_noise_rad;
-    if (facts.sensor_noise_m_s2.value_or(0.0) == 0.0 && encoder == 0.0) {
-        return "The study adds no noise. ";
-    }
-    std::vector<std::string> parts;
-    if (facts.sensor_noise_m_s2) {
-        parts.push_back(analysis::number_text(*facts.sensor_noise_m_s2) +
-                        " m/s^2 rms at the sensor");
-    }
-    constexpr double kArcSeconds = 180.0 * 3600.0 / std::numbers::pi;  // per radian
-    parts.push_back(analysis::number_text(encoder * kArcSeconds) +
-                    " arc seconds rms on the transmission error");
-    return "Noise x 1 is " + analysis::joined(parts) + " (nominal). ";
-}
-
 std::string facts_text(const analysis::Findings& findings, const RowCounts& counts,
                        const std::optional<RunFacts>& facts) {
     bool any = false;
@@ -78,9 +60,9 @@ std::string facts_text(const analysis::Findings& findings, const RowCounts& coun
     return recorded ? fmt::format("{} recordings, {} of them known as healthy and {} as faulty.{}",
                                   counts.all, findings.healthy, findings.faulty, thresholds)
                     : fmt::format(
-                          "{}{} simulated gearboxes, {}; {} healthy and {} "
+                          "{} simulated gearboxes, {}; {} healthy and {} "
                           "faulty ones have values.{}{}",
-                          facts ? noise_unit_text(*facts) : "", counts.all,
+                          counts.all,
                           counts.failed() == 0
                               ? "all computed"
                               : fmt::format("{} of which could not be computed", counts.failed()),
@@ -184,15 +166,16 @@ void fill_report(const Results& frame, const RowSource& rows,
     const analysis::Findings findings({frame.detection, reliability ? &*reliability : nullptr,
                                        frame.request, subject_of(frame), fault.words,
                                        reference_level(frame.noise_levels), units,
-                                       [&fault](double size) { return fault.share.text(size); }});
+                                       [&fault](double size) { return fault.share.text(size); },
+                                       run.facts ? run.facts->untested : ""});
     if (!findings.detection.empty() && findings.levels() > 0) {
         run.best_feature = findings.name(findings.best(findings.reference));
     }
     analysis::Report& report = run.report;
     report.add(state_section(frame, run.failures.counts));
-    analysis::Section answer =
-        analysis::headline_section(findings, run.facts ? run.facts->conditions : "",
-                                   facts_text(findings, run.failures.counts, run.facts));
+    analysis::Section answer = analysis::headline_section(
+        findings, run.facts ? run.facts->conditions : "", run.facts ? run.facts->noise : "",
+        facts_text(findings, run.failures.counts, run.facts));
     answer.state("record", run.facts ? run.facts->record : "");
     if (run.monitoring) {
         report.add(monitoring_answer(*run.monitoring));
@@ -200,8 +183,9 @@ void fill_report(const Results& frame, const RowSource& rows,
     report.add(std::move(answer));
     AssumptionLimits assumptions = assumption_limits(frame, rows, findings);
     analysis::Section limits = analysis::limits_section(
-        findings, {assumptions.strongest, numerical_of(findings, run.numerical),
-                   assumptions.fine_steps, other_fault_of(findings, frame, run)});
+        findings,
+        {assumptions.strongest, numerical_of(findings, run.numerical), assumptions.fine_steps,
+         other_fault_of(findings, frame, run), assumptions.decides});
     limits.add(std::move(assumptions.table));
     report.add(std::move(limits));
     analysis::Section values = feature_values(frame, rows);

@@ -21,7 +21,8 @@ std::string teeth(const Study& study) {
         return "teeth of random ISO 1328 grades";
     }
     return study.errors.tooth_quality
-               ? fmt::format("teeth of ISO 1328 grade {:g}", *study.errors.tooth_quality)
+               ? fmt::format("teeth of ISO 1328 grade {:g}", *study.errors.tooth_quality) +
+                     chosen_mark(study, "gearbox.tooth_quality")
                : "teeth with individual errors";
 }
 
@@ -59,7 +60,11 @@ std::string machines_text(int machines) {
 
 }  // namespace
 
-std::string assumptions(const Study& study, bool lives) {
+std::string chosen_mark(const Study& study, const std::string& key) {
+    return std::ranges::count(study.detection.chosen_values, key) > 0 ? " (chosen)" : "";
+}
+
+std::string assumptions(const Study& study, bool lives, const std::string& fault) {
     if (!has_gears(study)) {
         return "";
     }
@@ -77,16 +82,19 @@ std::string assumptions(const Study& study, bool lives) {
         all.push_back(study.life.curve_h.empty() ? "cracks that grow by Paris' law"
                                                  : "cracks that grow along the given curve");
     }
-    std::string text = fmt::format("These results hold for {}, with thresholds from {} gearboxes.",
-                                   fmt::join(all, ", "), lives ? "the lives of other" : "other");
+    std::string text =
+        fmt::format("These results hold for {}{}, with thresholds from {} gearboxes.",
+                    fault.empty() ? "" : fault + "; ", fmt::join(all, ", "),
+                    lives ? "the lives of other" : "other");
     if (compares_records(study) && !lives) {
         const int records = study.features.baseline_records;
         text += fmt::format(
             " own_ and change_ features also need {} of the same gearbox, taken at a torque that "
-            "differs by {:g} % (rms), {}.",
+            "differs by {:g} % (rms){}, {}.",
             records > 1 ? fmt::format("the mean of {} healthy records", records)
                         : "a healthy record",
-            100.0 * study.features.baseline_torque_scatter, baseline_differences(study));
+            100.0 * study.features.baseline_torque_scatter,
+            chosen_mark(study, "features.baseline_torque_scatter"), baseline_differences(study));
     }
     const bool alike = std::ranges::all_of(
         study.random, [](const RandomInput& input) { return input.kind == InputKind::fault_size; });

@@ -8,11 +8,14 @@
 
 namespace gearpod::mc {
 
-// Text that begins "These results hold for identical teeth, ...": the idealizations of the
-// simulated gearboxes, the inputs that do not vary, and their effect on the results. `lives`: for
-// the lives of gearboxes with a growing crack, otherwise for a run, in which no crack grows. Empty
-// for a study without gears.
-std::string assumptions(const Study& study, bool lives);
+// Text that begins "These results hold for a crack in planet 1, ...": `fault` (what and where), the
+// idealizations of the simulated gearboxes, the inputs that do not vary, and their effect on the
+// results. `lives`: for the lives of gearboxes with a growing crack, otherwise for a run, in which
+// no crack grows. Empty for a study without gears.
+std::string assumptions(const Study& study, bool lives, const std::string& fault = "");
+
+// " (chosen)" if the study names the key in detection.chosen_values, else "".
+std::string chosen_mark(const Study& study, const std::string& key);
 
 // Target of false alarms in the user's units, as a rate of one record.
 

@@ -375,6 +375,8 @@ struct Detection {
     // Keys of random inputs that have one unknown value common to all gearboxes and do not vary
     // among them.
     std::vector<std::string> uncertain_inputs;
+    // Keys of assumptions that are neither measured nor from a source; the answer marks them.
+    std::vector<std::string> chosen_values;
 
     bool operator==(const Detection&) const = default;
 };
@@ -397,7 +399,7 @@ struct Ensemble {
     int threshold_records = 1;                // records of each of those, with independent noise
     std::optional<bool> importance_sampling;  // most records with exponentially tilted noise
     std::int64_t seed = 0;                    // 0..2^63-1
-    double checkpoint_s = 30.0;  // interval of writing finished gearboxes to disk
+    double checkpoint_s = 30.0;               // interval of writing finished gearboxes to disk
 
     bool uses_importance_sampling() const { return importance_sampling.value_or(false); }
     bool operator==(const Ensemble&) const = default;

@@ -394,7 +394,7 @@ std::string Findings::size(const SizeEstimate& estimate, const HitMissPod& pod) 
 
 std::string Findings::alarm_if(std::size_t feature, std::size_t level, int digits) const {
     const LevelDetection& detected = detection[feature].levels[level];
-    const std::string shown = quantity_unit(unit(feature));
+    const std::string shown = unit(feature) == "order" ? "orders" : quantity_unit(unit(feature));
     return std::isnan(detected.threshold)
                ? "none"
                : fmt::format("{} {}{}{}", alarm_symbol(detection[feature].alarm),
@@ -479,6 +479,9 @@ std::string next_step(const Findings& findings) {
         return more_gearboxes(findings, detected);
     }
     const bool simulated = findings.subject == Subject::gearboxes;
+    if (found && !findings.untested.empty()) {
+        return findings.untested;
+    }
     if (found) {
         const auto first = std::ranges::find_if(
             detected.cells, [](const DetectionCell& cell) { return cell.size.high > 0.0; });
@@ -492,12 +495,12 @@ std::string next_step(const Findings& findings) {
                    : "measure the noise at your sensor, and repeat the study with it";
     }
     if (const auto quieter = quieter_level(findings)) {
-        return fmt::format(
-            "reduce the noise at the sensor: at {} {}{} is found", findings.noise(*quieter),
-            findings.fault,
-            has_sizes(findings.request)
-                ? " of " + with_unit(findings.smallest[*quieter]->size, findings.request.size)
-                : "");
+        const SmallestFault& there = *findings.smallest[*quieter];
+        return fmt::format("reduce the noise at the sensor: at {} {} finds {}{}",
+                           findings.noise(*quieter), there.feature, findings.fault,
+                           has_sizes(findings.request)
+                               ? " of " + with_unit(there.size, findings.request.size)
+                               : "");
     }
     const std::string& name = findings.name(best);
     const bool compared = name.starts_with("own_") || name.starts_with("change_");
@@ -555,7 +558,7 @@ std::string unknown_text(const Findings& findings, std::size_t level) {
 }
 
 Section headline_section(const Findings& findings, const std::string& assumptions,
-                         const std::string& facts) {
+                         const std::string& noise, const std::string& facts) {
     const std::size_t reference = findings.reference;
     Section section{"answer", "", {}};
     const std::string shortage =
@@ -567,6 +570,7 @@ Section headline_section(const Findings& findings, const std::string& assumption
     section.state("shortage", findings.unassessable.empty() ? shortage : "", Shown::screen);
     if (findings.unassessable.empty()) {
         section.state("unknown", unknown_text(findings, reference), Shown::screen);
+        section.state("noise", noise, Shown::screen);
         section.add(noise_table(findings));
         if (has_sizes(findings.request)) {
             section.add(smallest_table(findings));
@@ -588,9 +592,10 @@ Section limits_section(const Findings& findings, const OtherLimits& others) {
     // The strongest first.
     for (const auto& [key, text] : std::initializer_list<std::pair<const char*, std::string>>{
              {"limit.other_fault", others.other_fault},
-             {"limit.assumption", others.assumption},
+             {"limit.assumption", others.assumption_decides ? others.assumption : ""},
              {"limit.noise", noise_limit(findings)},
              {"limit.sample", found ? sample_limit(findings, *found) : ""},
+             {"limit.assumption", others.assumption_decides ? "" : others.assumption},
              {"limit.misses",
               curves ? misses_text(findings, findings.best(findings.reference), findings.reference)
                      : ""},

@@ -25,6 +25,7 @@ struct AssessedDetection {
     std::vector<std::string> units = {};  // of the features; may be empty
     // A size as a share of the tooth in words, or ""; may be empty.
     std::function<std::string(double)> share = {};
+    std::string untested = "";  // next step that removes an idealization of the study, or ""
 };
 
 // The results with the numbers that several sections need.
@@ -78,13 +79,15 @@ std::string unknown_text(const Findings& findings, std::size_t level);
 // Rates of the best feature by size and noise.
 Table noise_table(const Findings& findings);
 
-// The answer at the reference level, `assumptions`, the next step, `facts`, and tables by noise.
+// The answer at the reference level, `assumptions`, the next step, `noise` (what x 1 is), tables by
+// noise, and `facts`.
 Section headline_section(const Findings& findings, const std::string& assumptions,
-                         const std::string& facts);
+                         const std::string& noise, const std::string& facts);
 // Sentences on limits that findings do not have: the assumption that changes the answer most, the
 // numerical error of its feature, the answer with fine steps, and the alarms of another fault.
 struct OtherLimits {
     std::string assumption, numerical, fine_steps, other_fault;
+    bool assumption_decides = true;  // false: the assumption changes the answer by little
 };
 // Limits of the answer.
 Section limits_section(const Findings& findings, const OtherLimits& others = {});

@@ -110,9 +110,8 @@ std::string effects_text(const Findings& findings, std::size_t f, std::size_t n)
                                  findings.name(f), joined(clear));
 }
 
-// Rates in bins of every input, and a90 over noise and input.
+// Rates in bins of every input.
 void add_input_details(Section& section, const Findings& findings, std::size_t f, std::size_t n) {
-    const SizeUnit& size = findings.request.size;
     for (const InputEffect* effect : effects_of(findings.reliable(f, n).inputs)) {
         const std::string& unit = effect->unit;
         const std::string name = input_name(effect->name, unit);
@@ -130,31 +129,6 @@ void add_input_details(Section& section, const Findings& findings, std::size_t f
                  fmt::format("{} of {}", bin.detected, bin.tested), bin_text(bin)});
         }
         section.add(std::move(bins));
-        Table map{"a90_map." + effect->name,
-                  in_unit(fmt::format("a90 of {} by {}", findings.name(f), name), size),
-                  {"noise", "input", "a90", "lower bound", "upper bound"},
-                  {},
-                  Shown::page};
-        for (std::size_t level = 0; level < findings.levels(); ++level) {
-            const LevelReliability& reliability = findings.reliable(f, level);
-            const std::string noise = "x " + number_text(findings.request.noise_levels[level]);
-            for (const InputEffect& other : reliability.inputs.inputs) {
-                if (other.name != effect->name) {
-                    continue;
-                }
-                for (std::size_t i = 0; i < other.a90.size(); ++i) {
-                    const SizeBounds& a90 = other.a90[i];
-                    map.rows.push_back({noise, quantity_text(other.values[i], unit),
-                                        findings.size(a90.estimate, reliability.hit_miss),
-                                        findings.size(a90.lower, reliability.hit_miss),
-                                        findings.size(a90.upper, reliability.hit_miss)});
-                }
-                if (!other.refusal.empty()) {
-                    map.rows.push_back({noise, other.refusal, "-", "-", "-"});
-                }
-            }
-        }
-        section.add(std::move(map));
     }
 }
 

@@ -88,7 +88,7 @@ def _drawn(report, page, title, error_of, label, lines=(), main=False):
     """Work-precision diagram with horizontal lines (value, meaning). The main one has a legend."""
     if all(error_of(row["error"]) is None for row in report.measured):
         return blocks.note(f"{title}: no setting has an error above zero.")
-    figure, axes = plt.subplots(figsize=(5.8, 5.0), layout="constrained") if main else panel(3.4)
+    figure, axes = plt.subplots(figsize=(5.8, 5.0), layout="tight") if main else panel(3.4)
     _diagram(report, axes, error_of)
     axes.set(xscale="log", yscale="log", xlabel=TIME, ylabel=label)
     for value, meaning in lines:

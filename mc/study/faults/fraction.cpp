@@ -57,7 +57,7 @@ const FaultKind& broken() {
 
 const FaultKind& reduction() {
     static const FractionKind<stiffness::Reduction> kind{
-        kReductionSize, "a reduction",
+        kReductionSize, "a stiffness reduction",
         "the whole mesh loses this fraction of its stiffness while the tooth is in contact"};
     return kind;
 }

@@ -19,7 +19,7 @@ struct StageDatasheet {
     std::optional<double> addendum;  // divided by the normal module
     std::optional<double> centre_distance_mm;
     std::optional<double> young_modulus_Pa, poisson_ratio;
-    double quality = 6;  // ISO 1328 grade
+    std::optional<double> quality;  // ISO 1328 grade; 6 if not given
     // Torque, speed and power of the driving member; exactly two of the three.
     std::optional<double> torque_N_m, speed_rpm, power_kW;
     std::string origin = "datasheet";  // kind of document, for the study's first comment

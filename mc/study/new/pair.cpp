@@ -100,7 +100,9 @@ std::string gearbox_section(const PairDatasheet& data, const DerivedPair& d) {
             line(of_machine("coupling_damping_N_m_s_rad"),
                  bearing_damping_N_s_m(gear.shaft_N_m_rad));
     }
-    return general + line("tooth_quality", data.quality, "ISO 1328 grade of both gears") +
+    return general +
+           line("tooth_quality", data.quality.value_or(kDefaultQuality),
+                "ISO 1328 grade of both gears") +
            line("mesh_damping_ratio", 0.1, "0.03 to 0.17 of critical (Kasuba and Evans, 1981)") +
            inertias + couplings +
            fmt::format(
@@ -131,7 +133,7 @@ std::string pair_text(const PairDatasheet& data, const DerivedPair& d, const Inp
            varied("gearbox.mesh_damping_ratio", "\"uniform\", low = 0.03, high = 0.17") +
            varied_torque(load.torque_N_m) +
            varied("sensor." + std::string(noise.key), lognormal(noise.value, 0.2)) +
-           varied_depth(d.deepest_crack_m) + output_sections();
+           varied_depth(d.deepest_crack_m) + output_sections(data, noise);
 }
 
 }  // namespace

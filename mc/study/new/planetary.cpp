@@ -104,7 +104,8 @@ double pin_rms_um(const DerivedGearbox& d) {
 }
 
 std::string accuracy(const NominalGears& g, const DerivedGearbox& d) {
-    return line("tooth_quality", g.data.quality, "ISO 1328 grade of all gears") +
+    return line("tooth_quality", g.data.quality.value_or(kDefaultQuality),
+                "ISO 1328 grade of all gears") +
            line("pin_tangential_rms_um", pin_rms_um(d),
                 "a quarter of ISO 286's tolerance of grade 7 on the centre distance") +
            line("pin_radial_rms_um", pin_rms_um(d)) +
@@ -123,8 +124,7 @@ constexpr const char* kFault =
     "kind = \"crack\"\nmember = \"planet\"\nside = \"ring\"\nplanet = 1\ndepth_mm = 0\n"
     "angle_deg = 45\n";
 
-std::string random(const DerivedGearbox& d, const InputLoad& load) {
-    const Background noise = background(sensor_rates(d.mesh_frequency_Hz));
+std::string random(const DerivedGearbox& d, const InputLoad& load, const Background& noise) {
     std::string text =
         "\n[random]                                    # variation between gearboxes (chosen)\n";
     for (const char* name : {"planet", "sun", "ring", "carrier"}) {
@@ -164,11 +164,12 @@ std::string planetary_text(const NominalGears& g, const DerivedGearbox& d, const
     auto [general, members] = gearbox_teeth(g);
     add_bodies(d, members);
     const std::string support = add_bearings(g, d, members);
+    const Background noise = background(sensor_rates(d.mesh_frequency_Hz));
     return study_header(data, gearbox, command) + title + general + accuracy(g, d) + support +
            members.text() + operation(g, load) + effects_section("hamming") + kFault +
            sensor_section(d.mesh_frequency_Hz,
                           line("path_exponent", 0.1, "Liang (2016), section 5.1")) +
-           random(d, load) + output_sections();
+           random(d, load, noise) + output_sections(data, noise);
 }
 
 // Tooth number of the ring for standard gears. The tooth numbers are not checked yet.

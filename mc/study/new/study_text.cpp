@@ -175,15 +175,20 @@ std::string varied_depth(double deepest_m) {
            varied("fault.depth_mm", "\"levels\", values = [" + depths + "]");
 }
 
-std::string output_sections() {
+std::string output_sections(const StageDatasheet& data, const Background& noise) {
     // Enough gearboxes to show 90 % at 95 % confidence at each of the depths, in whole batches.
     constexpr long kDepths = 7, kBatch = 16;
+    const std::string quality = data.quality ? "" : "\"gearbox.tooth_quality\", ";
     const long needed = kDepths * analysis::tests_to_show(analysis::kReliablePd, 0.95);
     return "\n[features]\n"
            "use = [\"te_kurtosis\", \"sensor_rms\", \"window_ratio\", \"window_z\", "
            "\"own_window_ratio\", \"change_window_ratio\"]\n"
            "baseline_torque_scatter = 0.02\n"
            "\n[detection]\nfalse_alarm_rate = 0.05\nconfidence = 0.95\n"
+           "# neither measured nor from a source: the answer marks them\n"
+           "chosen_values = [\"features.baseline_torque_scatter\", " +
+           quality + "\"sensor." + noise.key +
+           "\"]\n"
            "\n[ensemble]\n" +
            line("instances", std::to_string((needed + kBatch - 1) / kBatch * kBatch),
                 "enough to show 90 % detection at each depth; more narrow the intervals") +

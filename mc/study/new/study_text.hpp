@@ -81,8 +81,11 @@ std::string varied_torque(double torque_N_m);
 // Levels of a crack's depth up to 80 % of the deepest one.
 std::string varied_depth(double deepest_m);
 
-// Sections [features], [detection] and [ensemble].
-std::string output_sections();
+inline constexpr double kDefaultQuality = 6;  // ISO 1328 grade
+
+// Sections [features], [detection] and [ensemble]. The noise is chosen, and the tooth quality
+// unless the datasheet gives it.
+std::string output_sections(const StageDatasheet& data, const Background& noise);
 
 // Makes a study and checks it. `teeth`: minimal study whose reading checks the teeth. `text_of`:
 // the study by its gears and the load of the `driver`.

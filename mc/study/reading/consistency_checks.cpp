@@ -1,4 +1,5 @@
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 
@@ -7,6 +8,7 @@
 #include "mc/files/input/spelling.hpp"
 #include "mc/study/fluctuations.hpp"
 #include "mc/study/gears.hpp"
+#include "mc/study/noise.hpp"
 #include "mc/study/reading/parts.hpp"
 #include "signals/windowing/noise_importance_sampler.hpp"
 
@@ -174,6 +176,20 @@ void check_uncertain_inputs(StudyDraft& draft) {
                 });
 }
 
+void check_chosen_values(StudyDraft& draft) {
+    constexpr const char* kKey = "detection.chosen_values";
+    const std::vector<std::string> keys{"features.baseline_torque_scatter", "gearbox.tooth_quality",
+                                        noise_key(draft.study)};
+    check_names(draft, kKey, draft.study.detection.chosen_values, "name it once",
+                [&](const std::string& key) {
+                    if (std::ranges::count(keys, key) == 0) {
+                        draft.reject(kKey,
+                                     fmt::format("the answer does not depend on \"{}\" alone", key),
+                                     fmt::format("use {}", fmt::join(keys, ", ")));
+                    }
+                });
+}
+
 // Rejects numbers of records that cannot be divided equally among the kinds of importance-sampled
 // records.
 void check_importance_sampling(StudyDraft& draft) {
@@ -243,6 +259,7 @@ void check_consistency(StudyDraft& draft) {
     check_features(draft);
     check_detectors(draft);
     check_uncertain_inputs(draft);
+    check_chosen_values(draft);
     check_record_keys(draft);
     check_baseline_redraws(draft);
     check_gravity(draft);

@@ -71,10 +71,6 @@ std::vector<analysis::SizeGroup> size_groups(const Study& study) {
     return groups;
 }
 
-double size_in_si(const Study& study, double in_file) {
-    return in_file * fault_size_key(study).unit.to_si;
-}
-
 std::string size_text(const Study& study, const analysis::SizeGroup& group) {
     const Unit& unit = fault_size_key(study).unit;
     const std::string name = unit.suffix.empty() ? "" : " " + std::string(unit.name);

@@ -30,8 +30,6 @@ std::string size_edges_key(const Study& study);
 // size_edges(). One group at 0 without a fault.
 std::vector<analysis::SizeGroup> size_groups(const Study& study);
 
-// Converts a fault size from the unit of its key (e.g. mm) to the unit of the groups.
-double size_in_si(const Study& study, double in_file);
 // "3 mm", "2 to 3 mm", "0.1".
 std::string size_text(const Study& study, const analysis::SizeGroup& group);
 

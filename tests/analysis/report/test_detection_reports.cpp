@@ -52,7 +52,7 @@ std::string detection_text(const std::vector<FeatureDetection>& features,
                            const DetectionRequest& requested) {
     const Findings findings({features, nullptr, requested});
     Report report;
-    report.add(headline_section(findings, "", ""));
+    report.add(headline_section(findings, "", "", ""));
     add_detection_sections(report, findings);
     return report_text(report);
 }
@@ -152,9 +152,16 @@ TEST_CASE(
     const auto share = [](double size) {
         return size > 1e-3 ? std::string("70 % of the tooth section") : std::string();
     };
-    const Findings findings(
-        {features, nullptr, requested, Subject::gearboxes, "a crack", 0, {}, share});
-    const Section section = headline_section(findings, "Holds for steady torque.", "");
+    const Findings findings({features,
+                             nullptr,
+                             requested,
+                             Subject::gearboxes,
+                             "a crack",
+                             0,
+                             {},
+                             share,
+                             "use real teeth"});
+    const Section section = headline_section(findings, "Holds for steady torque.", "", "");
     std::vector<std::string> keys;
     for (const auto& block : section.blocks) {
         std::visit([&](const auto& shown) { keys.push_back(shown.key); }, block);
@@ -167,7 +174,7 @@ TEST_CASE(
     CHECK_THAT(statement_text(report, "figure"),
                Catch::Contains("by window_z at noise x 1. Marks: detection rates"));
     CHECK_THAT(report_text(report), !Catch::Contains("Marks:"));
-    CHECK(statement_text(report, "no such key") == "");
+    CHECK(statement_text(report, "next") == "Next step: use real teeth.");
 }
 
 TEST_CASE("A threshold has the digits that distinguish it from the healthy median") {
@@ -210,7 +217,7 @@ TEST_CASE("A transferred bound names its origin") {
     CHECK_THAT(report_text(report),
                Catch::Contains("this is the bound of te_fc at noise x 5, which finds no more"));
     findings.reliability = nullptr;
-    const Report headline{{headline_section(findings, "", "")}};
+    const Report headline{{headline_section(findings, "", "", "")}};
     CHECK_THAT(report_text(headline),
                Catch::Contains("+ Bound of another feature or noise level") &&
                    Catch::Contains(": te_fc at noise x 5."));

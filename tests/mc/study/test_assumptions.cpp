@@ -9,6 +9,7 @@
 namespace gearpod::mc::test_assumptions {
 
 using namespace gearpod::test;
+using tests::kExampleStudy;
 
 std::string assumptions(const gearpod::mc::Study& study) {
     return gearpod::mc::assumptions(study, false);
@@ -30,6 +31,8 @@ TEST_CASE("A result states for which teeth and planets it is valid") {
 
     CHECK_THAT(assumptions(shipped_study("planet-crack-ideal.toml", {"gearbox.pitch_error_um=2"})),
                Catch::Contains("teeth with individual errors"));
+    CHECK_THAT(assumptions(shipped_study("planet-crack.toml")),
+               Catch::Contains("grade 6 (chosen),") && Catch::Contains("1 % (rms) (chosen), that"));
     CHECK_THAT(assumptions(shipped_study("real-teeth.toml")),
                Catch::Contains("teeth of random ISO 1328 grades") &&
                    Catch::Contains("a healthy record of the same gearbox, taken at a torque that "
@@ -41,8 +44,6 @@ TEST_CASE("Crack growth is an assumption of results on lives, not of a run of th
     CHECK_THAT(gearpod::mc::assumptions(study, true), Catch::Contains("grow by Paris' law"));
     CHECK_THAT(gearpod::mc::assumptions(study, false), !Catch::Contains("Paris"));
 }
-
-using tests::kExampleStudy;
 
 TEST_CASE("A target of false alarms in time is a rate of one record") {
     const auto rate = [](const std::vector<std::string>& overrides) {
@@ -61,11 +62,9 @@ TEST_CASE("A target of false alarms in time is a rate of one record") {
     CHECK(false_alarm_target_text(study_of_text(kExampleStudy)) == "");
     CHECK(false_alarm_target_text(study_of_text(kExampleStudy, {year, daily})) ==
           "0.114 false alarms in 1000 h of a machine, with a record of each every 24 h, are a rate "
-          "of "
-          "0.00274 in a record for each feature.");
+          "of 0.00274 in a record for each feature.");
     // A target of --set replaces the rate of the file.
-    std::string given = kExampleStudy;
-    given += "\n[detection]\nfalse_alarm_rate = 0.05\n";
+    const auto given = std::string(kExampleStudy) + "\n[detection]\nfalse_alarm_rate = 0.05\n";
     CHECK(study_of_text(given, {year, daily}).detection.false_alarm_rate ==
           Approx(1.0 / 365.0).epsilon(1e-5));
     const auto problem = [](const std::vector<std::string>& overrides) {
@@ -73,6 +72,7 @@ TEST_CASE("A target of false alarms in time is a rate of one record") {
         return problems.size() == 1 ? problems[0].key : std::to_string(problems.size());
     };
     CHECK(problem({year}) == "detection.record_interval_h");
+    CHECK(problem({"detection.chosen_values=['fault.depth_mm']"}) == "detection.chosen_values");
     CHECK(problem({"detection.machines=3"}) == "detection.machines");
     CHECK(problem({year, daily, "detection.false_alarm_rate=0.1"}) == "detection.false_alarm_rate");
     CHECK(problem({"detection.false_alarms_per_1000_h=100", daily}) ==

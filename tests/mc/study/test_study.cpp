@@ -275,7 +275,7 @@ TEST_CASE("The resolved text contains every key that may be given") {
         "inertia speed size_edges_mm planet_positions shift tip_mm "
         "centre_distance relief_um crowning_um normal_module "
         "ring_to_sun_phase bore rim_mm web_mm outer error crack_law "
-        "noise_density range_m_s2 cross_axis uncertain_inputs tones bearings stages additional "
+        "noise_density range_m_s2 cross_axis uncertain_inputs chosen_values tones bearings stages additional "
         "background_Hz "
         "interval_h "
         "record_ "
