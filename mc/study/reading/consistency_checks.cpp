@@ -8,7 +8,6 @@
 #include "mc/files/input/spelling.hpp"
 #include "mc/study/fluctuations.hpp"
 #include "mc/study/gears.hpp"
-#include "mc/study/noise.hpp"
 #include "mc/study/reading/parts.hpp"
 #include "signals/windowing/noise_importance_sampler.hpp"
 
@@ -179,12 +178,12 @@ void check_uncertain_inputs(StudyDraft& draft) {
 void check_chosen_values(StudyDraft& draft) {
     constexpr const char* kKey = "detection.chosen_values";
     const std::vector<std::string> keys{"features.baseline_torque_scatter", "gearbox.tooth_quality",
-                                        noise_key(draft.study)};
+                                        "sensor.noise_m_s2",
+                                        "sensor.noise_density_m_s2_per_sqrt_Hz"};
     check_names(draft, kKey, draft.study.detection.chosen_values, "name it once",
                 [&](const std::string& key) {
                     if (std::ranges::count(keys, key) == 0) {
-                        draft.reject(kKey,
-                                     fmt::format("the answer does not depend on \"{}\" alone", key),
+                        draft.reject(kKey, fmt::format("the answer does not mark \"{}\"", key),
                                      fmt::format("use {}", fmt::join(keys, ", ")));
                     }
                 });
