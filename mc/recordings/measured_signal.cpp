@@ -22,6 +22,7 @@
 #include "mc/recordings/sample_faults.hpp"
 #include "mc/study/gears.hpp"
 #include "mc/study/member.hpp"
+#include "signals/path/frequency_response.hpp"
 #include "signals/rotation/shaft_motion.hpp"
 #include "signals/spectra/fourier_transform.hpp"
 #include "signals/spectra/recording_checks.hpp"
@@ -36,6 +37,22 @@ namespace {
 constexpr const char* kSensor = "sensor";
 constexpr const char* kPhase = "mesh_phase";
 constexpr const char* kSpeed = "speed_rpm";
+
+// Samples of vibration after a low-pass (signals/path/frequency_response.hpp); before them there is
+// none.
+std::vector<double> low_passed(std::vector<double> samples, double sampling_Hz,
+                               double low_pass_Hz) {
+    const std::size_t count = samples.size();
+    samples.resize(
+        2 * static_cast<std::size_t>(signals::smooth_length(static_cast<int>(count / 2) + 1)));
+    signals::HousingResponse sensor;
+    sensor.chain.emplace().low_pass = {low_pass_Hz, INFINITY};
+    signals::PeriodicResponse response(static_cast<int>(samples.size()));
+    response.add(samples, sampling_Hz, sensor);
+    samples = response.take();
+    samples.resize(count);
+    return samples;
+}
 
 // Reads the signals. Throws SignalError if the file cannot be read or lacks a column.
 class SignalsReader : protected RecordingColumns {
@@ -103,7 +120,7 @@ class SignalReader : SignalsReader {
         keep(te, phase.size());
         stop_at_problems();
         check_speed(measured);
-        check_rate();
+        check_rate(measured);
         if (columns_.samples_per_mesh > 0.0) {
             extend_periodically({&sensor, &te}, phase,
                                 columns_.samples_per_mesh * record_.span.planet_teeth);
@@ -136,8 +153,9 @@ class SignalReader : SignalsReader {
         }
     }
     // Rejects a recording with too few samples per mesh period to resolve the mesh frequency or the
-    // sensor's frequency range, or with so many that the study's grid would alias high frequencies.
-    void check_rate() {
+    // sensor's frequency range. One with more than the study's grid passes the study's low-pass
+    // first, as the vibration does before the study's sensor is sampled.
+    void check_rate(MeasuredSignal& measured) {
         constexpr double kFewestSamples = 2.0;  // per mesh period
         constexpr double kRateTolerance = 1.02;
         const double per_mesh =
@@ -152,11 +170,12 @@ class SignalReader : SignalsReader {
                    "the speed and the sampling rate");
         }
         if (!sensor_.empty() && per_mesh > kRateTolerance * record_.samples) {
-            reject(
-                fmt::format("{}, but the study's grid has {}; check the speed, or set "
-                            "sensor.sampling_Hz to that of the recording, at the study's speed "
-                            "about {:.6g} Hz",
-                            samples, record_.samples, study_Hz));
+            sensor_ = low_passed(sensor_, mean_mesh_Hz_ > 0.0 ? per_mesh * mean_mesh_Hz_ : study_Hz,
+                                 low_pass);
+            measured.notes.push_back(
+                fmt::format("{}, but the study's grid has {}: the sensor signal passes the study's "
+                            "low-pass of {:.6g} Hz first",
+                            samples, record_.samples, low_pass));
         }
         if (!sensor_.empty() && study_Hz < 2.0 * low_pass) {
             reject(
