@@ -156,10 +156,10 @@ def by_feature(report, page):
                              rates, page.names))
     refused = [f"{report.names[f]} at {noise(level)}"
                for f in report.order(report.reference) for n, level in enumerate(report.levels)
-               if report.reliability and report.reliable(f, n)["hit_miss"]["refusal"]]
+               if report.curves and report.reliable(f, n)["hit_miss"]["refusal"]]
     how = ("Marks are detection rates with their Wilson bounds, at "
            f"{percent(report.confidence)}, from blue for the least noise to red for the most"
-           + ("; lines are the fitted curves with their bounds. " + REJECTED if report.reliability else ".")
+           + ("; lines are the fitted curves with their bounds. " + REJECTED if report.curves else ".")
            + (f" There is no curve for {joined(refused)}: the reasons are listed with the numbers."
               if refused else ""))
     return page.figure("Probability of detection by feature and noise", charts, how,

@@ -13,7 +13,7 @@ def answers(report):
 
 def conditions(report):
     """Further answers, assumptions of the answer, the next step, and the epistemic uncertainty."""
-    texts = [report.text(key) for key in ("assumptions", "record", "next", "unknown")]
+    texts = [report.text(key) for key in ("assumptions", "record", "next", "noise", "unknown")]
     return [text for text in answers(report)[1:] + texts if text]
 
 

@@ -15,8 +15,9 @@ def detection(report, page):
         body = detection_figures.comparison(report, page)
     else:
         body = (note(report.text("headline")) if not report.assessable else "") + report.notes("too_many")
-    if any(c["tested"] for f in report.detection for level in f["levels"] for c in level["sizes"]):
-        body += detection_figures.by_feature(report, page)
+    rated = any(c["size_high"] > 0 and c["pd"] is not None
+                for f in report.detection for level in f["levels"] for c in level["sizes"])
+    body += detection_figures.by_feature(report, page) if rated else report.tables("rates.")
     return page.section("detection", "Detection", body + report.tables("values."))
 
 

@@ -38,17 +38,20 @@ constexpr const char* kSensor = "sensor";
 constexpr const char* kPhase = "mesh_phase";
 constexpr const char* kSpeed = "speed_rpm";
 
-// Samples of vibration after a low-pass (signals/path/frequency_response.hpp); before them there is
-// none.
-std::vector<double> low_passed(std::vector<double> samples, double sampling_Hz,
-                               double low_pass_Hz) {
+// Samples after a low-pass of `cutoff` cycles per sample (signals/path/frequency_response.hpp).
+// They repeat for ever, or there is no vibration before them.
+std::vector<double> low_passed(std::vector<double> samples, double cutoff, bool repeat) {
+    constexpr double kDecay = 8.0;  // cycles after which the filter is at rest
     const std::size_t count = samples.size();
-    samples.resize(
-        2 * static_cast<std::size_t>(signals::smooth_length(static_cast<int>(count / 2) + 1)));
+    if (!repeat) {
+        const double half = 0.5 * static_cast<double>(count) + kDecay / cutoff;
+        samples.resize(2 *
+                       static_cast<std::size_t>(signals::smooth_length(static_cast<int>(half))));
+    }
     signals::HousingResponse sensor;
-    sensor.chain.emplace().low_pass = {low_pass_Hz, INFINITY};
+    sensor.chain.emplace().low_pass = {cutoff, INFINITY};
     signals::PeriodicResponse response(static_cast<int>(samples.size()));
-    response.add(samples, sampling_Hz, sensor);
+    response.add(samples, 1.0, sensor);
     samples = response.take();
     samples.resize(count);
     return samples;
@@ -156,8 +159,7 @@ class SignalReader : SignalsReader {
     // sensor's frequency range. One with more than the study's grid passes the study's low-pass
     // first, as the vibration does before the study's sensor is sampled.
     void check_rate(MeasuredSignal& measured) {
-        constexpr double kFewestSamples = 2.0;  // per mesh period
-        constexpr double kRateTolerance = 1.02;
+        constexpr double kFewestSamples = 2.0, kRateTolerance = 1.02;  // per mesh period
         const double per_mesh =
             static_cast<double>(phase_.size() - 1) / (phase_.back() - phase_.front());
         // Sampling rate of a recording with these samples per mesh period at the study's speed.
@@ -169,13 +171,15 @@ class SignalReader : SignalsReader {
                    " do not resolve the mesh frequency of the transmission error; check "
                    "the speed and the sampling rate");
         }
-        if (!sensor_.empty() && per_mesh > kRateTolerance * record_.samples) {
-            sensor_ = low_passed(sensor_, mean_mesh_Hz_ > 0.0 ? per_mesh * mean_mesh_Hz_ : study_Hz,
-                                 low_pass);
+        // Without a low-pass the study is quasi-static.
+        if (low_pass > 0.0 && !sensor_.empty() && per_mesh > kRateTolerance * record_.samples) {
+            sensor_ = low_passed(std::move(sensor_), low_pass / study_Hz,
+                                 columns_.samples_per_mesh > 0.0);
+            measured.sensor_rounding *= std::sqrt(2.0 * low_pass / study_Hz);
             measured.notes.push_back(
-                fmt::format("{}, but the study's grid has {}: the sensor signal passes the study's "
-                            "low-pass of {:.6g} Hz first",
-                            samples, record_.samples, low_pass));
+                fmt::format("finer than the study's grid: the sensor signal passes the study's "
+                            "low-pass first, {:.6g} Hz at the study's speed",
+                            low_pass));
         }
         if (!sensor_.empty() && study_Hz < 2.0 * low_pass) {
             reject(

@@ -270,7 +270,7 @@ class Program(unittest.TestCase):
             xml.etree.ElementTree.parse(drawing)
             self.assertEqual(drawing.with_suffix(".png").read_bytes()[:8], b"\x89PNG\r\n\x1a\n")
             self.assertEqual(drawing.with_suffix(".pdf").read_bytes()[:4], b"%PDF")
-        self.assertIn("pod-te_fc-by-noise.svg", [d.name for d in drawings])
+        self.assertIn("stiffness-of-healthy-gear-pairs-over-a-mesh-period.svg", [d.name for d in drawings])
         before = pathlib.Path(self.results).read_bytes()
         for made_, option in ((next(tables.glob("*.csv")), "--csv"), (drawings[0], "--figures")):
             made_.unlink()

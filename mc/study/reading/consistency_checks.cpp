@@ -184,7 +184,7 @@ void check_chosen_values(StudyDraft& draft) {
                 [&](const std::string& key) {
                     if (std::ranges::count(keys, key) == 0) {
                         draft.reject(kKey, fmt::format("the answer does not mark \"{}\"", key),
-                                     fmt::format("use {}", fmt::join(keys, ", ")));
+                                     fmt::format("use one of {}", fmt::join(keys, ", ")));
                     }
                 });
 }

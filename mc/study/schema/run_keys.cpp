@@ -87,7 +87,7 @@ const Key kRunKeys[] = {
     {"detection", "size_edges_mm", ascending<&Detection::size_edges_m>, kMm, kNotNegative, length_edges, kShared, "edges of the size groups of a continuous fault size that is a length"},
     {"detection", "size_edges", ascending<&Detection::size_edges>, kNone, kNotNegative, number_edges, kShared, "edges of the size groups of a continuous fault size that is a pure number"},
     {"detection", "uncertain_inputs", list<&Detection::uncertain_inputs>, kNone, kAny, may, kShared, "random inputs, by key, whose distribution describes the uncertainty of one value that is the same for all gearboxes, as calibrate estimates it; its effect is shown as a separate band"},
-    {"detection", "chosen_values", list<&Detection::chosen_values>, kNone, kAny, may, kShared, "of features.baseline_torque_scatter, gearbox.tooth_quality and the key of the sensor's noise, those whose values are chosen, neither measured nor from a source; the answer marks them"},
+    {"detection", "chosen_values", list<&Detection::chosen_values>, kNone, kAny, may, kShared, "of features.baseline_torque_scatter, gearbox.tooth_quality and the key of the sensor's noise, those whose values are chosen, neither measured nor from a source; the answer of run marks them"},
 
     {"monitoring", "baseline_records", integer<&Monitoring::baseline_records>, kNone, closed_range(0, 1e6), may, kShared, "number of a gearbox's first records, from which its normal state is estimated; 0: features are monitored without a baseline"},
     {"monitoring", "torque_regression", boolean<&Monitoring::torque_regression>, kNone, kAny, may, kShared, "the normal state of a gearbox depends linearly on the torque of its records"},
