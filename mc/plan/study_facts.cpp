@@ -25,8 +25,7 @@ std::string noise_unit_text(const Study& study) {
                                     chosen_mark(study, noise_key(study))));
     }
     if (encoder > 0.0) {
-        parts.push_back(fmt::format("{} arc second{} rms on the transmission error",
-                                    analysis::number_text(encoder), encoder == 1.0 ? "" : "s"));
+        parts.push_back(fmt::format("{} arcsec rms on the TE", analysis::number_text(encoder)));
     }
     return parts.empty() ? "" : "Noise x 1 is " + analysis::joined(parts) + ".";
 }
@@ -53,21 +52,21 @@ std::optional<RunFacts> run_facts(const std::string& study_text, const std::stri
     }
     const FaultPlan fault = make_fault_plan(*study);
     const std::string other_fault = other_fault_text(*study);
-    return RunFacts{
-        .ensemble = EnsemblePlan(*study),
-        .rows = RowOrder(study->ensemble),
-        .fault = fault,
-        .other_fault = other_fault.empty() ? "another fault" : other_fault,
-        .conditions = assumptions(*study, false, fault.phrase()),
-        .record = record_conditions(*study),
-        .false_alarms = false_alarm_target_text(*study),
-        .noise = noise_unit_text(*study),
-        .untested = has_gears(*study) && !has_tooth_errors(*study)
-                        ? "repeat the study with teeth that have errors (gearbox.tooth_quality)"
-                        : "",
-        .sensor_noise_m_s2 =
-            study->effects.quasi_static() ? std::nullopt : std::optional(sensor_noise_m_s2(*study)),
-        .encoder_noise_rad = study->sensor.encoder_noise_rad};
+    return RunFacts{.ensemble = EnsemblePlan(*study),
+                    .rows = RowOrder(study->ensemble),
+                    .fault = fault,
+                    .other_fault = other_fault.empty() ? "another fault" : other_fault,
+                    .conditions = assumptions(*study, false, fault.phrase()),
+                    .record = record_conditions(*study),
+                    .false_alarms = false_alarm_target_text(*study),
+                    .noise = noise_unit_text(*study),
+                    .untested = has_gears(*study) && !has_tooth_errors(*study)
+                                    ? "give the teeth errors (gearbox.tooth_quality) and run again"
+                                    : "",
+                    .sensor_noise_m_s2 = study->effects.quasi_static()
+                                             ? std::nullopt
+                                             : std::optional(sensor_noise_m_s2(*study)),
+                    .encoder_noise_rad = study->sensor.encoder_noise_rad};
 }
 
 void declare_recorded_features(const std::string& text) {

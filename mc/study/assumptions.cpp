@@ -102,7 +102,7 @@ std::string assumptions(const Study& study, bool lives, const std::string& fault
         text += " Only the fault and the noise vary.";
     }
     if (!has_tooth_errors(study)) {
-        text += " Real teeth can hide faults that identical teeth show (gearbox.tooth_quality).";
+        text += " Real teeth can hide faults.";
     }
     return text;
 }

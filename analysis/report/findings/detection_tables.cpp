@@ -378,9 +378,7 @@ Table noise_table(const Findings& findings) {
     const std::vector<std::size_t> levels =
         spread(findings.levels(), kMostLevels, findings.reference);
     table.title = fmt::format(
-        "Alarms of {}{} in % with {} interval{}{}", findings.name(best),
-        findings.levels() > 1 ? ", best" + findings.at_noise(findings.reference) + "," : "",
-        findings.percent(),
+        "Alarms of {} in % with {} interval{}{}", findings.name(best), findings.percent(),
         sizes > kMostSizes ? fmt::format("; {} of {} sizes", kMostSizes, sizes) : "",
         findings.levels() > kMostLevels
             ? fmt::format("; {} of {} noise levels", kMostLevels, findings.levels())
