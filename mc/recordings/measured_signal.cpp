@@ -159,7 +159,8 @@ class SignalReader : SignalsReader {
     // sensor's frequency range. One with more than the study's grid passes the study's low-pass
     // first, as the vibration does before the study's sensor is sampled.
     void check_rate(MeasuredSignal& measured) {
-        constexpr double kFewestSamples = 2.0, kRateTolerance = 1.02;  // per mesh period
+        constexpr double kFewestSamples = 2.0;  // per mesh period
+        constexpr double kRateTolerance = 1.02;
         const double per_mesh =
             static_cast<double>(phase_.size() - 1) / (phase_.back() - phase_.front());
         // Sampling rate of a recording with these samples per mesh period at the study's speed.
@@ -173,9 +174,9 @@ class SignalReader : SignalsReader {
         }
         // Without a low-pass the study is quasi-static.
         if (low_pass > 0.0 && !sensor_.empty() && per_mesh > kRateTolerance * record_.samples) {
-            sensor_ = low_passed(std::move(sensor_), low_pass / study_Hz,
-                                 columns_.samples_per_mesh > 0.0);
-            measured.sensor_rounding *= std::sqrt(2.0 * low_pass / study_Hz);
+            const double cutoff = low_pass / study_Hz;
+            sensor_ = low_passed(std::move(sensor_), cutoff, columns_.samples_per_mesh > 0.0);
+            measured.sensor_rounding *= std::sqrt(2.0 * cutoff);
             measured.notes.push_back(
                 fmt::format("finer than the study's grid: the sensor signal passes the study's "
                             "low-pass first, {:.6g} Hz at the study's speed",
