@@ -1,6 +1,9 @@
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
 #include <filesystem>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <set>
 #include <string>
@@ -8,6 +11,7 @@
 
 #include "mc/commands/commands.hpp"
 #include "mc/commands/options/options.hpp"
+#include "mc/library/open_study.hpp"
 #include "mc/library/run/command_files.hpp"
 #include "mc/plan/mesh_loads.hpp"
 #include "mc/report/page.hpp"
@@ -17,13 +21,16 @@ namespace gearpod::mc {
 namespace {
 
 struct NewOptions {
-    std::string kind;     // gearbox kind; empty for a stage of a REXS model
+    std::string kind;     // "planetary" or "train"; empty for a stage of a REXS model
     std::string command;  // command line, quoted in the study's first comment
     PlanetaryDatasheet planetary;
-    std::string rexs;              // model file; empty: the datasheet's values are options
-    std::string stage, load_case;  // of the model
-    std::string out = "-";         // "-": standard output
-    bool force = false;            // overwrite a file
+    std::string rexs;                 // model file; empty: the datasheet's values are options
+    std::vector<std::string> stages;  // of a train; one: id of the model's
+    std::string load_case;            // of the model
+    TrainDatasheet train;             // what only a train has
+    int monitored = 1;
+    std::string out = "-";  // "-": standard output
+    bool force = false;     // overwrite a file
 };
 
 // Comment from which editors take the JSON schema of the study.
@@ -33,8 +40,8 @@ std::string schema_line() {
 }
 
 // Prints warnings of a torque that cannot be meant.
-void warn_of_load(const NewStudy& made, const std::string& path) {
-    const StudyReading reading = read_study_text(made.text, path);
+void warn_of_load(const std::string& text, const std::string& path) {
+    const StudyReading reading = read_study_text(text, path);
     if (reading.study) {
         print_problems(load_warnings(*reading.study, path == "-" ? "the study" : path));
     }
@@ -44,40 +51,58 @@ void warn_of_load(const NewStudy& made, const std::string& path) {
 const std::set<std::string> kWithModel{
     "--rexs",  "--stage",   "--load-case", "--planets",    "--input", "--torque", "--speed",
     "--power", "--quality", "--addendum",  "--face-width", "--out",   "--force"};
+// Options of a train; its --stage have all others.
+const std::set<std::string> kOfTrain{"--stage", "--monitor", "--torque",  "--speed", "--power",
+                                     "--level", "--band",    "--quality", "--out",   "--force"};
+// Options that a single planetary gearbox does not have.
+const std::set<std::string> kNotOfPlanetary{"--stage", "--load-case", "--monitor", "--level",
+                                            "--band"};
 
-// Rejects missing options of a datasheet, and options whose values a model states.
+// Rejects missing options of a datasheet, and options that do not belong to its kind.
 void check_new_options(const CLI::App& command, const NewOptions& options) {
-    if (options.rexs.empty()) {
-        if (options.kind.empty()) {
-            throw CLI::ValidationError(
-                "new: the kind of gearbox (planetary) or --rexs FILE is missing");
-        }
-        std::string missing;
-        for (const char* name : {"--sun", "--planet", "--module"}) {
-            if (command.count(name) == 0) {
-                missing += (missing.empty() ? "" : ", ") + std::string(name);
-            }
-        }
-        if (!missing.empty()) {
-            throw CLI::ValidationError("new " + options.kind + ": missing: " + missing);
-        }
-        for (const char* name : {"--stage", "--load-case"}) {
-            if (command.count(name) > 0) {
-                throw CLI::ValidationError(name, "chooses a part of a model; give --rexs");
-            }
-        }
-        return;
-    }
-    if (!options.kind.empty()) {
+    const bool model = !options.rexs.empty(), train = options.kind == "train";
+    if (model && !options.kind.empty()) {
         throw CLI::ValidationError("kind", "the model's stage states the kind; leave out \"" +
                                                options.kind + "\" or --rexs");
     }
+    if (!model && options.kind.empty()) {
+        throw CLI::ValidationError(
+            "new: the kind of gearbox (planetary, train) or --rexs FILE is missing");
+    }
     for (const CLI::Option* option : command.parse_order()) {
-        if (!kWithModel.contains(option->get_name())) {
-            throw CLI::ValidationError(option->get_name(),
-                                       "the model states this; leave it out, and change the model "
-                                       "or the written study");
+        const std::string name = option->get_name();
+        if (model && !kWithModel.contains(name)) {
+            throw CLI::ValidationError(name,
+                                       "the model states this; leave it out, and change the "
+                                       "model or the written study");
         }
+        if (train && option->nonpositional() && !kOfTrain.contains(name)) {
+            throw CLI::ValidationError(name, "belongs to one stage; write it in its --stage");
+        }
+        if (!model && !train && kNotOfPlanetary.contains(name)) {
+            throw CLI::ValidationError(name,
+                                       "belongs to `new train`, or chooses a part of a model "
+                                       "(--rexs)");
+        }
+    }
+    if (model) {
+        if (options.stages.size() > 1) {
+            throw CLI::ValidationError("--stage", "choose one stage of the model");
+        }
+        return;
+    }
+    std::string missing;
+    for (const char* name :
+         train ? std::vector{"--stage", "--out"} : std::vector{"--sun", "--planet", "--module"}) {
+        if (command.count(name) == 0) {
+            missing += (missing.empty() ? "" : ", ") + std::string(name);
+        }
+    }
+    if (!missing.empty()) {
+        throw CLI::ValidationError("new " + options.kind + ": missing: " + missing);
+    }
+    if (train && options.train.level_m_s2 && !options.train.low_pass_Hz) {
+        throw CLI::ValidationError("--level", "needs --band, the upper end of its band");
     }
 }
 
@@ -86,7 +111,8 @@ nlohmann::json model_options(const CLI::App& command, const NewOptions& options)
     const PlanetaryDatasheet& data = options.planetary;
     nlohmann::json given;
     for (const auto& [name, key, value] :
-         {std::tuple{"--stage", "stage", nlohmann::json(options.stage)},
+         {std::tuple{"--stage", "stage",
+                     nlohmann::json(options.stages.empty() ? "" : options.stages.front())},
           std::tuple{"--load-case", "load_case", nlohmann::json(options.load_case)},
           std::tuple{"--input", "input", nlohmann::json(data.input)},
           std::tuple{"--planets", "planets", nlohmann::json(data.planets)},
@@ -104,25 +130,96 @@ nlohmann::json model_options(const CLI::App& command, const NewOptions& options)
     return given;
 }
 
-int new_command(const CLI::App& command, const NewOptions& options) {
-    const bool exists = options.out != "-" && std::filesystem::exists(options.out);
-    if (exists && !options.force) {
-        fmt::print(stderr, "--out {}: exists already; choose another file, or give --force\n",
-                   options.out);
+// Rms of a healthy gearbox of a study without noise over one turn of its planet or pinion: the root
+// of the mean square of the first three that set thresholds.
+double healthy_level(const std::string& text, const std::string& record) {
+    constexpr long kGearboxes = 3;
+    std::vector<std::string> overrides{"features.use=[\"change_sensor_rms\"]",
+                                       "ensemble.instances=1",
+                                       fmt::format("ensemble.threshold_instances={}", kGearboxes)};
+    if (!record.empty()) {
+        overrides.push_back(record);
     }
-    const bool writable = can_write({"--out", options.out}, {{"the model", options.rexs}}) &&
-                          (!exists || options.force);
-    const NewStudy made =
+    OpenStudy study("new train", text, overrides);
+    double squares = 0.0, samples = 0.0;
+    for (long row = 1; row <= kGearboxes; ++row) {
+        const Simulation simulation = simulate_row(study.plans().tile, study.plans().ensemble, row);
+        const auto sensor =
+            std::ranges::find(simulation.columns, "sensor", &SignalColumn::name)->values;
+        for (const double sample : sensor) {
+            squares += sample * sample;
+        }
+        samples += static_cast<double>(sensor.size());
+    }
+    return std::sqrt(squares / samples);
+}
+
+NewTrain made_train(const NewOptions& options) {
+    TrainDatasheet train = options.train;
+    NewTrain made;
+    for (std::size_t i = 0; i < options.stages.size(); ++i) {
+        train.stages.push_back(
+            read_train_stage(options.stages[i], fmt::format("--stage {}", i + 1), made.problems));
+    }
+    if (train.stages.size() < 2) {
+        made.problems.push_back({"new train", 0, "--stage", "a train has at least two stages",
+                                 "give each in an option of its own, or use new planetary"});
+    }
+    if (options.monitored < 1 || options.monitored > static_cast<int>(train.stages.size())) {
+        made.problems.push_back({"new train", 0, "--monitor",
+                                 fmt::format("there is no stage {}", options.monitored),
+                                 "give the number of a stage, from 1"});
+    }
+    if (!made.problems.empty()) {
+        return made;
+    }
+    const PlanetaryDatasheet& given = options.planetary;
+    train.load.torque_N_m = given.torque_N_m;
+    train.load.speed_rpm = given.speed_rpm;
+    train.load.power_kW = given.power_kW;
+    train.load.quality = given.quality;
+    train.monitored = static_cast<std::size_t>(options.monitored - 1);
+    train.file = options.out;
+    return new_train(train, options.command, healthy_level);
+}
+
+// Studies with their files, of which the first is the one to run.
+NewTrain made_studies(const CLI::App& command, const NewOptions& options, Problems& notices) {
+    if (options.kind == "train") {
+        return made_train(options);
+    }
+    NewStudy made =
         options.rexs.empty()
             ? new_planetary(options.planetary, options.command)
             : new_from_rexs(options.rexs, model_options(command, options), options.command);
+    notices = std::move(made.notices);
+    return {{{options.out, std::move(made.text)}}, std::move(made.problems)};
+}
+
+int new_command(const CLI::App& command, const NewOptions& options) {
+    Problems notices;
+    const NewTrain made = made_studies(command, options, notices);
     print_problems(made.problems);
-    if (!made.problems.empty() || !writable ||
-        !write_text_to(options.out, schema_line() + made.text)) {
+    bool good = made.problems.empty();
+    for (const auto& [path, text] : made.studies) {
+        const bool exists = path != "-" && std::filesystem::exists(path);
+        if (exists && !options.force) {
+            fmt::print(stderr, "--out {}: exists already; choose another file, or give --force\n",
+                       path);
+        }
+        good = can_write({"--out", path}, {{"the model", options.rexs}}) &&
+               (!exists || options.force) && good;
+    }
+    for (const auto& [path, text] : made.studies) {
+        good = good && write_text_to(path, schema_line() + text);
+    }
+    if (!good) {
         return kBadInput;
     }
-    print_problems(made.notices);
-    warn_of_load(made, options.out);
+    print_problems(notices);
+    for (const auto& [path, text] : made.studies) {
+        warn_of_load(text, path);
+    }
     if (options.out != "-") {
         fmt::print(
             "{0}: check its values and replace those that you know, then\n"
@@ -136,18 +233,21 @@ int new_command(const CLI::App& command, const NewOptions& options) {
 
 void add_new(CLI::App& app, int& code) {
     const auto options = std::make_shared<NewOptions>();
-    auto* command = app.add_subcommand("new",
-                                       "write a commented study from a gearbox datasheet or from a "
-                                       "stage of a REXS model (--rexs); missing values follow from "
-                                       "rules of thumb with sources");
+    auto* command =
+        app.add_subcommand("new",
+                           "write a commented study from a gearbox datasheet, from those "
+                           "of a train's stages, or from a stage of a REXS model "
+                           "(--rexs); missing values follow from rules of thumb with "
+                           "sources");
     PlanetaryDatasheet& data = options->planetary;
     command->add_option("kind", options->kind, "kind of gearbox; not with --rexs")
         ->check([](const std::string& kind) {
-            return kind == "planetary" ? ""
-                                       : "unknown kind of gearbox \"" + kind +
-                                             "\"; write planetary, or give a model (--rexs)";
+            return kind == "planetary" || kind == "train"
+                       ? ""
+                       : "unknown kind of gearbox \"" + kind +
+                             "\"; write planetary or train, or give a model (--rexs)";
         })
-        ->type_name("planetary");
+        ->type_name("planetary|train");
     add_number(*command, "--sun", data.sun, "number of teeth of the sun");
     add_number(*command, "--planet", data.planet, "number of teeth of a planet");
     add_number(*command, "--ring", data.ring,
@@ -182,8 +282,24 @@ void add_new(CLI::App& app, int& code) {
     add_file(*command, "--rexs", options->rexs,
              "gear-unit model to read instead (REXS 1.0 to 1.6, XML): "
              "a planetary or cylindrical stage");
-    command->add_option("--stage", options->stage,
-                        "id of the model's stage; needed if it has several");
+    command
+        ->add_option("--stage", options->stages,
+                     "stage of a train in the order of the power flow, \"SUN/PLANET/RING "
+                     "module=MM\" or \"DRIVING/DRIVEN module=MM\", also with helix=, face-width=, "
+                     "pressure-angle=, addendum=, quality=, planets=, input=sun; or id of the "
+                     "model's stage, needed if it has several")
+        ->type_name("TEXT")
+        ->allow_extra_args(false);
+    add_number(*command, "--monitor", options->monitored,
+               "number of the train's stage with the fault and the sensor (default: 1)");
+    add_number(*command, "--level", options->train.level_m_s2,
+               "measured vibration of the whole train, m/s^2 rms below --band; scales the other "
+               "stages and the background",
+               above(0.0, "m/s^2"));
+    add_number(*command, "--band", options->train.low_pass_Hz,
+               "upper end of the sensor's band, Hz (default: 20 times the monitored stage's mesh "
+               "frequency)",
+               above(0.0, "Hz"));
     command->add_option("--load-case", options->load_case,
                         "id of the model's load case; needed if it has several");
     add_file(*command, "--out", options->out,
@@ -192,10 +308,14 @@ void add_new(CLI::App& app, int& code) {
     command->callback([command, options, &code] {
         check_new_options(*command, *options);
         options->command = options->kind.empty() ? "new" : "new " + options->kind;
+        std::map<const CLI::Option*, std::size_t> seen;
         for (const CLI::Option* option : command->parse_order()) {
             if (option->nonpositional() && !option->check_lname("out") &&
                 !option->check_lname("force")) {
-                options->command += " " + option->get_name() + " " + option->results().front();
+                const std::string& value = option->results().at(seen[option]++);
+                const char* const quote = value.find(' ') == std::string::npos ? "" : "\"";
+                options->command +=
+                    fmt::format(" {} {}{}{}", option->get_name(), quote, value, quote);
             }
         }
         code = new_command(*command, *options);

@@ -1,15 +1,27 @@
 // Datasheets of planetary stages and gear pairs, and the studies that are made from them.
 #pragma once
 
+#include <functional>
 #include <map>
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
+#include <utility>
+#include <variant>
 #include <vector>
 
 #include "mc/files/input/problems.hpp"
 
 namespace gearpod::mc {
+
+// The machine around a stage, as the stage's study states it.
+struct Surroundings {
+    std::string place;                  // "stage 1 of 3"; empty: nothing is known of other stages
+    std::string stages;                 // value of sensor.stages; may be empty
+    std::optional<double> low_pass_Hz;  // of the sensor; follows from the mesh frequency if absent
+    // One-sided density of the machine's noise, m/s^2/sqrt(Hz), from a measured level.
+    std::optional<double> density;
+};
 
 // Values in the usual units. Missing ones follow from rules of thumb or the geometry.
 struct StageDatasheet {
@@ -24,11 +36,11 @@ struct StageDatasheet {
     std::optional<double> torque_N_m, speed_rpm, power_kW;
     std::string origin = "datasheet";  // kind of document, for the study's first comment
     std::vector<std::string> notes;    // further comments at the head of the study
+    Surroundings around;
 };
 
-// Datasheet of a gear pair on fixed shafts.
-
-// Datasheet values in the usual units. The pinion drives the gear and may be the larger of the two.
+// Datasheet of a gear pair on fixed shafts. The pinion drives the gear and may be the larger of the
+// two; the smaller one has the crack.
 struct PairDatasheet : StageDatasheet {
     int pinion = 0, gear = 0;  // teeth
     std::optional<double> pinion_shift, gear_shift;
@@ -37,8 +49,6 @@ struct PairDatasheet : StageDatasheet {
 };
 
 // Datasheet of a planetary gearbox.
-
-// Datasheet values in the usual units. Missing values follow from rules of thumb or the geometry.
 struct PlanetaryDatasheet : StageDatasheet {
     int sun = 0, planet = 0;
     std::optional<int> ring;  // teeth; default for standard gears: sun + 2 planet
@@ -103,5 +113,36 @@ NewStudy new_pair(const PairDatasheet& data, const std::string& command,
 // both values. `options`: stage, load_case, input, planets and values of StageDatasheet that are
 // given in addition; loads replace the model's.
 NewStudy new_from_rexs(const std::string& path, nlohmann::json options, const std::string& command);
+
+// Stage of a train of gears.
+using TrainStage = std::variant<PlanetaryDatasheet, PairDatasheet>;
+
+// Reads a stage: "21/39/99 module=12 helix=8" (sun, planet and ring; the carrier drives unless
+// input=sun follows) or "95/25 module=11" (driving and driven gear). Adds problems of the `option`.
+TrainStage read_train_stage(const std::string& text, const std::string& option, Problems& problems);
+
+struct TrainDatasheet {
+    std::vector<TrainStage> stages;     // in the order of the power flow
+    StageDatasheet load;                // torque, speed or power of the first stage; tooth quality
+    std::size_t monitored = 0;          // stage with the fault and the sensor
+    std::optional<double> low_pass_Hz;  // default: 20 times the monitored stage's mesh frequency
+    std::optional<double> level_m_s2;   // measured rms below low_pass_Hz
+    std::string file;                   // of the monitored stage's study
+};
+
+// Studies of a train with their files; none if there are problems.
+struct NewTrain {
+    std::vector<std::pair<std::string, std::string>> studies;
+    Problems problems;
+};
+
+// Rms of the vibration of healthy gearboxes of a study, without noise, m/s^2. `record`: override
+// that shortens the record; may be empty.
+using StageLevel = std::function<double(const std::string& study, const std::string& record)>;
+
+// Makes a study of each stage by the rules of rules.hpp. That of the monitored stage lists the
+// others in sensor.stages. A measured level is divided among the stages and the background, with
+// the levels that `level_of` computes; without one, the gains are 1 and the background is chosen.
+NewTrain new_train(TrainDatasheet train, const std::string& command, const StageLevel& level_of);
 
 }  // namespace gearpod::mc

@@ -36,6 +36,11 @@ PairText pair_teeth(const PairDatasheet& data) {
     return text;
 }
 
+// The smaller gear, whose teeth crack first: they pass the mesh more often.
+const char* cracked_gear(const PairDatasheet& data) {
+    return data.pinion <= data.gear ? "pinion" : "gear";
+}
+
 // Minimal study with the teeth only. Reading it checks the teeth.
 std::string minimal_pair(const PairDatasheet& data) {
     auto [general, members] = pair_teeth(data);
@@ -44,8 +49,9 @@ std::string minimal_pair(const PairDatasheet& data) {
     return general + "motor_coupling_stiffness_N_m_rad = 1\nload_coupling_stiffness_N_m_rad = 1\n" +
            members.text() +
            "[operation]\ntorque_N_m = 1\npinion_speed_rpm = 1\n"
-           "[effects]\nmotion = \"quasi-static\"\npath = \"none\"\n"
-           "[fault]\nkind = \"crack\"\nmember = \"pinion\"\ndepth_mm = 0\nangle_deg = 45\n"
+           "[effects]\nmotion = \"quasi-static\"\npath = \"none\"\n" +
+           fmt::format("[fault]\nkind = \"crack\"\nmember = \"{}\"\n", cracked_gear(data)) +
+           "depth_mm = 0\nangle_deg = 45\n"
            "[sensor]\nencoder_sampling_Hz = 1000\n"
            "[ensemble]\ninstances = 1\nthreshold_instances = 1\nseed = 1\n";
 }
@@ -115,17 +121,18 @@ std::string gearbox_section(const PairDatasheet& data, const DerivedPair& d) {
 
 std::string pair_text(const PairDatasheet& data, const DerivedPair& d, const InputLoad& load,
                       const std::string& command) {
-    const Background noise = background(sensor_rates(d.mesh_frequency_Hz));
+    const NewSensor sensor = new_sensor(data, d.mesh_frequency_Hz);
+    const Background& noise = sensor.background;
     return study_header(data,
                         fmt::format("A pair of gears with {} and {} teeth", data.pinion, data.gear),
-                        command) +
-           fmt::format("title = \"Gear pair {}/{}: crack of a pinion tooth\"\n\n", data.pinion,
-                       data.gear) +
+                        command, fmt::format("Gear pair {}/{}", data.pinion, data.gear),
+                        fmt::format("crack of a {} tooth", cracked_gear(data))) +
            gearbox_section(data, d) + "\n[operation]\n" +
            load_lines(data, load, "pinion_speed_rpm") + effects_section("none") +
            "\n[fault]                                     # another gear or kind: gearpod describe "
-           "--keys fault\nkind = \"crack\"\nmember = \"pinion\"\ndepth_mm = 0\nangle_deg = 45\n" +
-           sensor_section(d.mesh_frequency_Hz, line("position", "\"pinion\"", "")) +
+           "--keys fault\nkind = \"crack\"\n" +
+           fmt::format("member = \"{}\"\ndepth_mm = 0\nangle_deg = 45\n", cracked_gear(data)) +
+           sensor_section(data, sensor, line("position", "\"pinion\"", "")) +
            "\n[random]                                    # variation between gearboxes "
            "(chosen)\n" +
            varied("gearbox.pinion.bearing_stiffness_N_m", lognormal(d.pinion.bearing_N_m, 0.3)) +

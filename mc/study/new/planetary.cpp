@@ -156,20 +156,21 @@ GearboxText gearbox_teeth(const NominalGears& g) {
 std::string planetary_text(const NominalGears& g, const DerivedGearbox& d, const InputLoad& load,
                            const std::string& command) {
     const PlanetaryDatasheet& data = g.data;
-    const std::string gearbox = fmt::format("A planetary gearbox of {}/{}/{} teeth and {} planets",
-                                            data.sun, data.planet, g.ring_teeth, data.planets);
-    const std::string title = fmt::format(
-        "title = \"Planetary gearbox {}/{}/{}: crack of a planet tooth on the ring side\"\n\n",
-        data.sun, data.planet, g.ring_teeth);
     auto [general, members] = gearbox_teeth(g);
     add_bodies(d, members);
     const std::string support = add_bearings(g, d, members);
-    const Background noise = background(sensor_rates(d.mesh_frequency_Hz));
-    return study_header(data, gearbox, command) + title + general + accuracy(g, d) + support +
-           members.text() + operation(g, load) + effects_section("hamming") + kFault +
-           sensor_section(d.mesh_frequency_Hz,
-                          line("path_exponent", 0.1, "Liang (2016), section 5.1")) +
-           random(d, load, noise) + output_sections(data, noise);
+    const NewSensor sensor = new_sensor(data, d.mesh_frequency_Hz);
+    return study_header(
+               data,
+               fmt::format("A planetary gearbox of {}/{}/{} teeth and {} planets", data.sun,
+                           data.planet, g.ring_teeth, data.planets),
+               command,
+               fmt::format("Planetary gearbox {}/{}/{}", data.sun, data.planet, g.ring_teeth),
+               "crack of a planet tooth on the ring side") +
+           general + accuracy(g, d) + support + members.text() + operation(g, load) +
+           effects_section("hamming") + kFault +
+           sensor_section(data, sensor, line("path_exponent", 0.1, "Liang (2016), section 5.1")) +
+           random(d, load, sensor.background) + output_sections(data, sensor.background);
 }
 
 // Tooth number of the ring for standard gears. The tooth numbers are not checked yet.

@@ -1,6 +1,7 @@
 #include "mc/study/new/study_text.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -52,7 +53,8 @@ std::string MemberTables::text() const {
 }
 
 std::string study_header(const StageDatasheet& data, const std::string& gearbox,
-                         const std::string& command) {
+                         const std::string& command, const std::string& name,
+                         const std::string& fault) {
     std::string text = fmt::format("# {}, from its {} by\n#   gearpod {}\n", gearbox, data.origin,
                                    printable(command));
     for (const std::string& note : data.notes) {
@@ -69,8 +71,10 @@ std::string study_header(const StageDatasheet& data, const std::string& gearbox,
                       "and\n# Foundations (1993), section 3.4.\n"
                       "# `gearpod describe` prints the resulting gearbox. `gearpod calibrate` "
                       "fits tooth\n# errors, path and background noise to recordings of "
-                      "healthy gearboxes.\n",
-                      data.origin);
+                      "healthy gearboxes.\n"
+                      "title = \"{}{}: {}\"\n\n",
+                      data.origin, name,
+                      data.around.place.empty() ? " alone" : ", " + data.around.place, fault);
 }
 
 std::string teeth_lines(const StageDatasheet& data, double face_width_mm) {
@@ -99,20 +103,25 @@ std::string gear_lines(int teeth, const std::optional<double>& shift,
            (tip_mm ? fmt::format("tip_mm = {}\n", *tip_mm) : "");
 }
 
-SensorRates sensor_rates(double mesh_frequency_Hz) {
+NewSensor new_sensor(const StageDatasheet& data, double mesh_frequency_Hz) {
     // A filter of fourth order damps lines that fold back to below its corner by (6 - 1)^4 = 625.
     constexpr double kHarmonics = 20.0, kHighest_Hz = 10000.0, kPerLowPass = 6.0,
                      kFewestPerMesh = 12.0;
-    const double low_pass = std::min(kHarmonics * mesh_frequency_Hz, kHighest_Hz);
-    return {low_pass, std::max(kPerLowPass * low_pass, kFewestPerMesh * mesh_frequency_Hz)};
-}
-
-Background background(const SensorRates& rates) {
-    constexpr double kDensity = 1e-3, kMostPerLowPass = 50.0;
-    if (rates.sampling <= kMostPerLowPass * rates.low_pass) {
-        return {"noise_density_m_s2_per_sqrt_Hz", kDensity};
+    // Noise of accelerometers, m/s^2/sqrt(Hz): 0.5 and 25 ug/sqrt(Hz).
+    constexpr double kLowNoise = 5e-6, kMems = 2.5e-4, kMostPerLowPass = 50.0;
+    const double low_pass =
+        data.around.low_pass_Hz.value_or(std::min(kHarmonics * mesh_frequency_Hz, kHighest_Hz));
+    const double sampling = std::max(kPerLowPass * low_pass, kFewestPerMesh * mesh_frequency_Hz);
+    const double density = data.around.density.value_or(kChosenDensity);
+    std::vector<double> levels{kLowNoise / density, kMems / density, 1.0};
+    if (!data.around.density) {
+        levels.push_back(4.0);
     }
-    return {"noise_m_s2", kDensity * std::sqrt(0.5 * rates.sampling)};
+    return {mesh_frequency_Hz,
+            {low_pass, sampling},
+            sampling <= kMostPerLowPass * low_pass
+                ? Background{"noise_density_m_s2_per_sqrt_Hz", density, levels}
+                : Background{"noise_m_s2", density * std::sqrt(0.5 * sampling), levels}};
 }
 
 std::string load_lines(const StageDatasheet& data, const InputLoad& load,
@@ -132,22 +141,30 @@ std::string effects_section(const std::string& path) {
            line("mesh_damping", "\"ratio\"", "") + line("path", "\"" + path + "\"", "");
 }
 
-std::string sensor_section(double mesh_frequency_Hz, const std::string& place) {
-    const SensorRates rates = sensor_rates(mesh_frequency_Hz);
+std::string sensor_section(const StageDatasheet& data, const NewSensor& sensor,
+                           const std::string& place) {
+    const auto& [mesh_frequency_Hz, rates, noise] = sensor;
+    std::vector<std::string> levels;
+    std::ranges::transform(noise.levels, std::back_inserter(levels), rounded_text);
     return "\n[sensor]\n" +
            line("low_pass_Hz", rates.low_pass,
-                fmt::format("20 times the mesh frequency, {} Hz; 10 kHz at most",
-                            rounded_text(mesh_frequency_Hz))) +
+                data.around.low_pass_Hz
+                    ? "upper end of the band"
+                    : fmt::format("20 times the mesh frequency, {} Hz; 10 kHz at most",
+                                  rounded_text(mesh_frequency_Hz))) +
            line("sampling_Hz", rates.sampling,
                 "6 times the low-pass, at least 12 per mesh period") +
            place +
-           line(background(rates).key, background(rates).value,
-                "background of the machine; measure or calibrate it") +
+           line(noise.key, noise.value,
+                data.around.density ? "the rest of the measured level"
+                                    : "background of the machine; measure or calibrate it") +
            line("encoder_sampling_Hz", rates.sampling, "same as the sensor") +
            line("encoder_noise_arcsec", 1.0, "a good encoder (chosen)") +
-           line("noise_levels", "[0.005, 0.25, 1, 4]",
-                "0.005: a low-noise accelerometer alone, 0.5 ug/sqrt(Hz); 0.25: an industrial "
-                "MEMS one, 25 ug/sqrt(Hz)");
+           line("noise_levels", fmt::format("[{}]", fmt::join(levels, ", ")),
+                fmt::format("{}: a low-noise accelerometer alone, 0.5 ug/sqrt(Hz); {}: an "
+                            "industrial MEMS one, 25 ug/sqrt(Hz)",
+                            levels[0], levels[1])) +
+           data.around.stages;
 }
 
 std::string varied(const std::string& key, const std::string& distribution) {
@@ -178,7 +195,13 @@ std::string varied_depth(double deepest_m) {
 std::string output_sections(const StageDatasheet& data, const Background& noise) {
     // Enough gearboxes to show 90 % at 95 % confidence at each of the depths, in whole batches.
     constexpr long kDepths = 7, kBatch = 16;
-    const std::string quality = data.quality ? "" : "\"gearbox.tooth_quality\", ";
+    std::vector<std::string> chosen{"\"features.baseline_torque_scatter\""};
+    if (!data.quality) {
+        chosen.push_back("\"gearbox.tooth_quality\"");
+    }
+    if (!data.around.density) {
+        chosen.push_back(fmt::format("\"sensor.{}\"", noise.key));
+    }
     const long needed = kDepths * analysis::tests_to_show(analysis::kReliablePd, 0.95);
     return "\n[features]\n"
            "use = [\"te_kurtosis\", \"sensor_rms\", \"window_ratio\", \"window_z\", "
@@ -186,10 +209,8 @@ std::string output_sections(const StageDatasheet& data, const Background& noise)
            "baseline_torque_scatter = 0.02\n"
            "\n[detection]\nfalse_alarm_rate = 0.05\nconfidence = 0.95\n"
            "# neither measured nor from a source: the answer marks them\n"
-           "chosen_values = [\"features.baseline_torque_scatter\", " +
-           quality + "\"sensor." + noise.key +
-           "\"]\n"
-           "\n[ensemble]\n" +
+           "chosen_values = [" +
+           fmt::format("{}", fmt::join(chosen, ", ")) + "]\n\n[ensemble]\n" +
            line("instances", std::to_string((needed + kBatch - 1) / kBatch * kBatch),
                 "enough to show 90 % detection at each depth; more narrow the intervals") +
            "threshold_instances = 96\nseed = 1\n";

@@ -36,8 +36,10 @@ class MemberTables {
 };
 
 // First comment of a study: kind of gearbox, command, notes of the datasheet, sources of the rules.
+// Then its title, which says where the stage lies in its machine or that it is alone.
 std::string study_header(const StageDatasheet& data, const std::string& gearbox,
-                         const std::string& command);
+                         const std::string& command, const std::string& name,
+                         const std::string& fault);
 
 // Module, helix, pressure angle, addendum, centre distance, material, face width and tooth profile.
 std::string teeth_lines(const StageDatasheet& data, double face_width_mm);
@@ -51,18 +53,26 @@ struct SensorRates {
     double low_pass = 0, sampling = 0;
 };
 
-// Rates for twenty mesh harmonics, limited to the range of a general-purpose accelerometer. At
-// higher mesh frequencies a mesh period still has enough samples for the encoders and the windows.
-SensorRates sensor_rates(double mesh_frequency_Hz);
+// Density of the background without a measured level, m/s^2/sqrt(Hz); 0.1 m/s^2 up to 10 kHz.
+inline constexpr double kChosenDensity = 1e-3;
 
-// Background noise of the machine at the sensor: a one-sided density of 1e-3 m/s^2/sqrt(Hz), which
-// is 0.1 m/s^2 up to 10 kHz (chosen). At sampling rates far above the low-pass the rms of white
-// noise is used instead.
+// Background noise of the machine at the sensor, and the levels of it that a study compares. At
+// sampling rates far above the low-pass the rms of white noise takes the place of its density.
 struct Background {
     const char* key;
     double value;
+    std::vector<double> levels;
 };
-Background background(const SensorRates& rates);
+
+// Sensor of a stage with this mesh frequency. Its rates are those for twenty mesh harmonics,
+// limited to the range of a general-purpose accelerometer, unless the low-pass is given. At higher
+// mesh frequencies a mesh period still has enough samples for the encoders and the windows.
+struct NewSensor {
+    double mesh_frequency_Hz;
+    SensorRates rates;
+    Background background;
+};
+NewSensor new_sensor(const StageDatasheet& data, double mesh_frequency_Hz);
 
 // Torque and speed of the driving member.
 std::string load_lines(const StageDatasheet& data, const InputLoad& load,
@@ -71,7 +81,8 @@ std::string load_lines(const StageDatasheet& data, const InputLoad& load,
 std::string effects_section(const std::string& path);
 
 // Section [sensor]. `place`: the keys of the sensor's position and path.
-std::string sensor_section(double mesh_frequency_Hz, const std::string& place);
+std::string sensor_section(const StageDatasheet& data, const NewSensor& sensor,
+                           const std::string& place);
 
 // Line of [random], and distributions for it.
 std::string varied(const std::string& key, const std::string& distribution);
@@ -83,8 +94,8 @@ std::string varied_depth(double deepest_m);
 
 inline constexpr double kDefaultQuality = 6;  // ISO 1328 grade
 
-// Sections [features], [detection] and [ensemble]. The noise is chosen, and the tooth quality
-// unless the datasheet gives it.
+// Sections [features], [detection] and [ensemble]. The noise is chosen unless a level was measured,
+// and the tooth quality unless the datasheet gives it.
 std::string output_sections(const StageDatasheet& data, const Background& noise);
 
 // Makes a study and checks it. `teeth`: minimal study whose reading checks the teeth. `text_of`:

@@ -1,0 +1,285 @@
+// Train of planetary stages and gear pairs: a study for each stage, and in that of the monitored
+// stage the others with their shafts.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <iterator>
+#include <sstream>
+#include <tuple>
+
+#include "mc/files/input/document.hpp"
+#include "mc/files/input/number_text.hpp"
+#include "mc/study/new/datasheet.hpp"
+#include "mc/study/new/study_text.hpp"
+#include "signals/noise/coloured_noise.hpp"
+
+namespace gearpod::mc {
+namespace {
+
+constexpr const char* kCommand = "new train";
+
+StageDatasheet& common(TrainStage& stage) {
+    return std::visit([](auto& data) -> StageDatasheet& { return data; }, stage);
+}
+
+int ring_teeth(const PlanetaryDatasheet& data) {
+    return data.ring.value_or(data.sun + 2 * data.planet);
+}
+
+// Speeds, torques and shafts of a stage. The ring of a planetary one is fixed (Willis' equation).
+struct PowerFlow {
+    const char* input;
+    const char* output;            // members
+    double output_turns_per_turn;  // of the input
+    double meshes_per_turn;        // of the input
+};
+PowerFlow power_flow(const TrainStage& stage) {
+    if (const auto* pair = std::get_if<PairDatasheet>(&stage)) {
+        return {"pinion", "gear", 1.0 * pair->pinion / pair->gear, 1.0 * pair->pinion};
+    }
+    const auto& data = std::get<PlanetaryDatasheet>(stage);
+    const double ring = ring_teeth(data), sun_per_carrier = 1.0 + ring / data.sun;
+    return data.input == "carrier"
+               ? PowerFlow{"carrier", "sun", sun_per_carrier, ring}
+               : PowerFlow{"sun", "carrier", 1.0 / sun_per_carrier, ring / sun_per_carrier};
+}
+
+// Names of a stage's values in problems.
+DatasheetSource source_of(std::size_t stage) {
+    DatasheetSource source = planetary_options();
+    source.file = kCommand;
+    for (auto& [key, name] : source.keys) {
+        if (name != "--quality" && name != "--torque") {
+            name = fmt::format("{} in --stage {}", name.substr(2), stage + 1);
+        }
+    }
+    for (const char* gear : {"sun", "planet", "ring", "pinion", "gear"}) {
+        source.keys[fmt::format("gearbox.{}.teeth", gear)] =
+            fmt::format("teeth in --stage {}", stage + 1);
+    }
+    source.meshing_remedy = "correct its teeth, or give addendum= in the stage";
+    return source;
+}
+
+NewStudy make(const TrainStage& stage, const std::string& command, std::size_t number) {
+    const DatasheetSource source = source_of(number);
+    if (const auto* pair = std::get_if<PairDatasheet>(&stage)) {
+        return new_pair(*pair, command, source);
+    }
+    return new_planetary(std::get<PlanetaryDatasheet>(stage), command, source);
+}
+
+// Name of a stage's study: that of the monitored one with the stage's number.
+std::string stage_file(const std::string& monitored, std::size_t stage) {
+    const std::filesystem::path path(monitored);
+    return fmt::format("{}-stage-{}{}", path.stem().string(), stage + 1, path.extension().string());
+}
+
+// Elements of sensor.stages, from the monitored stage outwards. `study`: key and value that name
+// the study of a stage.
+std::string stages_line(const TrainDatasheet& train, double gain,
+                        const std::function<std::string(std::size_t)>& study) {
+    std::string text = "stages = [\n";
+    const auto add = [&](std::size_t stage, std::size_t neighbour, bool follows) {
+        const PowerFlow here = power_flow(train.stages[stage]),
+                        there = power_flow(train.stages[neighbour]);
+        text += fmt::format(
+            "    {{ name = \"stage-{}\", {}, {}shaft = \"{}\", stage_shaft = \"{}\", gain = {:.4g} "
+            "}},\n",
+            neighbour + 1, study(neighbour),
+            stage == train.monitored ? "" : fmt::format("of = \"stage-{}\", ", stage + 1),
+            follows ? here.output : here.input, follows ? there.input : there.output, gain);
+    };
+    for (std::size_t stage = train.monitored; stage + 1 < train.stages.size(); ++stage) {
+        add(stage, stage + 1, true);
+    }
+    for (std::size_t stage = train.monitored; stage > 0; --stage) {
+        add(stage, stage - 1, false);
+    }
+    return text + "]\n";
+}
+
+// Shares of a measured level: what the monitored stage does not produce, the other stages produce
+// with a gain of at most 1, and the background the rest. It is never below the chosen density
+// unless that alone exceeds the level.
+struct Rest {
+    double gain = 1.0;
+    double background_m_s2 = 0.0;
+};
+Rest rest_of(double level, double own, double others, double bandwidth_Hz) {
+    const double rest = level * level - own * own,
+                 chosen = kChosenDensity * kChosenDensity * bandwidth_Hz,
+                 background = std::max(rest - others * others, std::min(chosen, 0.5 * rest));
+    return {others > 0.0 ? std::min(1.0, std::sqrt((rest - background)) / others) : 1.0,
+            std::sqrt(background)};
+}
+
+// Divides a measured level among the monitored stage, the others and the background. Returns the
+// gain of the other stages.
+double divide_level(TrainDatasheet& train, const std::vector<NewStudy>& studies,
+                    const StageLevel& level_of, Problems& problems) {
+    StageDatasheet& monitored = common(train.stages[train.monitored]);
+    const double level = *train.level_m_s2, low_pass_Hz = *monitored.around.low_pass_Hz;
+    double own = 0.0, others = 0.0;
+    for (std::size_t i = 0; i < studies.size(); ++i) {
+        double& part = i == train.monitored ? own : others;
+        // Two turns of the carrier are at least three of a planet, the shortest record.
+        const bool planetary = std::holds_alternative<PlanetaryDatasheet>(train.stages[i]);
+        part =
+            std::hypot(part, level_of(studies[i].text, planetary ? "sensor.record_turns=2" : ""));
+    }
+    if (!(own < level)) {
+        problems.push_back(
+            {kCommand, 0, "--level",
+             fmt::format("{:.3g} m/s^2 is less than the monitored stage alone has below {:g} Hz, "
+                         "{:.3g} m/s^2",
+                         level, low_pass_Hz, own),
+             "compare the band, the load and the tooth quality of the measurement, or set "
+             "sensor.gain in a study without --level"});
+        return 1.0;
+    }
+    const double bandwidth_Hz = signals::low_pass_noise_bandwidth_Hz(low_pass_Hz);
+    const Rest rest = rest_of(level, own, others, bandwidth_Hz);
+    monitored.around.density = rest.background_m_s2 / std::sqrt(bandwidth_Hz);
+    monitored.notes.push_back(fmt::format(
+        "Measured level: {:g} m/s^2 rms below {:g} Hz. Healthy gearboxes of this stage alone have "
+        "{:.3g} m/s^2, the other stages together {:.3g} at their own sensors, here times the gain "
+        "{:.3g}. The background is the rest, {:.3g} m/s^2.",
+        level, low_pass_Hz, own, others, rest.gain, rest.background_m_s2));
+    return rest.gain;
+}
+
+}  // namespace
+
+TrainStage read_train_stage(const std::string& text, const std::string& option,
+                            Problems& problems) {
+    const auto reject = [&](const std::string& what, const std::string& remedy) {
+        problems.push_back({kCommand, 0, option, what, remedy});
+    };
+    std::istringstream words(text);
+    std::string word;
+    std::vector<int> teeth;
+    words >> word;
+    std::istringstream numbers(word);
+    for (std::string part; std::getline(numbers, part, '/');) {
+        teeth.push_back(parsed_number<int>(part).value_or(0));
+    }
+    TrainStage stage;
+    if ((teeth.size() != 2 && teeth.size() != 3) || std::ranges::min(teeth) < 1) {
+        reject("\"" + word + "\" are no numbers of teeth",
+               "write sun/planet/ring, or driving/driven gear of a pair");
+        return stage;
+    }
+    PlanetaryDatasheet* planetary = nullptr;
+    if (teeth.size() == 2) {
+        PairDatasheet& pair = stage.emplace<PairDatasheet>();
+        std::tie(pair.pinion, pair.gear) = std::tuple{teeth[0], teeth[1]};
+    } else {
+        planetary = &stage.emplace<PlanetaryDatasheet>();
+        std::tie(planetary->sun, planetary->planet, planetary->ring) =
+            std::tuple{teeth[0], teeth[1], teeth[2]};
+        planetary->input = "carrier";
+    }
+    StageDatasheet& data = common(stage);
+    const std::map<std::string, std::function<void(double)>> values{
+        {"module", [&](double value) { data.module_mm = value; }},
+        {"helix", [&](double value) { data.helix_deg = value; }},
+        {"pressure-angle", [&](double value) { data.pressure_angle_deg = value; }},
+        {"face-width", [&](double value) { data.face_width_mm = value; }},
+        {"addendum", [&](double value) { data.addendum = value; }},
+        {"quality", [&](double value) { data.quality = value; }}};
+    while (words >> word) {
+        const std::size_t equals = word.find('=');
+        const std::string name = word.substr(0, equals),
+                          value = equals == std::string::npos ? "" : word.substr(equals + 1);
+        const auto found = values.find(name);
+        if (planetary != nullptr && name == "input" && (value == "sun" || value == "carrier")) {
+            planetary->input = value;
+        } else if (planetary != nullptr && name == "planets" &&
+                   number_problem(value, NumberForm::whole, from_to(2, 8)).empty()) {
+            planetary->planets = static_cast<int>(whole_number(value));
+        } else if (found == values.end()) {
+            reject("\"" + word + "\" is not understood",
+                   std::string("write module=, helix=, pressure-angle=, face-width=, addendum=, "
+                               "quality=") +
+                       (planetary != nullptr ? ", planets=2 to 8, input=carrier or sun" : ""));
+        } else if (const std::string problem = number_problem(value, NumberForm::real, {});
+                   !problem.empty()) {
+            reject(name + ": " + problem, "");
+        } else {
+            found->second(real_number(value));
+        }
+    }
+    if (!(data.module_mm > 0.0)) {
+        reject("has no module above 0", "add module= with the normal module in mm");
+    }
+    return stage;
+}
+
+NewTrain new_train(TrainDatasheet train, const std::string& command, const StageLevel& level_of) {
+    NewTrain made;
+    Problems& problems = made.problems;
+    problems = load_problems(train.load, {kCommand, {}, ""}, "first stage's input");
+    InputLoad load = problems.empty() ? load_of(train.load) : InputLoad{1.0, 1.0};
+    const std::size_t count = train.stages.size();
+    for (std::size_t i = 0; i < count; ++i) {
+        StageDatasheet& data = common(train.stages[i]);
+        const PowerFlow flow = power_flow(train.stages[i]);
+        std::tie(data.torque_N_m, data.speed_rpm) = std::tuple{load.torque_N_m, load.speed_rpm};
+        data.quality = data.quality ? data.quality : train.load.quality;
+        data.around.place = fmt::format("stage {} of {}", i + 1, count);
+        if (i == train.monitored) {
+            const double meshes_Hz = flow.meshes_per_turn * load.speed_rpm / 60.0;
+            if (!train.low_pass_Hz) {
+                train.low_pass_Hz = new_sensor(data, meshes_Hz).rates.low_pass;
+            } else if (!(*train.low_pass_Hz > meshes_Hz) && problems.empty()) {
+                problems.push_back({kCommand, 0, "--band",
+                                    fmt::format("{:g} Hz is below the monitored stage's mesh "
+                                                "frequency, {:.4g} Hz",
+                                                *train.low_pass_Hz, meshes_Hz),
+                                    "give the upper end of a wider band"});
+            }
+        }
+        load = {load.torque_N_m / flow.output_turns_per_turn,
+                load.speed_rpm * flow.output_turns_per_turn};
+    }
+    std::vector<NewStudy> studies;
+    for (std::size_t i = 0; i < count; ++i) {
+        common(train.stages[i]).around.low_pass_Hz = train.low_pass_Hz;
+        studies.push_back(make(train.stages[i], command, i));
+        std::ranges::move(studies[i].problems, std::back_inserter(problems));
+    }
+    if (!problems.empty()) {
+        return made;
+    }
+    const double gain = train.level_m_s2 ? divide_level(train, studies, level_of, problems) : 1.0;
+    if (!problems.empty()) {
+        return made;
+    }
+    // The study is checked with the texts of the other stages, and written with their files.
+    const auto with_text = [&](std::size_t i) { return "text = " + quoted_text(studies[i].text); };
+    const auto with_file = [&](std::size_t i) {
+        return "study = " + quoted_text(stage_file(train.file, i));
+    };
+    std::string& stages = common(train.stages[train.monitored]).around.stages;
+    stages = stages_line(train, gain, with_text);
+    NewStudy& monitored = studies[train.monitored];
+    monitored = make(train.stages[train.monitored], command, train.monitored);
+    if (!monitored.problems.empty()) {
+        problems = monitored.problems;
+        return made;
+    }
+    monitored.text.replace(monitored.text.find(stages), stages.size(),
+                           stages_line(train, gain, with_file));
+    const std::filesystem::path folder = std::filesystem::path(train.file).parent_path();
+    for (std::size_t i = 0; i < count; ++i) {
+        made.studies.emplace_back(
+            i == train.monitored ? train.file : (folder / stage_file(train.file, i)).string(),
+            std::move(studies[i].text));
+    }
+    return made;
+}
+
+}  // namespace gearpod::mc
