@@ -4,12 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
-#include <variant>
 
 #include "lockstep/integrators/facts.hpp"
 #include "lockstep/steps/stability.hpp"
-#include "machine/upper_median.hpp"
 #include "mc/ensemble/ensemble.hpp"
 #include "mc/ensemble/gearbox/solution_choice.hpp"
 #include "mc/ensemble/ranks.hpp"
@@ -529,7 +526,6 @@ class AccuracyMeasurement {
         }
         mark_frontier();
         measure_explicit_limit();
-        check_step_costs();
         report_.stability = stability_map(stability_case_, own_steps_);
         measure_detection(planner_, request_, time_, report_);
         return std::move(report_);
@@ -674,10 +670,6 @@ class AccuracyMeasurement {
         result.meshes = record.meshes_per_tile();
         result.failed = static_cast<double>(std::count(record.ok.begin(), record.ok.end(), false));
         result.error = pilot_error(record, report_.reference.record);
-        SolverSetting setting = result.setting;
-        // The integrator of the study's own setting may be chosen by the program.
-        setting.numerics.integrator = setting.numerics.integrator.value_or(own_steps_.integrator);
-        result.cost = step_cost(facts_, setting).value_or(0.0) * result.steps * result.meshes;
     }
 
     bool holds(const SettingResult& r, double tolerance) const {
@@ -756,7 +748,6 @@ class AccuracyMeasurement {
                 continue;
             }
             result.integration_s = *std::min_element(times_[i].run.begin(), times_[i].run.end());
-            result.integration_median_s = machine::upper_median(times_[i].run);
             result.total_s = *std::min_element(times_[i].total.begin(), times_[i].total.end());
             result.mesh_s = result.integration_s / result.meshes;
         }
@@ -800,28 +791,6 @@ class AccuracyMeasurement {
         limit.refused = std::ranges::none_of(report_.settings, [](const auto& r) {
             return r.setting.numerics.integrator == lockstep::kUsualExplicit && r.refusal.empty();
         });
-    }
-
-    // Compares the measured times of steps with the cost model's table.
-    void check_step_costs() {
-        struct StepCosts {
-            std::vector<double> measured;
-            double modelled = 0.0;
-        };
-        std::map<std::string_view, StepCosts> all;
-        for (const SettingResult& r : report_.settings) {
-            if (r.steps > 0 && r.setting.numerics.integrator && r.setting.options.empty()) {
-                StepCosts& costs = all[r.setting.integrator()];
-                costs.measured.push_back(r.mesh_s / r.steps);
-                costs.modelled = step_cost(facts_, r.setting).value();
-            }
-        }
-        for (auto& [integrator, costs] : all) {
-            report_.step_costs.push_back(
-                fmt::format("{}: {:.1f} measured, {:.1f} in the table", integrator,
-                            machine::upper_median(costs.measured) / report_.explicit_limit.step_s,
-                            costs.modelled));
-        }
     }
 
     struct Times {

@@ -251,10 +251,8 @@ Json setting_json(const AccuracyReport& report, const SettingResult& r) {
                 {"integrated_meshes", r.meshes},
                 {"failed", r.failed},
                 {"gearbox_s", r.integration_s},
-                {"gearbox_median_s", r.integration_median_s},
                 {"gearbox_with_features_s", r.total_s},
                 {"mesh_s", r.mesh_s},
-                {"modelled_cost", r.cost},
                 {"frontier", r.frontier},
                 {"error", errors(report, r.error)}});
     if (r.detection) {
@@ -322,7 +320,6 @@ std::string accuracy_json(const AccuracyReport& report, const EnsemblePlan& plan
              {"mesh_frequency_Hz", report.mesh_frequency_Hz},
              {"noise_levels", report.noise_levels},
              {"own", report.settings[static_cast<std::size_t>(report.own)].setting.text()},
-             {"step_costs", report.step_costs},
              {"left_out", report.left_out},
              {"reference",
               {{"first", r.first.text()},

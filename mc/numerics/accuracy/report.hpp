@@ -89,10 +89,9 @@ struct SettingResult {
     int steps = 0;        // of the phase grid, per mesh period
     double meshes = 0.0;  // mesh periods integrated by a tile
     double failed = 0.0;  // pilot gearboxes that failed
-    // Processor time per gearbox of one thread in full tiles, s: minimum and median of the repeats.
-    double integration_s = 0.0, integration_median_s = 0.0, total_s = 0.0;
+    // Processor time per gearbox of one thread in full tiles, s: minimum of the repeats.
+    double integration_s = 0.0, total_s = 0.0;
     double mesh_s = 0.0;  // integration_s per integrated mesh period
-    double cost = 0.0;    // by the cost model, in rk4 steps
     PilotError error;
     bool frontier = false;  // true: no setting is both faster and more accurate
     std::optional<DetectionChange> detection;
@@ -142,8 +141,7 @@ struct AccuracyReport {
     std::vector<MeasuredEffect> effects;
     StabilityMap stability;
     std::vector<PeerResult> peers;
-    std::vector<std::string> step_costs;  // comparison of the cost model with the measurement
-    std::vector<std::string> left_out;    // omitted for lack of time
+    std::vector<std::string> left_out;  // omitted for lack of time
 
     int levels() const { return static_cast<int>(noise_levels.size()); }
     // Error of feature `f` as a share of its scatter, the largest over the noise levels; NaN if
