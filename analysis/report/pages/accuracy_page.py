@@ -235,8 +235,7 @@ def _stability(report, page):
     if not given:
         return ""
     factors, limit = given["stiffness_factors"], given["most_explicit_steps"]
-    hard = given.get("hard_cases", [])
-    figure, axes = panel(5.0 if hard else 3.6)
+    figure, axes = panel(3.6)
     for k, curve in enumerate(given["curves"]):
         axes.plot(factors, curve["steps"], color=colour(k), marker=marker(k), markersize=4,
                   linewidth=1.1, label=curve["integrator"])
@@ -246,25 +245,13 @@ def _stability(report, page):
     axes.set(xscale="log", yscale="log", ylim=(None, 10 * limit),
              xlabel="Stiffness of the meshes over that of the study",
              ylabel="Steps per mesh period")
-    # Hard cases with the study's own method, or the first explicit one.
-    names = [curve["integrator"] for curve in given["curves"]]
-    shown = names.index(given["own"]) if given["own"] in names else 0
-    for k, case in enumerate(hard):
-        axes.axhline(case["steps"][shown], color=colour(len(names) + k), linewidth=1.1,
-                     linestyle=(0, (4, 2 + 2 * k)),
-                     label=f"{case['name']} ({names[shown]})")
-    legend_below(axes, 1 if hard else 2)
+    legend_below(axes, 2)
     about = "; ".join(f"{curve['integrator']}: {number(curve['steps'][len(factors) // 2])} steps"
                       for curve in given["curves"])
-    def table(caption, head, rows):
-        return blocks.table("Fewest stable steps per mesh period " + caption, head,
-                            [[name, *(count(round(steps)) for steps in given_)] for name, given_ in rows])
-
-    data = table("by the factor on the stiffness",
-                 ["Integrator", *(f"x {number(factor)}" for factor in factors[::3])],
-                 [(curve["integrator"], curve["steps"][::3]) for curve in given["curves"]])
-    if hard:
-        data += table("in hard cases", ["Case", *names], [(case["name"], case["steps"]) for case in hard])
+    data = blocks.table("Fewest stable steps per mesh period by the factor on the stiffness",
+                        ["Integrator", *(f"x {number(factor)}" for factor in factors[::3])],
+                        [[curve["integrator"], *(count(round(steps)) for steps in curve["steps"][::3])]
+                         for curve in given["curves"]])
     return page.figure("Stability of explicit methods",
                        [to_svg(figure, "Stability of explicit methods", about, page.names)],
                        "An explicit method is stable above its curve. Implicit methods ("

@@ -350,9 +350,6 @@ std::string accuracy_json(const AccuracyReport& report, const EnsemblePlan& plan
                         {"own_steps", map.own_steps},
                         {"most_explicit_steps", lockstep::kMostExplicitSteps},
                         {"curves", analysis::json_of(map.curves)}};
-    if (!map.hard.empty()) {
-        all["stability"]["hard_cases"] = analysis::json_of(map.hard);
-    }
     for (const PeerResult& peer : report.peers) {
         all["peers"].push_back(peer_json(peer));
     }

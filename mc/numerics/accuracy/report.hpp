@@ -39,17 +39,9 @@ struct StabilityCurve {
 };
 GEARPOD_FIELDS(StabilityCurve, integrator, steps)
 
-// The gearbox with one of the properties that tests/hard examines.
-struct HardCase {
-    std::string name;
-    std::vector<double> steps;  // fewest stable ones, by curve of the map
-};
-GEARPOD_FIELDS(HardCase, name, steps)
-
 struct StabilityMap {
     std::vector<double> factors;         // on the largest stiffness of every gear pair
     std::vector<StabilityCurve> curves;  // of explicit integrators
-    std::vector<HardCase> hard;          // at the study's own mesh stiffness
     std::vector<std::string> implicit;   // integrators that are stable everywhere
     std::string own;                     // the study's integrator
     double own_steps = 0.0;

@@ -368,10 +368,7 @@ TEST_CASE("accuracy reports what it cannot do", "[accuracy]") {
                   {"bad.csv:2: sensor: \"z\" is not a number >= 0"});
 }
 
-// Checks the stability map of a study and its hard cases.
-
-TEST_CASE("the stability map has the steps of hard cases next to those of the study",
-          "[accuracy]") {
+TEST_CASE("stiffer meshes need more steps of explicit methods to be stable", "[accuracy]") {
     const Study study = test::shipped_study("published/tian-fig-4-9.toml", {});
     const Scene plan(study);
     const StabilityMap map = stability_map(
@@ -380,17 +377,9 @@ TEST_CASE("the stability map has the steps of hard cases next to those of the st
         Planner(study).steps(study.numerics));
     const std::size_t own = map.factors.size() / 2;
     REQUIRE(map.factors[own] == Approx(1.0));
-    REQUIRE(map.hard.size() == 3);
-    for (const HardCase& hard : map.hard) {
-        REQUIRE(hard.steps.size() == map.curves.size());
-    }
-    for (std::size_t i = 0; i < map.curves.size(); ++i) {
-        INFO(map.curves[i].integrator);
-        // Stiffer bearings raise the fastest mode, a mesh without stiffness lowers that of the
-        // mesh.
-        CHECK(map.hard[0].steps[i] >= (1.0 - 1e-9) * map.curves[i].steps[own]);
-        CHECK(map.hard[1].steps[i] <= (1.0 + 1e-9) * map.curves[i].steps[own]);
-        CHECK(map.curves[i].steps.back() >= map.curves[i].steps[own]);
+    for (const StabilityCurve& curve : map.curves) {
+        INFO(curve.integrator);
+        CHECK(curve.steps.back() >= curve.steps[own]);
     }
 }
 
