@@ -225,20 +225,4 @@ Campaign campaign_of(const CampaignPlan& plan, const Results& frame, const RowSo
     return campaign;
 }
 
-Campaign run_campaign(const LifeTiles& tiles) {
-    const CampaignPlan& campaign = tiles.plan().campaign;
-    const BatchPlan plan = lives_plan(campaign);
-    MemoryRows store(plan.batches());
-    const Ranks alone;
-    Progress silent(1, true);
-    const EnsembleOutcome outcome =
-        run_lives(tiles, plan, {.ranks = alone, .store = store, .progress = silent});
-    if (!outcome.failure.empty()) {
-        throw std::runtime_error(outcome.failure);
-    }
-    Results frame = lives_frame(campaign);
-    store_run_costs(tiles.plan(), kNan, outcome, frame);
-    return campaign_of(campaign, frame, StoredRows(store, plan, outcome.batches));
-}
-
 }  // namespace gearpod::mc

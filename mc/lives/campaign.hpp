@@ -58,7 +58,4 @@ void store_run_costs(const LifePlan& plan, double interpolation_error,
 // Reads a campaign from finished rows; the costs are those of the run that wrote them.
 Campaign campaign_of(const CampaignPlan& plan, const Results& frame, const RowSource& rows);
 
-// Simulates all lives in memory and in this process, at the integrated loads of the plan.
-Campaign run_campaign(const LifeTiles& tiles);
-
 }  // namespace gearpod::mc

@@ -2,6 +2,7 @@
 // are chosen.
 #include "mc/lives/campaign.hpp"
 #include "mc/lives/interpolation.hpp"
+#include "tests/mc/lives/campaign_in_memory.hpp"
 #include "tests/mc/lives/life_example.hpp"
 #include "tests/test.hpp"
 

@@ -5,6 +5,7 @@
 #include "mc/results/result_rows.hpp"
 #include "mc/results/results_file.hpp"
 #include "stiffness/growth/crack_growth.hpp"
+#include "tests/mc/lives/campaign_in_memory.hpp"
 #include "tests/mc/lives/life_example.hpp"
 #include "tests/mc/program_json.hpp"
 

@@ -5,6 +5,7 @@
 #include "mc/report/description/describe.hpp"
 #include "mc/results/checkpoint.hpp"
 #include "mc/results/results_file.hpp"
+#include "tests/mc/lives/campaign_in_memory.hpp"
 #include "tests/mc/lives/life_example.hpp"
 #include "tests/mc/program.hpp"
 #include "tests/mc/study_file.hpp"
