@@ -411,10 +411,6 @@ HealthyRate rate_of(const Threshold& threshold, Alarm alarm, double false_alarm_
                : healthy_rate(threshold.sample, false_alarm_rate, alarms, tested, confidence);
 }
 
-Threshold alarm_threshold(std::vector<double> healthy, Alarm alarm, double false_alarm_rate) {
-    return SortedSample(std::move(healthy), alarm).threshold(false_alarm_rate);
-}
-
 SortedSample::SortedSample(std::vector<double> healthy, Alarm alarm)
     : alarm_(alarm), ascending_(std::move(healthy)) {
     std::erase_if(ascending_, [](double value) { return !std::isfinite(value); });

@@ -18,7 +18,7 @@ namespace gearpod::analysis {
 // + 1 - r, r) distributed: S. S. Wilks, Ann. Math. Stat. 12 (1941), 91-96; H. A. David, H. N.
 // Nagaraja, Order Statistics (2003), section 2.1. Ties only lower the rate.
 
-// Rank r used by alarm_threshold(), 1 <= r <= n; n + 1 if the sample is too small.
+// Rank r used by SortedSample::threshold(), 1 <= r <= n; n + 1 if the sample is too small.
 long threshold_rank(long sample, double false_alarm_rate);
 
 // Two-sided tolerance interval of the rate of one given threshold. NaN if there is no threshold.
@@ -126,19 +126,18 @@ struct Threshold {
     long gearboxes = 0;
 };
 
-// Returns the ceil((n+1)(1-rate))-th smallest of n values (largest for a low alarm). A further
-// healthy gearbox from the same population lies strictly beyond the r-th smallest of n with an
-// expected probability of (n+1-r)/(n+1), whatever the distribution. This is therefore the tightest
-// order statistic that keeps the rate. Where it would need more than n values, the threshold is
-// extrapolated as far as the tail permits. Values that are not finite are left out.
-Threshold alarm_threshold(std::vector<double> healthy, Alarm alarm, double false_alarm_rate);
-
-// The same for several rates of one sample, which is sorted and whose tail is fitted once. An
-// object belongs to one thread.
+// Thresholds from one healthy sample, which is sorted and whose tail is fitted once. An object
+// belongs to one thread.
 class SortedSample {
   public:
+    // Values that are not finite are left out.
     SortedSample(std::vector<double> healthy, Alarm alarm);
 
+    // The ceil((n+1)(1-rate))-th smallest of n values (largest for a low alarm). A further healthy
+    // gearbox from the same population lies strictly beyond the r-th smallest of n with an expected
+    // probability of (n+1-r)/(n+1), whatever the distribution. This is therefore the tightest order
+    // statistic that keeps the rate. Where it would need more than n values, the threshold is
+    // extrapolated as far as the tail permits.
     Threshold threshold(double false_alarm_rate) const;
     // Interval of the value that is exceeded with exactly the requested rate, from order statistics
     // or from the tail. A bound is infinite where neither reaches.
@@ -197,11 +196,11 @@ struct HealthyValues {
 
 // Threshold estimator. The method depends on the sample:
 //
-// - Plain values: alarm_threshold().
+// - Plain values: SortedSample::threshold().
 // - Several plain records per gearbox: the same order statistics, without extrapolation, because
 //   the tail of clustered values is not known.
 // - Importance-sampled records: importance_sample.hpp. Where too few gearboxes contribute,
-//   alarm_threshold() of the first record of each gearbox, which is plain.
+//   SortedSample::threshold() of the first record of each gearbox, which is plain.
 class HealthyThresholds {
   public:
     HealthyThresholds(const HealthyValues& sample, Alarm alarm);

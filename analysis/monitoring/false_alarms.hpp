@@ -30,9 +30,9 @@ struct MonitorThreshold {
 };
 
 // Smallest statistic above which these lives have few enough alarms. Of n records, r - 1 have none;
-// r is the rank of alarm_threshold() at a rate of `per_1000_h` times the hours per record. For
-// independent records (lives of one record, or a single-value rule) the expected rate equals the
-// stated one, otherwise nearly so. The rule restarts after each alarm.
+// r is the rank of SortedSample::threshold() at a rate of `per_1000_h` times the hours per record.
+// For independent records (lives of one record, or a single-value rule) the expected rate equals
+// the stated one, otherwise nearly so. The rule restarts after each alarm.
 MonitorThreshold monitor_threshold(const Detector& detector, std::span<const HealthyLife> lives,
                                    double per_1000_h);
 
@@ -102,7 +102,7 @@ struct RecordThreshold {
 // Threshold of healthy records, the values of each gearbox in time order, at an expected rate of
 // false alarms of further records: statistics are exceeded by their residuals about their part's
 // mean and a level that drifts. For those that accumulate, and without records enough for parts, it
-// is that of alarm_threshold().
+// is that of SortedSample::threshold().
 RecordThreshold record_threshold(const Detector& detector, std::span<const HealthyRecords> healthy,
                                  double rate);
 

@@ -27,7 +27,7 @@ Coverage coverage(double share, int gearboxes, int recordings, double rate, int 
                 gearbox.push_back(static_cast<std::size_t>(g));
             }
         }
-        const double threshold = alarm_threshold(values, Alarm::high, rate).value;
+        const double threshold = SortedSample(values, Alarm::high).threshold(rate).value;
         const double truth = cdf(complement(normal, threshold));
         const auto holds = [&](const Interval& bounds) {
             return bounds.lower <= truth && truth <= bounds.upper ? 1.0 / studies : 0.0;
@@ -80,7 +80,7 @@ RareCoverage rare_coverage(double deviation, Law law, int gearboxes, int records
                 gearbox.push_back(static_cast<std::size_t>(g));
             }
         }
-        const double threshold = alarm_threshold(values, Alarm::high, rate).value;
+        const double threshold = SortedSample(values, Alarm::high).threshold(rate).value;
         const Interval bounds =
             clustered_rate_interval(values, gearbox, Alarm::high, threshold, rate, 0.95);
         const double truth = rate_beyond(threshold, deviation, law);
@@ -212,7 +212,7 @@ UniformCoverage uniform_coverage(int studies, int sample, int tested) {
     for (int s = 0; s < studies; ++s) {
         std::vector<double> values(sample);
         std::generate(values.begin(), values.end(), [&] { return draw(engine); });
-        const Threshold threshold = alarm_threshold(values, Alarm::high, 0.05);
+        const Threshold threshold = SortedSample(values, Alarm::high).threshold(0.05);
         long alarms = 0;
         for (int i = 0; i < tested; ++i) {
             alarms += draw(engine) > threshold.value ? 1 : 0;

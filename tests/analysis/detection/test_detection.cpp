@@ -19,16 +19,16 @@ std::vector<double> counted(int n) {
 TEST_CASE("The threshold is the order statistic that keeps the false-alarm rate") {
     // For 99 values at 5 %, (n+1)(1-rate) = 95 exactly: the 95th value, with 4 of the sample
     // beyond.
-    const Threshold high = alarm_threshold(counted(99), Alarm::high, 0.05);
+    const Threshold high = SortedSample(counted(99), Alarm::high).threshold(0.05);
     CHECK(high.value == 95.0);
     CHECK(high.alarms == 4);
-    const Threshold low = alarm_threshold(counted(99), Alarm::low, 0.05);
+    const Threshold low = SortedSample(counted(99), Alarm::low).threshold(0.05);
     CHECK(low.value == 5.0);
     CHECK(low.alarms == 4);
-    CHECK(alarm_threshold(counted(100), Alarm::high, 0.05).value == 96.0);
-    CHECK(alarm_threshold(counted(19), Alarm::high, 0.05).value == 19.0);
-    CHECK(std::isnan(alarm_threshold(counted(18), Alarm::high, 0.05).value));
-    CHECK(std::isnan(alarm_threshold({}, Alarm::high, 0.05).value));
+    CHECK(SortedSample(counted(100), Alarm::high).threshold(0.05).value == 96.0);
+    CHECK(SortedSample(counted(19), Alarm::high).threshold(0.05).value == 19.0);
+    CHECK(std::isnan(SortedSample(counted(18), Alarm::high).threshold(0.05).value));
+    CHECK(std::isnan(SortedSample({}, Alarm::high).threshold(0.05).value));
 }
 
 TEST_CASE(
@@ -44,7 +44,7 @@ TEST_CASE(
         for (double& value : healthy) {
             value = draw(engine);
         }
-        sum += cdf(complement(normal, alarm_threshold(healthy, Alarm::high, 0.05).value));
+        sum += cdf(complement(normal, SortedSample(healthy, Alarm::high).threshold(0.05).value));
     }
     // (n+1)(1-rate) = 38 is an integer, so the rate is met exactly: 2/40. Its standard deviation in
     // one trial is that of Beta(2, 38), 0.034; that of the mean is 5.4e-4.

@@ -166,7 +166,7 @@ TEST_CASE("With fewer than 20 gearboxes that alarm, the first records set the th
     CHECK(importance_sampled.plain() == first);
     const Threshold threshold = importance_sampled.at(0.01, 0.95);
     CHECK(!threshold.importance_sampled);
-    CHECK(threshold.value == alarm_threshold(first, Alarm::high, 0.01).value);
+    CHECK(threshold.value == SortedSample(first, Alarm::high).threshold(0.01).value);
     CHECK(importance_sampled.rate_bounds(threshold, 0.01, 0.95).upper ==
           threshold_rate_interval(300, 0.01, 0.95).upper);
     CHECK(std::isnan(importance_sampled.at(1e-6, 0.95).value));
@@ -207,7 +207,7 @@ TEST_CASE("Plain records of gearboxes give order statistics and no tail beyond t
     }
     const HealthyThresholds records({values, gearbox}, Alarm::high);
     const Threshold rare = records.at(1e-3, 0.95);
-    CHECK(rare.value == alarm_threshold(values, Alarm::high, 1e-3).value);
+    CHECK(rare.value == SortedSample(values, Alarm::high).threshold(1e-3).value);
     const Interval bounds = records.value_bounds(rare, 1e-3, 0.95);
     CHECK(bounds.lower < rare.value);
     CHECK(bounds.upper > rare.value);

@@ -150,8 +150,8 @@ TEST_CASE("A threshold beyond the sample comes from the fitted tail, for either 
         value = draw(engine);
         low.push_back(-value);
     }
-    const Threshold above = alarm_threshold(high, Alarm::high, 1e-4);
-    const Threshold below = alarm_threshold(low, Alarm::low, 1e-4);
+    const Threshold above = SortedSample(high, Alarm::high).threshold(1e-4);
+    const Threshold below = SortedSample(low, Alarm::low).threshold(1e-4);
     REQUIRE(above.tail);
     CHECK(above.tail->exceedances() == 200);
     CHECK(above.value == -below.value);
@@ -166,10 +166,10 @@ TEST_CASE("A threshold beyond the sample comes from the fitted tail, for either 
     CHECK(counted.bounds.upper < 1.12e-4);
     CHECK(counted.bounds.lower > 0.90e-4);
     // A threshold within the sample stays an order statistic.
-    CHECK(!alarm_threshold(high, Alarm::high, 1e-3).tail);
-    CHECK(std::isnan(alarm_threshold(high, Alarm::high, 0.9e-4).value));
+    CHECK(!SortedSample(high, Alarm::high).threshold(1e-3).tail);
+    CHECK(std::isnan(SortedSample(high, Alarm::high).threshold(0.9e-4).value));
     std::fill(high.begin(), high.begin() + 300, 4.0);
-    CHECK(std::isnan(alarm_threshold(high, Alarm::high, 1e-4).value));
+    CHECK(std::isnan(SortedSample(high, Alarm::high).threshold(1e-4).value));
 }
 
 }  // namespace gearpod::analysis::test_tail

@@ -47,7 +47,7 @@ TEST_CASE("Lives of one record have the thresholds of single recordings") {
         }
         for (const double rate : {0.05, 0.1, 0.3}) {
             INFO(gearboxes << " " << rate);
-            const Threshold single = alarm_threshold(values, Alarm::high, rate);
+            const Threshold single = SortedSample(values, Alarm::high).threshold(rate);
             const auto monitor = monitor_threshold(*parse_detector("single"), lives, 1000.0 * rate);
             CHECK(monitor.value == single.value);
             CHECK(monitor.alarms == single.alarms);
