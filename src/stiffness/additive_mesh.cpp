@@ -13,16 +13,6 @@ namespace {
 // fraction of the stiffness of contact and mating tooth
 constexpr double kFaultyPairTolerance = 4e-10;
 
-ChebyshevSeries beam_series(const gears::MeshGeometry& geometry, const Material& material,
-                            Profile profile, double tolerance, int which) {
-    const ToothProfile tooth(geometry.gear(which), profile);
-    const auto compliance = [&](double tau) {
-        return tooth_compliance(tooth, material, geometry.contact_angle(which, tau)).total();
-    };
-    return {compliance, 0, geometry.contact_ratio(), kSeriesNodes,
-            std::max(tolerance, kSeriesTolerance)};
-}
-
 // Ages of the tooth pairs in contact inside a stretch. They stand at tau + age, youngest first.
 struct Ages {
     int first, last;  // one past the last
@@ -114,8 +104,8 @@ AdditiveMesh::AdditiveMesh(const gears::MeshGeometry& geometry, const Material& 
     : contact_ratio_(geometry.contact_ratio()),
       pitch_position_(geometry.pitch_position()),
       contact_(1 / hertz_stiffness(material)),
-      beams_{beam_series(geometry, material, profile, tolerance, 1),
-             beam_series(geometry, material, profile, tolerance, 2)},
+      beams_{healthy_beam(geometry, material, {geometry.gear(1), profile}, tolerance, 1),
+             healthy_beam(geometry, material, {geometry.gear(2), profile}, tolerance, 2)},
       pair_([&](double tau) { return 1 / (contact_ + beams_[0](tau) + beams_[1](tau)); }, 0,
             contact_ratio_, kSeriesNodes, std::max(tolerance, kSeriesTolerance)),
       fit_(std::max(tolerance, kFaultyPairTolerance) / (contact_ + beams_[1](contact_ratio_ / 2))),

@@ -156,13 +156,8 @@ CoupledMesh::CoupledMesh(const gears::MeshGeometry& geometry, const Material& ma
                                                 contact_ratio(), TouchingPairs::kMost));
     const double tolerance = std::max(tolerance_, kSeriesTolerance);
     for (const int which : {1, 2}) {
-        const ToothProfile tooth(geometry.gear(which), profile);
-        beams_[which - 1] = ChebyshevSeries(
-            [&](double tau) {
-                return tooth_compliance(tooth, material, geometry.contact_angle(which, tau))
-                    .total();
-            },
-            0, contact_ratio(), kSeriesNodes, tolerance);
+        beams_[which - 1] =
+            healthy_beam(geometry, material, {geometry.gear(which), profile}, tolerance, which);
     }
     foundation_ =
         ChebyshevSeries([&](double tau) { return foundation(1, tau) + foundation(2, tau); }, 0,
@@ -224,14 +219,18 @@ const CoupledMesh::HealthyStretch& CoupledMesh::stretch_at(double phase) const {
     return stretches_[static_cast<std::size_t>(next - transitions_.begin()) - 1];
 }
 
-void CoupledMesh::total(std::span<const double> tau, double inside,
-                        std::span<double> stiffness) const {
-    const double period = std::floor(inside);
-    const HealthyStretch& stretch = stretch_at(inside - period);
+std::vector<double> CoupledMesh::phases(std::span<const double> tau, double period,
+                                        const HealthyStretch& stretch) {
     std::vector<double> phase(tau.size());
     std::transform(tau.begin(), tau.end(), phase.begin(),
                    [&](double t) { return std::clamp(t - period, stretch.begin, stretch.end); });
-    stretch.total(phase, stiffness);
+    return phase;
+}
+
+void CoupledMesh::total(std::span<const double> tau, double inside,
+                        std::span<double> stiffness) const {
+    const HealthyStretch& stretch = stretch_at(inside - std::floor(inside));
+    stretch.total(phases(tau, std::floor(inside), stretch), stiffness);
 }
 
 void CoupledMesh::share(std::span<const double> tau, double inside, std::span<double> share) const {
@@ -240,10 +239,7 @@ void CoupledMesh::share(std::span<const double> tau, double inside, std::span<do
         return;
     const double period = std::floor(inside);
     const HealthyStretch& stretch = stretch_at(inside - period);
-    std::vector<double> phase(tau.size());
-    std::transform(tau.begin(), tau.end(), phase.begin(),
-                   [&](double t) { return std::clamp(t - period, stretch.begin, stretch.end); });
-    stretch.shares[static_cast<std::size_t>(period)](phase, share);
+    stretch.shares[static_cast<std::size_t>(period)](phases(tau, period, stretch), share);
 }
 
 std::unique_ptr<const FaultyMesh> CoupledMesh::with_fault(const ToothFault& fault) const {

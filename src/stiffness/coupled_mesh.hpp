@@ -1,8 +1,9 @@
 // Gear pair whose tooth pairs share the load. Beams and Hertz contacts are as in AdditiveMesh. The
 // gear bodies deform under each tooth root and, through the body, under its neighbours
 // (foundation/fillet_foundation.hpp). Contacts may stiffen with the force they carry
-// (src/stiffness/contact/load_sharing.hpp). The total is the mesh force over the approach of the gears along the
-// line of action. Source: Yang (2022), section 2.1, extended to any number of pairs in contact.
+// (src/stiffness/contact/load_sharing.hpp). The total is the mesh force over the approach of the
+// gears along the line of action. Source: Yang (2022), section 2.1, extended to any number of pairs
+// in contact.
 //
 // Curves are Chebyshev series in the position. Their error is below 1e-11 (healthy) and 1e-8 of the
 // mean (faulty).
@@ -67,6 +68,9 @@ class CoupledMesh : public MeshStiffness {
     SharedLoad healthy_load(double phase, int pairs) const;
     TouchingPairs touching(double phase, int pairs) const;
     const HealthyStretch& stretch_at(double phase) const;
+    // Positions within a stretch of a mesh period, as phases.
+    static std::vector<double> phases(std::span<const double> tau, double period,
+                                      const HealthyStretch& stretch);
 
     double tolerance_;  // see CoupledMeshOptions
     gears::MeshGeometry geometry_;

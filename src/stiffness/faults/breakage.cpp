@@ -79,12 +79,7 @@ ToothBreakage::ToothBreakage(const gears::MeshGeometry& geometry, const Material
                              profile_.section(profile_.involute_root()).axial)),
       height_(height_m.value_or(flank_height_)),
       plane_(profile_.involute_root()),
-      healthy_beam_(
-          [&](double tau) {
-              return tooth_compliance(profile_, material, geometry.contact_angle(which, tau))
-                  .total();
-          },
-          0, geometry.contact_ratio(), kSeriesNodes, kSeriesTolerance) {
+      healthy_beam_(healthy_beam(geometry, material, profile_, 0, which)) {
     if (height_ < flank_height_)
         plane_ = profile_.angle_of_axial(geometry.gear(which).tip_radius() +
                                          (profile_.internal() ? height_ : -height_));

@@ -112,12 +112,7 @@ ToothPitting::ToothPitting(const gears::MeshGeometry& geometry, const Material& 
       band_(band),
       contact_start_(profile_.involute_angle(geometry.contact_angle_at_start(which))),
       contact_rate_(profile_.involute_angle(geometry.contact_angle_rate(which))),
-      healthy_beam_(
-          [&](double tau) {
-              return tooth_compliance(profile_, material, geometry.contact_angle(which, tau))
-                  .total();
-          },
-          0, geometry.contact_ratio(), kSeriesNodes, kSeriesTolerance) {
+      healthy_beam_(healthy_beam(geometry, material, profile_, 0, which)) {
     const double base = gear_.base_radius(), sense = gear_.internal ? 1 : -1;
     const double centre = arc_at(base, band.centre_radius_m);
     const auto angle = [&](double arc) {

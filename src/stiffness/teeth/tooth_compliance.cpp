@@ -200,4 +200,13 @@ ToothCompliance tooth_compliance(const ToothProfile& profile, const Material& ma
     return beam.sum();
 }
 
+ChebyshevSeries healthy_beam(const gears::MeshGeometry& geometry, const Material& material,
+                             const ToothProfile& profile, double tolerance, int which) {
+    const auto compliance = [&](double tau) {
+        return tooth_compliance(profile, material, geometry.contact_angle(which, tau)).total();
+    };
+    return {compliance, 0, geometry.contact_ratio(), kSeriesNodes,
+            std::max(tolerance, kSeriesTolerance)};
+}
+
 }  // namespace gearpod::stiffness

@@ -2,6 +2,8 @@
 // position.
 #pragma once
 
+#include "gears/mesh_geometry.hpp"
+#include "stiffness/teeth/chebyshev.hpp"
 #include "stiffness/teeth/crack.hpp"
 #include "stiffness/teeth/material.hpp"
 #include "stiffness/teeth/tooth_profile.hpp"
@@ -77,5 +79,10 @@ struct ToothCompliance {
 // of an internal one.
 ToothCompliance tooth_compliance(const ToothProfile& profile, const Material& material,
                                  double contact_angle, const Crack& crack = {});
+
+// The same of a healthy tooth of gear `which` at the positions of its engagement. `tolerance`:
+// error relative to the largest value; 0: the smallest possible.
+ChebyshevSeries healthy_beam(const gears::MeshGeometry& geometry, const Material& material,
+                             const ToothProfile& profile, double tolerance, int which);
 
 }  // namespace gearpod::stiffness
