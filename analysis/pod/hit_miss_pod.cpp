@@ -38,24 +38,16 @@ std::string outcome_refusal(const HitMissTable& table,
     return {};
 }
 
-// True if hits and misses do not overlap. Then the likelihood without a floor has no maximum: A.
-// Albert, J. A. Anderson, Biometrika 71 (1984), 1-10.
+// True if the hits and misses, which both exist, do not overlap. Then the likelihood without a
+// floor has no maximum: A. Albert, J. A. Anderson, Biometrika 71 (1984), 1-10.
 bool separated(const HitMissTable& table) {
-    const double smallest_miss = [&] {
-        for (const HitMissRow& row : table) {
-            if (row.hits < row.tests) {
-                return row.size;
-            }
-        }
-        return kNan;
-    }();
-    double largest_hit = kNan;
-    for (const HitMissRow& row : table) {
-        if (row.hits > 0.0) {
-            largest_hit = row.size;
-        }
-    }
-    return smallest_hit(table) >= largest_miss(table) || smallest_miss >= largest_hit;
+    const auto missed = [](const HitMissRow& row) { return row.hits < row.tests; };
+    const auto found = [](const HitMissRow& row) { return row.hits > 0.0; };
+    const auto first = [&](const auto& is) { return std::ranges::find_if(table, is)->size; };
+    const auto last = [&](const auto& is) {
+        return std::find_if(table.rbegin(), table.rend(), is)->size;
+    };
+    return first(found) >= last(missed) || first(missed) >= last(found);
 }
 
 struct Fitted {

@@ -7,6 +7,7 @@
 #include <bit>
 #include <cmath>
 #include <numbers>
+#include <numeric>
 #include <stdexcept>
 
 #include "analysis/statistics/distributions.hpp"
@@ -40,38 +41,14 @@ HitMissTable hit_miss_table(std::span<const double> sizes, std::span<const char>
     return table;
 }
 
-double largest_miss(const HitMissTable& table) {
-    for (auto row = table.rbegin(); row != table.rend(); ++row) {
-        if (row->hits < row->tests) {
-            return row->size;
-        }
-    }
-    return kNan;
-}
-
-double smallest_hit(const HitMissTable& table) {
-    for (const HitMissRow& row : table) {
-        if (row.hits > 0.0) {
-            return row.size;
-        }
-    }
-    return kNan;
-}
-
 double total_tests(const HitMissTable& table) {
-    double sum = 0.0;
-    for (const HitMissRow& row : table) {
-        sum += row.tests;
-    }
-    return sum;
+    return std::accumulate(table.begin(), table.end(), 0.0,
+                           [](double sum, const HitMissRow& row) { return sum + row.tests; });
 }
 
 double total_hits(const HitMissTable& table) {
-    double sum = 0.0;
-    for (const HitMissRow& row : table) {
-        sum += row.hits;
-    }
-    return sum;
+    return std::accumulate(table.begin(), table.end(), 0.0,
+                           [](double sum, const HitMissRow& row) { return sum + row.hits; });
 }
 
 namespace {

@@ -27,10 +27,6 @@ using HitMissTable = std::vector<HitMissRow>;  // ascending size
 // Builds the table. Sizes of 0 (healthy gearboxes) and sizes that are not finite are left out.
 HitMissTable hit_miss_table(std::span<const double> sizes, std::span<const char> hit);
 
-// Largest size with a miss and smallest with a hit; NaN if there is none.
-double largest_miss(const HitMissTable& table);
-double smallest_hit(const HitMissTable& table);
-
 double total_tests(const HitMissTable& table);
 double total_hits(const HitMissTable& table);
 
