@@ -121,13 +121,6 @@ struct Outcomes {
             }
         }
     }
-    std::vector<double> values(const InputColumn& input) const {
-        std::vector<double> out;
-        for (const std::size_t row : rows) {
-            out.push_back(input.values[row]);
-        }
-        return out;
-    }
 };
 
 std::vector<double> sorted(std::vector<double> values) {
@@ -445,7 +438,7 @@ InputEffects input_effects(std::span<const double> sizes, std::span<const int> h
     }
     std::vector<double> p_values;
     for (const InputColumn& input : inputs) {
-        const std::vector<double> values = outcomes.values(input);
+        const std::vector<double> values = values_at(input, outcomes.rows);
         if (!varies(values)) {
             result.left_out.push_back(input.name);
             continue;
@@ -482,7 +475,7 @@ EpistemicBand epistemic_band(std::span<const double> sizes, std::span<const int>
     const Outcomes outcomes(sizes, hit);
     Eigen::MatrixXd values(outcomes.rows.size(), varying.size());
     for (std::size_t c = 0; c < varying.size(); ++c) {
-        const std::vector<double> column = outcomes.values(*varying[c]);
+        const std::vector<double> column = values_at(*varying[c], outcomes.rows);
         values.col(static_cast<Eigen::Index>(c)) =
             Eigen::VectorXd::Map(column.data(), values.rows());
     }

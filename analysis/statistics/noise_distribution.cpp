@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <numeric>
 
 #include "analysis/statistics/link.hpp"
 #include "analysis/statistics/numeric_maximum.hpp"
@@ -13,11 +14,7 @@ namespace {
 using Kind = NoiseDistribution::Kind;
 
 double mean_of(std::span<const double> values) {
-    double sum = 0.0;
-    for (const double value : values) {
-        sum += value;
-    }
-    return sum / static_cast<double>(values.size());
+    return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
 }
 
 // Normal distribution of the values, or of their logarithms with the Jacobian of the logarithm.

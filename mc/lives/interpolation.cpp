@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <numeric>
 #include <utility>
 
 namespace gearpod::mc {
@@ -11,10 +12,7 @@ namespace {
 using Samples = std::vector<double>;
 
 double rms(std::span<const double> values) {
-    double sum = 0.0;
-    for (const double value : values) {
-        sum += value * value;
-    }
+    const double sum = std::inner_product(values.begin(), values.end(), values.begin(), 0.0);
     return std::sqrt(sum / static_cast<double>(std::max<std::size_t>(1, values.size())));
 }
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <numeric>
 
 #include "analysis/detection/detection.hpp"
 #include "lockstep/kernels/kernel_table.hpp"
@@ -17,20 +18,9 @@
 
 namespace gearpod::mc {
 
-namespace {
-
-double mean(const std::vector<double>& values) {
-    double sum = 0.0;
-    for (const double value : values) {
-        sum += value;
-    }
-    return sum / static_cast<double>(values.size());
-}
-
-}  // namespace
-
 double standard_deviation(const std::vector<double>& values) {
-    const double middle = mean(values);
+    const double middle =
+        std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
     double squares = 0.0;
     for (const double value : values) {
         squares += (value - middle) * (value - middle);

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstdint>
 #include <cstring>
+#include <numeric>
 #include <set>
 #include <unordered_map>
 
@@ -85,10 +86,7 @@ std::string copied_block(std::span<const double> samples) {
 }  // namespace
 
 double rms_of(std::span<const double> values) {
-    double sum = 0.0;
-    for (const double value : values) {
-        sum += value * value;
-    }
+    const double sum = std::inner_product(values.begin(), values.end(), values.begin(), 0.0);
     return std::sqrt(sum / static_cast<double>(values.size()));
 }
 

@@ -7,6 +7,7 @@
 #include <mutex>
 #include <nlohmann/json.hpp>
 #include <numbers>
+#include <numeric>
 #include <set>
 #include <utility>
 
@@ -50,10 +51,8 @@ nlohmann::json properties(const RecordPlan& record, const FeaturePlan& features,
 
 double variance(std::span<const double> values) {
     const auto count = static_cast<double>(values.size());
-    double sum = 0.0, squares = 0.0;
-    for (const double value : values) {
-        sum += value;
-    }
+    const double sum = std::accumulate(values.begin(), values.end(), 0.0);
+    double squares = 0.0;
     for (const double value : values) {
         squares += (value - sum / count) * (value - sum / count);
     }
