@@ -580,12 +580,9 @@ class UniversalFile:
 
     def next(self):
         self.line += 1
-        if self.at >= len(self.data):
-            return None
-        end = self.data.find(b"\n", self.at)
-        end = len(self.data) if end < 0 else end
-        line, self.at = file_text(self.data[self.at:end]), end + 1
-        return line
+        end = self.data.find(b"\n", self.at) + 1 or len(self.data)
+        line, self.at = self.data[self.at:end], end
+        return file_text(line).removesuffix("\n") if line else None
 
     def rest_of_dataset(self, problem=""):
         """Skips lines; `problem` if any of them is not blank."""
