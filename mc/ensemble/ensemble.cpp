@@ -41,6 +41,14 @@ class PollInterval {
     double shortest_s_ = 1.0;
 };
 
+// First batch from `batch` on that the store lacks.
+std::size_t first_missing(const RowStore& store, const BatchPlan& plan, std::size_t batch = 0) {
+    while (batch < plan.batches() && store.has(batch)) {
+        ++batch;
+    }
+    return batch;
+}
+
 class Leader {
   public:
     Leader(WorkerTeam& team, const BatchPlan& plan, const EnsembleRun& run)
@@ -72,7 +80,7 @@ class Leader {
         close();
         outcome_.teams[0].output = outcome_.output_s;
         outcome_.wall_s = seconds_since(start);
-        outcome_.batches = first_missing();
+        outcome_.batches = first_missing(run_.store, plan_);
         return std::move(outcome_);
     }
 
@@ -86,9 +94,7 @@ class Leader {
     bool batches_ahead() const { return plan_.batches() - next_ > 4 * all_threads_; }
 
     bool next_missing() {
-        while (next_ < plan_.batches() && run_.store.has(next_)) {
-            ++next_;
-        }
+        next_ = first_missing(run_.store, plan_, next_);
         return next_ < plan_.batches();
     }
 
@@ -266,14 +272,6 @@ class Leader {
         store([&] { run_.store.sync(); });
     }
 
-    std::size_t first_missing() const {
-        std::size_t batch = 0;
-        while (batch < plan_.batches() && run_.store.has(batch)) {
-            ++batch;
-        }
-        return batch;
-    }
-
     // Time in which cancelled batches end.
     static constexpr double kSlack_s = 0.2;
 
@@ -393,10 +391,7 @@ EnsembleOutcome run_batches(const EnsemblePlan& ensemble, const BatchPlan& plan,
         if (!reason.empty()) {
             EnsembleOutcome outcome;
             outcome.interruption = reason;
-            while (run.ranks.leads() && outcome.batches < plan.batches() &&
-                   run.store.has(outcome.batches)) {
-                ++outcome.batches;
-            }
+            outcome.batches = run.ranks.leads() ? first_missing(run.store, plan) : 0;
             return outcome;
         }
     }
