@@ -240,7 +240,6 @@ class Refinement {
     bool has_result() const { return best_.has_value(); }
     const PilotRecord& finest() const { return *last_; }  // as integrated
     const PilotRecord& best() const { return *best_; }    // extrapolated
-    double order() const { return order_; }
     const SolverSetting& setting() const { return done_; }
     const SolverSetting& next_setting() const { return setting_; }
     // Change of the result at the last halving.
@@ -359,13 +358,7 @@ void choose_pair(const std::vector<Refinement>& methods, const ReferenceRequest&
             const double apart = error.signals();
             if (apart < least) {
                 least = apart;
-                reference = {a.best(),
-                             a.setting(),
-                             b.setting(),
-                             a.order(),
-                             b.order(),
-                             error,
-                             apart <= request.agreement};
+                reference = {a.best(), a.setting(), b.setting(), error, apart <= request.agreement};
             }
         }
     }
@@ -391,7 +384,6 @@ Reference self_converged_reference(const Pilot& pilot, const Numerics& numerics,
         }
         reference.record = method.best();
         reference.first = method.setting();
-        reference.first_order = method.order();
     }
     return reference;
 }

@@ -95,10 +95,7 @@ struct ReferenceRequest {
 struct Reference {
     // Richardson-extrapolated if halving the steps shows the method's order.
     PilotRecord record;
-    SolverSetting first,
-        second;                // the two that agree best, at their finest; `record` is from `first`
-    double first_order = 0.0;  // observed on the sensor signal; 0: not extrapolated
-    double second_order = 0.0;
+    SolverSetting first, second;  // the two that agree best, at their finest; `record`: of `first`
     PilotError agreement;  // error of the second relative to the first; empty without a second
     bool reached = false;  // true: the requested agreement was reached
 };

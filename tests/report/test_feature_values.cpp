@@ -25,8 +25,7 @@ TEST_CASE("Values are printed only without thresholds and for few gearboxes") {
 }
 
 TEST_CASE("A study without noise prints the values of its file, not dashes") {
-    const Folder folder;
-    const std::string file = folder.file("r.h5");
+    const auto [folder, file] = TemporaryFile("r.h5");
     require_success("run " + test::study("published/park-fig-13.toml") + " --quiet --out " + file);
     const auto report = require_success("report " + file);
     CHECK(!report.mentions("-    "));

@@ -73,7 +73,7 @@ std::vector<const SettingResult*> shown_settings(const AccuracyReport& report) {
         }
     }
     std::ranges::sort(frontier, {}, &SettingResult::integration_s);
-    const SettingResult& own = report.settings[static_cast<std::size_t>(report.own)];
+    const SettingResult& own = report.settings.front();
     std::vector<const SettingResult*> shown;
     const std::size_t rows = std::min(kMost, frontier.size());
     for (std::size_t i = 0; i < rows; ++i) {
@@ -173,7 +173,7 @@ int AccuracyReport::fastest_within(double share) const {
 }
 
 std::string accuracy_headline(const AccuracyReport& report) {
-    const SettingResult& own = report.settings[static_cast<std::size_t>(report.own)];
+    const SettingResult& own = report.settings.front();
     if (!own.refusal.empty()) {
         return fmt::format("The study's own setting, {}, was not measured: {}.", own.setting.text(),
                            own.refusal);
@@ -319,13 +319,11 @@ std::string accuracy_json(const AccuracyReport& report, const EnsemblePlan& plan
              {"span_meshes", report.span_meshes},
              {"mesh_frequency_Hz", report.mesh_frequency_Hz},
              {"noise_levels", report.noise_levels},
-             {"own", report.settings[static_cast<std::size_t>(report.own)].setting.text()},
+             {"own", report.settings.front().setting.text()},
              {"left_out", report.left_out},
              {"reference",
               {{"first", r.first.text()},
-               {"first_order", r.first_order},
                {"second", r.second.text()},
-               {"second_order", r.second_order},
                {"agreement", errors(report, r.agreement)},
                {"reached", r.reached}}},
              {"explicit_limit",

@@ -127,8 +127,7 @@ struct AccuracyReport {
     double mesh_frequency_Hz = 0.0;
     Reference reference;
     ExplicitLimit explicit_limit;
-    std::vector<SettingResult> settings;
-    int own = 0;  // index of the study's own setting
+    std::vector<SettingResult> settings;  // the study's own first
     std::vector<ChoiceCheck> choices;
     std::vector<MeasuredEffect> effects;
     StabilityMap stability;

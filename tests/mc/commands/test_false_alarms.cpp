@@ -63,8 +63,7 @@ TEST_CASE("A sample that does not determine its rate is reported, one that does 
 }
 
 TEST_CASE("Uncertainty left by a calibration is a separate band in text, data and page") {
-    const Folder folder;
-    const std::string results = folder.file("r.h5");
+    const auto [folder, results] = TemporaryFile("r.h5");
     const std::string uncertain =
         study("planet-crack-ideal.toml") +
         " --set ensemble.threshold_instances=60 --set ensemble.instances=300"

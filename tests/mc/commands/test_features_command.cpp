@@ -196,8 +196,7 @@ std::string hostile(const std::string& path, const std::function<double(double)>
 }
 
 TEST_CASE("A feature without a value is reported with its reason, and no number is infinite") {
-    const Folder folder;
-    const std::string file = folder.file("x.csv");
+    const auto [folder, file] = TemporaryFile("x.csv");
     for (const double level : {0.0, 1e-5, -3.0, 1e15}) {
         hostile(file, [&](double) { return level; });
         const auto json = features_of(file, kSmallStudy);
@@ -226,8 +225,7 @@ TEST_CASE("A feature without a value is reported with its reason, and no number 
 }
 
 TEST_CASE("A recording's speed is accepted only where it is plausible") {
-    const Folder folder;
-    const std::string file = folder.file("x.csv");
+    const auto [folder, file] = TemporaryFile("x.csv");
     const auto recorded = [&](const std::function<double(int)>& rpm) {
         CsvColumns columns(3);
         for (int i = 0; i < 3000; ++i) {
@@ -249,8 +247,7 @@ TEST_CASE("A recording's speed is accepted only where it is plausible") {
 }
 
 TEST_CASE("Recordings of a few samples are too short, whatever their format") {
-    const Folder folder;
-    const std::string file = folder.file("x.csv");
+    const auto [folder, file] = TemporaryFile("x.csv");
     for (const char* column : {"sensor", "te"}) {
         for (const int samples : {2, 3, 10, 20}) {
             CsvColumns columns(2);
@@ -267,8 +264,7 @@ TEST_CASE("Recordings of a few samples are too short, whatever their format") {
 
 // Regression: a name of two gigabytes in a MATLAB 4 file.
 TEST_CASE("A MAT file that declares gigabytes is reported as damaged, without allocating them") {
-    const Folder folder;
-    const std::string file = folder.file("x.mat");
+    const auto [folder, file] = TemporaryFile("x.mat");
     write_bytes(file, std::string(19, '\0') + "\x7e\xe4");
     const double before = mc::peak_memory_bytes();
     CHECK_THROWS_AS(mc::open_signal_file(file)->names(), mc::SignalError);
@@ -277,8 +273,7 @@ TEST_CASE("A MAT file that declares gigabytes is reported as damaged, without al
 }
 
 TEST_CASE("A table of two hundred thousand columns is refused immediately with a short message") {
-    const Folder folder;
-    const std::string file = folder.file("x.csv");
+    const auto [folder, file] = TemporaryFile("x.csv");
     {
         std::ofstream stream(file);
         for (int c = 0; c < 200000; ++c) {

@@ -74,8 +74,7 @@ TEST_CASE("Lanes without a kernel in this build are bad input, reported with the
 }
 
 TEST_CASE("Results contain the kernels of the program") {
-    const Folder folder;
-    const std::string out = folder.file("r.h5");
+    const auto [folder, out] = TemporaryFile("r.h5");
     require_success("run " + study("planet-crack-ideal.toml") +
                     " --quiet --instances 8 --set ensemble.threshold_instances=8 --out " + out);
     const std::string kernels = mc::read_frame(out).provenance_value("kernels");

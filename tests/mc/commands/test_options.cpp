@@ -112,8 +112,7 @@ TEST_CASE("Every key of a study refuses numbers that are not finite") {
 }
 
 TEST_CASE("`pod` takes several inspectors after one --hit, before or after the table") {
-    const Folder folder;
-    const std::string table = folder.file("t.csv");
+    const auto [folder, table] = TemporaryFile("t.csv");
     std::string text = "x,A,B\n";
     for (int i = 1; i <= 40; ++i) {
         const int a = 7 * i % 40 + i > 38, b = 11 * i % 40 + i > 42;
@@ -223,8 +222,7 @@ TEST_CASE("The man page and the completion hold every option of the help, of 80 
 }
 
 TEST_CASE("bash completes commands, options and the values of options") {
-    const Folder folder;
-    const std::string script = folder.file("ask.sh");
+    const auto [folder, script] = TemporaryFile("ask.sh");
     write_bytes(script, program("--completion").output + R"(
 ask() { COMP_WORDS=("$@"); COMP_CWORD=$(($# - 1)); _gearpod; echo "${COMPREPLY[@]}"; }
 ask gearpod com

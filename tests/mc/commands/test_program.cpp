@@ -10,8 +10,7 @@ using namespace test;
 namespace fs = std::filesystem;
 
 TEST_CASE("A run ends with the table and a file from which report prints the same numbers") {
-    const Folder folder;
-    const std::string out = folder.file("r.h5");
+    const auto [folder, out] = TemporaryFile("r.h5");
     const Outcome run =
         require_success("run " + study("planet-crack-ideal.toml") +
                         " --instances 14 --set ensemble.threshold_instances=40 --out " + out);
@@ -101,8 +100,7 @@ TEST_CASE("Results under the name of another file type are refused with the righ
 }
 
 TEST_CASE("Bad input of any kind exits with 2, prints a message and leaves no files") {
-    const Folder folder;
-    const std::string out = folder.file("r.h5");
+    const auto [folder, out] = TemporaryFile("r.h5");
     const std::string good = study("planet-crack-ideal.toml");
     const struct {
         std::string arguments, words;
@@ -248,8 +246,7 @@ TEST_CASE("Critical speeds lie where a mesh harmonic crosses a natural frequency
 }
 
 TEST_CASE("modes writes a Campbell diagram, and prints the critical speeds") {
-    const Folder folder;
-    const std::string html = folder.file("m.html");
+    const auto [folder, html] = TemporaryFile("m.html");
     check_mentions(require_success("modes " + study("bell-206b.toml") + " --html " + html +
                                    " --json " + folder.file("m.json")),
                    {"speeds of the carrier at which mesh harmonics 1 to 5"});

@@ -247,8 +247,7 @@ TEST_CASE("A recording is compared with a results file in one sentence") {
 }
 
 TEST_CASE("Ten million rows are processed in bounded time and memory") {
-    const Folder folder;
-    const std::string path = folder.file("long.csv");
+    const auto [folder, path] = TemporaryFile("long.csv");
     {
         std::ofstream stream(path);
         stream << "sensor\n";

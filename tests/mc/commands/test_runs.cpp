@@ -68,8 +68,7 @@ void await_batches(const std::string& part, std::uintmax_t before) {
 
 TEST_CASE("One to four ranks, one or two threads, one lane, four or eight: the same bits",
           "[mpi]") {
-    const Folder folder;
-    const std::string out = folder.file("r.h5");
+    const auto [folder, out] = TemporaryFile("r.h5");
     for (const int ranks : {1, 2, 3, 4}) {
         const std::string threads = " --set numerics.threads=" + std::to_string(1 + ranks % 2);
         const Outcome run =
@@ -235,8 +234,7 @@ TEST_CASE("Killed two hundred times, commands that write results lose none and r
 }
 
 TEST_CASE("Signals and the time limit end a run cleanly, save its state and exit with 4") {
-    const Folder folder;
-    const std::string out = folder.file("r.h5");
+    const auto [folder, out] = TemporaryFile("r.h5");
     for (const int number : {SIGINT, SIGTERM, SIGUSR1, SIGXCPU}) {
         const std::uintmax_t before = size_of(out + ".part");
         const pid_t child = start(run_of(out, 5000) + " --resume --quiet");
@@ -262,8 +260,7 @@ TEST_CASE("Signals and the time limit end a run cleanly, save its state and exit
 
 // Every batch of this study takes a minute of processor time.
 TEST_CASE("Signals and the time limit stop an unfinished batch, which is discarded") {
-    const Folder folder;
-    const std::string out = folder.file("r.h5");
+    const auto [folder, out] = TemporaryFile("r.h5");
     const std::string slow = "run " + study("published/yang-pitch-errors.toml") +
                              " --set numerics.steps_per_mesh=2000 --quiet --out " + out;
     const double before_s = children_s();
@@ -314,15 +311,13 @@ TEST_CASE("Stopped by signals inside of batches and resumed, a run keeps its bit
 }
 
 TEST_CASE("Rows named twice are computed once") {
-    const Folder folder;
-    const std::string out = folder.file("r.h5");
+    const auto [folder, out] = TemporaryFile("r.h5");
     require_success(run_of(out, 2) + " --quiet --signals 1,1,0 --signals 1");
     CHECK_FALSE(fs::exists(out + ".part"));
 }
 
 TEST_CASE("An extended ensemble computes only new gearboxes, with the bits of a single run") {
-    const Folder folder;
-    const std::string out = folder.file("r.h5");
+    const auto [folder, out] = TemporaryFile("r.h5");
     require_success(run_of(out, 20) + " --quiet");
     check_mentions(require_success(run_of(out) + " --resume"), {"r.h5: 4 of 7 batches"});
     CHECK(bits(out) == reference());
@@ -342,8 +337,7 @@ TEST_CASE("An extended ensemble computes only new gearboxes, with the bits of a 
 }
 
 TEST_CASE("An extended threshold sample computes only new gearboxes, with or without graded ones") {
-    const Folder folder;
-    const std::string out = folder.file("r.h5");
+    const auto [folder, out] = TemporaryFile("r.h5");
     for (const int test : {50, 20}) {
         require_success(run_of(out, test, 20) + " --quiet --force");
         const Outcome grown = require_success(run_of(out) + " --resume");
@@ -381,8 +375,7 @@ TEST_CASE("Ranks with another study, or without it, end the run with one line", 
 }
 
 TEST_CASE("A rank that dies ends the run, and finished batches are kept", "[mpi]") {
-    const Folder folder;
-    const std::string out = folder.file("r.h5");
+    const auto [folder, out] = TemporaryFile("r.h5");
     // The second rank kills itself once there are batches.
     const std::string mortal = "sh -c '( until [ -s " + out + ".part ] && [ $(stat -c %s " + out +
                                ".part) -gt 8192 ]; do sleep 0.05; done; kill -9 $$ ) & exec " +
@@ -400,8 +393,7 @@ TEST_CASE("A rank that dies ends the run, and finished batches are kept", "[mpi]
 }
 
 TEST_CASE("A full disk while results are written leaves a checkpoint from which to resume") {
-    const Folder folder;
-    const std::string out = folder.file("r.h5");
+    const auto [folder, out] = TemporaryFile("r.h5");
     // Limit in blocks of 512 bytes; the checkpoint fits, the results do not.
     const std::size_t blocks = 90;
     const Outcome full = shell("ulimit -f " + std::to_string(blocks) + "; " + GEARPOD_PROGRAM +

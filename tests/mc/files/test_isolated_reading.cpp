@@ -15,8 +15,7 @@ namespace gearpod::test_isolated_reading {
 using namespace test;
 
 TEST_CASE("A reader that crashes, or requests all memory, does not survive") {
-    const Folder folder;
-    const std::string file = folder.file("x.h5");
+    const auto [folder, file] = TemporaryFile("x.h5");
     write_bytes(file, "something");
     CHECK(mc::survives_reading(file, [] {}));
     CHECK(mc::survives_reading(file, [] { throw std::runtime_error("te cannot be read"); }));

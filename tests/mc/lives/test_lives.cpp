@@ -243,8 +243,7 @@ TEST_CASE("Lives have the same bits for any threads, and the command prints all 
 }
 
 TEST_CASE("A report on lives repeats the run's text, and other commands refuse them") {
-    const Folder folder;
-    const std::string file = folder.file("l.h5");
+    const auto [folder, file] = TemporaryFile("l.h5");
     const std::string command =
         "lives " + study("planet-crack-ideal.toml") + life_options() + " --out " + file;
     const auto whole = results_of(program(command));

@@ -73,8 +73,7 @@ TEST_CASE("Records of a gearbox are rows of its batch") {
     CHECK(plan.batch(1).rows() == 28);
     CHECK(plan.batch(2).rows() == 16);
 
-    const Folder folder;
-    const std::string path = folder.file("a.h5.checkpoint");
+    const auto [folder, path] = TemporaryFile("a.h5.checkpoint");
     {
         const auto checkpoint = Checkpoint::create(path, kIdentity, plan);
         for (const std::size_t batch : {4, 0, 2, 1}) {
@@ -130,8 +129,7 @@ TEST_CASE("Parts of a plan hold every batch of the whole once, each with its own
 }
 
 TEST_CASE("Finished batches are read again, in any order of writing") {
-    const Folder folder;
-    const std::string path = folder.file("r.h5.part");
+    const auto [folder, path] = TemporaryFile("r.h5.part");
     fill(path, {4, 0, 2});
     const auto checkpoint = Checkpoint::resume(path, kIdentity, kPlan);
     CHECK(checkpoint->findings().empty());
@@ -147,8 +145,7 @@ TEST_CASE("Finished batches are read again, in any order of writing") {
 }
 
 TEST_CASE("A larger ensemble keeps all batches except the one that it fills") {
-    const Folder folder;
-    const std::string path = folder.file("r.h5.part");
+    const auto [folder, path] = TemporaryFile("r.h5.part");
     fill(path, {0, 1, 2, 3, 4});
     const BatchPlan larger(20, 80);
     const auto checkpoint = Checkpoint::resume(path, kIdentity, larger);
@@ -236,8 +233,7 @@ TEST_CASE("Only one of several competing runs gets a checkpoint") {
 }
 
 TEST_CASE("A checkpoint that is a link or a pipe is refused without blocking") {
-    const Folder folder;
-    const std::string path = folder.file("r.h5.part");
+    const auto [folder, path] = TemporaryFile("r.h5.part");
     REQUIRE(::mkfifo(path.c_str(), 0600) == 0);
     CHECK(contains(reason_of(path), "is not a regular file"));
     std::filesystem::remove(path);
@@ -282,8 +278,7 @@ TEST_CASE("For any damaged byte of a checkpoint no damaged batch is used") {
 
 TEST_CASE(
     "A truncated checkpoint is resumed with the remaining batches, and the loss is reported") {
-    const Folder folder;
-    const std::string path = folder.file("r.h5.part");
+    const auto [folder, path] = TemporaryFile("r.h5.part");
     fill(path, {0, 1, 2, 3, 4});
     const std::string bytes = bytes_of(path);
     const std::size_t record = (bytes.size() - 4096) / 5;
@@ -309,8 +304,7 @@ TEST_CASE(
 }
 
 TEST_CASE("A batch at another batch's position is refused") {
-    const Folder folder;
-    const std::string path = folder.file("r.h5.part");
+    const auto [folder, path] = TemporaryFile("r.h5.part");
     fill(path, {0, 2, 3});
     std::string bytes = bytes_of(path);
     const std::size_t record = (bytes.size() - 4096) / 4;

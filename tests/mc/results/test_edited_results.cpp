@@ -110,8 +110,7 @@ std::vector<Edit> edits() {
 }
 
 TEST_CASE("A results file that is unchanged, or has a new checksum only, is reported") {
-    const Folder folder;
-    const std::string path = folder.file("r.h5");
+    const auto [folder, path] = TemporaryFile("r.h5");
     fs::copy_file(genuine(), path);
     edit_results(path, [](hid_t) {});
     for (const std::string& file : {genuine(), path}) {
@@ -120,8 +119,7 @@ TEST_CASE("A results file that is unchanged, or has a new checksum only, is repo
 }
 
 TEST_CASE("A modified results file with a valid checksum is refused with the reason") {
-    const Folder folder;
-    const std::string path = folder.file("r.h5");
+    const auto [folder, path] = TemporaryFile("r.h5");
     for (const Edit& edit : edits()) {
         fs::copy_file(genuine(), path, fs::copy_options::overwrite_existing);
         edit_results(path, edit.edit);
@@ -140,8 +138,7 @@ TEST_CASE("A modified results file with a valid checksum is refused with the rea
 }
 
 TEST_CASE("Names that are not valid UTF-8 do not prevent a report's JSON") {
-    const Folder folder;
-    const std::string path = folder.file("caf\xe9.h5");
+    const auto [folder, path] = TemporaryFile("caf\xe9.h5");
     fs::copy_file(genuine(), path);
     edit_results(path, [](hid_t root) { replace_text(root, ".", "host", "caf\xe9"); });
     check_mentions(require_success("report '" + path + "' --json -"), {"caf\xef\xbf\xbd.h5"});

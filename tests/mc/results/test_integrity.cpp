@@ -40,8 +40,7 @@ void write_version_2(const std::string& path) {
 }
 
 TEST_CASE("A results file keeps its integrity when other programs open it for writing") {
-    const Folder folder;
-    const std::string path = folder.file("r.h5");
+    const auto [folder, path] = TemporaryFile("r.h5");
     fs::copy_file(genuine(), path);
     const std::string before = bytes_of(path);
     { const mc::Hdf5Handle file = open_for_writing(path); }
@@ -57,8 +56,7 @@ TEST_CASE("A results file keeps its integrity when other programs open it for wr
 }
 
 TEST_CASE("A results file that is being written, cut or changed is refused with the true reason") {
-    const Folder folder;
-    const std::string path = folder.file("r.h5");
+    const auto [folder, path] = TemporaryFile("r.h5");
     fs::copy_file(genuine(), path);
     {
         const mc::Hdf5Handle file = open_for_writing(path);
@@ -81,8 +79,7 @@ TEST_CASE("A results file that is being written, cut or changed is refused with 
 
 // Anyone can compute the hash. HDF5 crashes on a text of 2^51 bytes.
 TEST_CASE("A changed byte under a valid hash ends no command by a crash of HDF5") {
-    const Folder folder;
-    const std::string path = folder.file("r.h5");
+    const auto [folder, path] = TemporaryFile("r.h5");
     std::string bytes = bytes_of(genuine());
     bytes.at(bytes.find(mc::kResultsFormat) - 2) = 8;
     write_bytes(path, bytes);
@@ -98,8 +95,7 @@ TEST_CASE("A changed byte under a valid hash ends no command by a crash of HDF5"
 }
 
 TEST_CASE("Files of version 2 are read, without their trailing hash with a note") {
-    const Folder folder;
-    const std::string path = folder.file("old.h5");
+    const auto [folder, path] = TemporaryFile("old.h5");
     write_version_2(path);
     CHECK(mc::check_file_checksum(path) == mc::ChecksumState::intact);
     const Outcome whole = require_success("report " + path);
@@ -121,8 +117,7 @@ TEST_CASE("Files of version 2 are read, without their trailing hash with a note"
 }
 
 TEST_CASE("`repair` renews the hash of a readable file and of no other") {
-    const Folder folder;
-    const std::string path = folder.file("r.h5");
+    const auto [folder, path] = TemporaryFile("r.h5");
     fs::copy_file(genuine(), path);
     CHECK(program("repair " + path).mentions("nothing to repair"));
     {

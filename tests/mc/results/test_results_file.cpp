@@ -60,8 +60,7 @@ std::string reason_of(const std::string& path) {
 }
 
 TEST_CASE("Results read back as they were written") {
-    const Folder folder;
-    const std::string path = folder.file("r.h5");
+    const auto [folder, path] = TemporaryFile("r.h5");
     const Results r = example();
     write_results(path, r);
     CHECK(folder.files() == 1);
@@ -240,8 +239,7 @@ TEST_CASE("A failed write leaves only the old file") {
 }
 
 TEST_CASE("An output that cannot be written is reported before the run") {
-    const Folder folder;
-    const std::string path = folder.file("r.h5");
+    const auto [folder, path] = TemporaryFile("r.h5");
     CHECK(why_not_writable(path).empty());
     CHECK(folder.files() == 0);
     write_bytes(path, "old");
@@ -387,8 +385,7 @@ bool has_group(const std::string& path, const char* name) {
 
 // More rows than writer and reader process at once.
 TEST_CASE("Contact loss ratios read back as they were written, at once and in parts") {
-    const Folder folder;
-    const std::string path = folder.file("r.h5");
+    const auto [folder, path] = TemporaryFile("r.h5");
     const Results r = example(9001);
     write_results(path, r);
     CHECK(bits(read_results(path)) == bits(r));
@@ -410,8 +407,7 @@ TEST_CASE("Contact loss ratios read back as they were written, at once and in pa
 }
 
 TEST_CASE("The datasets of contact loss have descriptions") {
-    const Folder folder;
-    const std::string path = folder.file("r.h5");
+    const auto [folder, path] = TemporaryFile("r.h5");
     write_results(path, example(10));
     const Hdf5Handle file(H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), H5Fclose, "opening");
     CHECK(read_text(file.get(), "contact_loss/sun-planet", "unit") == "1");
@@ -422,8 +418,7 @@ TEST_CASE("The datasets of contact loss have descriptions") {
 
 // Files of versions before 0.3, and of studies whose teeth cannot separate.
 TEST_CASE("Results without contact loss have no value instead of zero") {
-    const Folder folder;
-    const std::string path = folder.file("r.h5");
+    const auto [folder, path] = TemporaryFile("r.h5");
     Results r = example(10);
     r.contact_loss.clear();
     r.step_error.reset();

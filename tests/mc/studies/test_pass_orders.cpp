@@ -14,8 +14,7 @@ const std::string kSmall = std::string(GEARPOD_SOURCE_DIR) + "/tests/features/re
 
 // Amplitudes of the noise-free sensor signal over so many mesh periods, by cycles in them.
 std::vector<double> amplitudes(int meshes, const std::string& errors) {
-    const Folder folder;
-    const std::string path = folder.file("s.h5");
+    const auto [folder, path] = TemporaryFile("s.h5");
     require_success("simulate " + kSmall + errors + " --instance 2 --meshes " +
                     std::to_string(meshes) + " --out " + path);
     const mc::Hdf5Handle file(H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), H5Fclose, path);

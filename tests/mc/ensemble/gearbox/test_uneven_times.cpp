@@ -9,8 +9,7 @@ namespace gearpod::test_uneven_times {
 using namespace test;
 
 TEST_CASE("simulate writes uneven times where the speed fluctuates") {
-    const Folder folder;
-    const std::string path = folder.file("signals.csv");
+    const auto [folder, path] = TemporaryFile("signals.csv");
     require_success("simulate " + study_path("uneven-speed.toml") +
                     " --instance 1 --meshes 31 --set operation.speed_fluctuation=0.04 --out " +
                     path);

@@ -275,7 +275,6 @@ TEST_CASE("an error is compared with the scatter of its feature between gearboxe
     AccuracyReport report;
     report.features = {"te_rms", "window_ratio"};
     report.noise_levels = {0.0, 1.0};
-    report.own = 0;
     for (const auto& [time, error] : {std::pair{3e-3, 0.001}, {2e-3, 0.01}, {1e-3, 0.5}}) {
         SettingResult setting;
         setting.setting.numerics.integrator = lockstep::Integrator::rk4;

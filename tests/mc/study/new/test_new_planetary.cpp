@@ -174,8 +174,7 @@ TEST_CASE("Impossible geometry is refused with the relevant numbers, all at once
 }
 
 TEST_CASE("The study written by new is described and run unchanged") {
-    const Folder folder;
-    const std::string file = folder.file("p.toml");
+    const auto [folder, file] = TemporaryFile("p.toml");
     const std::string command =
         "new planetary --sun 19 --planet 23 --ring 65 --module 3.2 --torque 429 --speed 400 "
         "--out " +
