@@ -24,9 +24,9 @@
 #include "mc/plan/scene_error.hpp"
 #include "mc/plan/study_facts.hpp"
 #include "mc/report/lives_report.hpp"
-#include "mc/report/numerical_quality.hpp"
 #include "mc/report/page.hpp"
 #include "mc/report/run_report.hpp"
+#include "mc/report/run_sections.hpp"
 #include "mc/results/provenance.hpp"
 #include "mc/results/result_rows.hpp"
 

@@ -1,5 +1,3 @@
-#include "mc/report/assumption_limits.hpp"
-
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -7,6 +5,7 @@
 
 #include "analysis/comparison/predicted_detection.hpp"
 #include "machine/team.hpp"
+#include "mc/report/run_sections.hpp"
 
 namespace gearpod::mc {
 namespace {

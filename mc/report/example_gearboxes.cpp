@@ -1,5 +1,3 @@
-#include "mc/report/example_gearboxes.hpp"
-
 #include <algorithm>
 #include <bit>
 #include <cmath>
@@ -16,6 +14,7 @@
 #include "mc/ensemble/gearbox/simulation.hpp"
 #include "mc/numerics/numerics_choice.hpp"
 #include "mc/plan/scene.hpp"
+#include "mc/report/run_sections.hpp"
 #include "mc/results/reliability_of_results.hpp"
 #include "signals/noise/sensor_noise.hpp"
 #include "signals/sensor/sensor_signal.hpp"

@@ -15,8 +15,7 @@
 #include "analysis/report/wording.hpp"
 #include "features/feature.hpp"
 #include "mc/files/input/terminal_text.hpp"
-#include "mc/report/assumption_limits.hpp"
-#include "mc/report/example_gearboxes.hpp"
+#include "mc/report/run_sections.hpp"
 #include "mc/results/reliability_of_results.hpp"
 
 namespace gearpod::mc {

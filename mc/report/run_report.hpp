@@ -10,11 +10,8 @@
 #include "analysis/reliability.hpp"
 #include "analysis/report/report.hpp"
 #include "mc/plan/study_facts.hpp"
-#include "mc/report/alarm_rates.hpp"
-#include "mc/report/gearbox_values.hpp"
 #include "mc/report/monitoring_over_time.hpp"
-#include "mc/report/numerical_quality.hpp"
-#include "mc/report/sensors.hpp"
+#include "mc/report/run_sections.hpp"
 #include "mc/results/result_rows.hpp"
 
 namespace gearpod::mc {
@@ -55,7 +52,7 @@ nlohmann::json definition_json(std::string_view name, std::string_view unit, ana
 
 // Returns the report; docs/reference/report-json.md lists the keys. The arguments are those of
 // findings_of_run(), and its result. Computes two gearboxes again for their signals
-// (example_gearboxes.hpp).
+// (examples_json()).
 nlohmann::json report_json(const Results& frame, const RowSource& rows,
                            const std::optional<analysis::Reliability>& reliability,
                            const RunFindings& run);

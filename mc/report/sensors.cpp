@@ -1,5 +1,3 @@
-#include "mc/report/sensors.hpp"
-
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -15,6 +13,7 @@
 #include "features/statistics/signal_statistics.hpp"
 #include "machine/no_value.hpp"
 #include "mc/ensemble/ranks.hpp"
+#include "mc/report/run_sections.hpp"
 #include "mc/results/reliability_of_results.hpp"
 
 namespace gearpod::mc {

@@ -3,7 +3,7 @@
 
 #include "mc/ensemble/gearbox/simulation.hpp"
 #include "mc/library/run/command_files.hpp"
-#include "mc/report/example_gearboxes.hpp"
+#include "mc/report/run_sections.hpp"
 #include "tests/mc/program.hpp"
 
 namespace gearpod::test_example_gearboxes {

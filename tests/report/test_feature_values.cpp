@@ -1,5 +1,5 @@
 // Checks the printed feature values of a study without thresholds.
-#include "mc/report/gearbox_values.hpp"
+#include "mc/report/run_sections.hpp"
 #include "tests/mc/program.hpp"
 #include "tests/report/report_cases.hpp"
 

@@ -17,8 +17,8 @@
 #include "mc/library/run/run_preparation.hpp"
 #include "mc/numerics/assumption_rows.hpp"
 #include "mc/numerics/numerical_error.hpp"
-#include "mc/report/numerical_quality.hpp"
 #include "mc/report/run_report.hpp"
+#include "mc/report/run_sections.hpp"
 #include "mc/results/provenance.hpp"
 #include "mc/results/result_rows.hpp"
 

@@ -21,7 +21,7 @@
 #include "mc/numerics/numerical_error.hpp"
 #include "mc/plan/scene_error.hpp"
 #include "mc/report/description/terminal_text.hpp"
-#include "mc/report/gearbox_values.hpp"
+#include "mc/report/run_sections.hpp"
 #include "mc/results/result_rows.hpp"
 
 namespace gearpod::mc {

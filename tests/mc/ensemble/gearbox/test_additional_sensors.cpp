@@ -1,6 +1,6 @@
 // Checks additional sensors of a run: signals, features, baselines and records of given length.
 #include "analysis/statistics/distributions.hpp"
-#include "mc/report/sensors.hpp"
+#include "mc/report/run_sections.hpp"
 #include "mc/results/result_rows.hpp"
 #include "tests/mc/ensemble/gearbox/small_runs.hpp"
 #include "tests/mc/study_file.hpp"

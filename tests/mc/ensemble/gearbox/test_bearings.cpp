@@ -2,7 +2,7 @@
 #include <fmt/format.h>
 
 #include "mc/ensemble/gearbox/other_sources.hpp"
-#include "mc/report/alarm_rates.hpp"
+#include "mc/report/run_sections.hpp"
 #include "mc/results/result_rows.hpp"
 #include "mc/study/other_sources.hpp"
 #include "tests/mc/ensemble/gearbox/small_runs.hpp"

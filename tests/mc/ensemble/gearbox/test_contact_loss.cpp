@@ -4,8 +4,8 @@
 #include <nlohmann/json.hpp>
 
 #include "mc/numerics/numerical_error.hpp"
-#include "mc/report/gearbox_values.hpp"
 #include "mc/report/run_report.hpp"
+#include "mc/report/run_sections.hpp"
 #include "mc/study/gears.hpp"
 #include "tests/mc/study_file.hpp"
 
