@@ -11,7 +11,7 @@
 #include "mc/ensemble/gearbox/realization_features.hpp"
 #include "mc/ensemble/gearbox/realization_signals.hpp"
 #include "mc/plan/record_plan.hpp"
-#include "mc/study/noise.hpp"
+#include "mc/study/sensor_signal.hpp"
 #include "signals/noise/normals.hpp"
 
 namespace gearpod::mc {

@@ -22,7 +22,7 @@
 #include "mc/numerics/solver_setting.hpp"
 #include "mc/plan/mesh_loads.hpp"
 #include "mc/study/gears.hpp"
-#include "mc/study/other_sources.hpp"
+#include "mc/study/sensor_signal.hpp"
 
 namespace gearpod::mc {
 

@@ -9,11 +9,9 @@
 #include "mc/files/input/document.hpp"
 #include "mc/files/input/spelling.hpp"
 #include "mc/files/text/text_table.hpp"
-#include "mc/study/housing.hpp"
-#include "mc/study/noise.hpp"
-#include "mc/study/other_sources.hpp"
 #include "mc/study/schema/former_keys.hpp"
 #include "mc/study/schema/schema.hpp"
+#include "mc/study/sensor_signal.hpp"
 #include "signals/noise/coloured_noise.hpp"
 
 namespace gearpod::mc {

@@ -16,10 +16,8 @@
 #include "mc/study/assumptions.hpp"
 #include "mc/study/fluctuations.hpp"
 #include "mc/study/gears.hpp"
-#include "mc/study/housing.hpp"
-#include "mc/study/noise.hpp"
-#include "mc/study/other_sources.hpp"
 #include "mc/study/schema/schema.hpp"
+#include "mc/study/sensor_signal.hpp"
 #include "stiffness/foundation/foundation_models.hpp"
 #include "stiffness/iso_6336.hpp"
 

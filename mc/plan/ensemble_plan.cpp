@@ -9,8 +9,8 @@
 #include "mc/plan/record_plan.hpp"
 #include "mc/plan/sampling.hpp"
 #include "mc/study/gears.hpp"
-#include "mc/study/other_sources.hpp"
 #include "mc/study/schema/sizes.hpp"
+#include "mc/study/sensor_signal.hpp"
 
 namespace gearpod::mc {
 

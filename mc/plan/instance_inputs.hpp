@@ -11,7 +11,7 @@
 
 #include "dynamics/planetary.hpp"
 #include "mc/study/keys/key.hpp"
-#include "mc/study/noise.hpp"
+#include "mc/study/sensor_signal.hpp"
 #include "mc/study/study.hpp"
 
 namespace gearpod::mc {

@@ -12,10 +12,8 @@
 #include "mc/study/faults/crack.hpp"
 #include "mc/study/fluctuations.hpp"
 #include "mc/study/gears.hpp"
-#include "mc/study/housing.hpp"
-#include "mc/study/noise.hpp"
-#include "mc/study/other_sources.hpp"
 #include "mc/study/schema/schema.hpp"
+#include "mc/study/sensor_signal.hpp"
 
 namespace gearpod::mc {
 namespace {

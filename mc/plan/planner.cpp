@@ -5,7 +5,7 @@
 
 #include "mc/plan/feature_plan.hpp"
 #include "mc/study/fluctuations.hpp"
-#include "mc/study/other_sources.hpp"
+#include "mc/study/sensor_signal.hpp"
 
 namespace gearpod::mc {
 

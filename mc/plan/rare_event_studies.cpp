@@ -1,8 +1,7 @@
 #include "mc/plan/rare_event_studies.hpp"
 
-#include "mc/study/noise.hpp"
-#include "mc/study/other_sources.hpp"
 #include "mc/study/schema/sizes.hpp"
+#include "mc/study/sensor_signal.hpp"
 
 namespace gearpod::mc {
 namespace {

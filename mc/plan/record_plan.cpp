@@ -13,8 +13,7 @@
 #include "mc/study/faults/fault_kind.hpp"
 #include "mc/study/fluctuations.hpp"
 #include "mc/study/gears.hpp"
-#include "mc/study/housing.hpp"
-#include "mc/study/other_sources.hpp"
+#include "mc/study/sensor_signal.hpp"
 
 namespace gearpod::mc {
 namespace {

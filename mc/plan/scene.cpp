@@ -14,8 +14,7 @@
 #include "mc/plan/gearbox_plan.hpp"
 #include "mc/study/fluctuations.hpp"
 #include "mc/study/gears.hpp"
-#include "mc/study/housing.hpp"
-#include "mc/study/other_sources.hpp"
+#include "mc/study/sensor_signal.hpp"
 
 namespace gearpod::mc {
 namespace {

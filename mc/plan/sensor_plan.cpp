@@ -5,7 +5,7 @@
 #include <numbers>
 #include <set>
 
-#include "mc/study/housing.hpp"
+#include "mc/study/sensor_signal.hpp"
 
 namespace gearpod::mc {
 namespace {

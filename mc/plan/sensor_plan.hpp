@@ -14,7 +14,7 @@
 #include "mc/plan/drivetrain.hpp"
 #include "mc/plan/feature_plan.hpp"
 #include "mc/plan/sampling.hpp"
-#include "mc/study/noise.hpp"
+#include "mc/study/sensor_signal.hpp"
 #include "signals/noise/coloured_noise.hpp"
 #include "signals/path/frequency_response.hpp"
 #include "signals/path/transmission_path.hpp"

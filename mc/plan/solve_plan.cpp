@@ -21,8 +21,8 @@
 #include "mc/plan/scene_error.hpp"
 #include "mc/study/fluctuations.hpp"
 #include "mc/study/gears.hpp"
-#include "mc/study/other_sources.hpp"
 #include "mc/study/schema/sizes.hpp"
+#include "mc/study/sensor_signal.hpp"
 #include "signals/spectra/fourier_transform.hpp"
 
 namespace gearpod::mc {

@@ -8,8 +8,7 @@
 #include "mc/plan/record_plan.hpp"
 #include "mc/study/assumptions.hpp"
 #include "mc/study/gears.hpp"
-#include "mc/study/noise.hpp"
-#include "mc/study/other_sources.hpp"
+#include "mc/study/sensor_signal.hpp"
 
 namespace gearpod::mc {
 namespace {

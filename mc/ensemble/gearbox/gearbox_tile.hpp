@@ -16,7 +16,7 @@
 #include "mc/plan/sampling.hpp"
 #include "mc/plan/tile_plan.hpp"
 #include "mc/results/results_file.hpp"
-#include "mc/study/noise.hpp"
+#include "mc/study/sensor_signal.hpp"
 #include "signals/noise/tones.hpp"
 #include "signals/sensor/sensor_signal.hpp"
 #include "signals/tile_signals.hpp"

@@ -11,8 +11,8 @@
 #include "mc/ensemble/gearbox/realization_signals.hpp"
 #include "mc/recordings/measured_features.hpp"
 #include "mc/study/keys/key.hpp"
-#include "mc/study/noise.hpp"
 #include "mc/study/random/philox.hpp"
+#include "mc/study/sensor_signal.hpp"
 #include "signals/noise/normals.hpp"
 #include "signals/sensor/sensor_signal.hpp"
 

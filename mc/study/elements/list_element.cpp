@@ -14,7 +14,7 @@
 #include "mc/files/input/spelling.hpp"
 #include "mc/files/signal_file.hpp"
 #include "mc/files/text/text_table.hpp"
-#include "mc/study/housing.hpp"
+#include "mc/study/sensor_signal.hpp"
 
 namespace gearpod::mc {
 

@@ -9,8 +9,7 @@
 
 #include "mc/files/input/document.hpp"
 #include "mc/study/gears.hpp"
-#include "mc/study/housing.hpp"
-#include "mc/study/other_sources.hpp"
+#include "mc/study/sensor_signal.hpp"
 #include "signals/noise/bearing_impulses.hpp"
 
 namespace gearpod::mc {

@@ -2,10 +2,8 @@
 
 #include "features/feature.hpp"
 #include "mc/study/gears.hpp"
-#include "mc/study/housing.hpp"
-#include "mc/study/noise.hpp"
-#include "mc/study/other_sources.hpp"
 #include "mc/study/reading/parts.hpp"
+#include "mc/study/sensor_signal.hpp"
 #include "signals/noise/coloured_noise.hpp"
 
 namespace gearpod::mc {

@@ -7,8 +7,8 @@
 #include "mc/study/assumptions.hpp"
 #include "mc/study/faults/fault_kind.hpp"
 #include "mc/study/gears.hpp"
-#include "mc/study/noise.hpp"
 #include "mc/study/schema/schema.hpp"
+#include "mc/study/sensor_signal.hpp"
 
 namespace gearpod::mc {
 namespace {

@@ -6,7 +6,7 @@
 #include "mc/ensemble/batch_workers.hpp"
 #include "mc/ensemble/gearbox/simulation.hpp"
 #include "mc/study/fluctuations.hpp"
-#include "mc/study/other_sources.hpp"
+#include "mc/study/sensor_signal.hpp"
 #include "tests/mc/gearbox_bits.hpp"
 #include "tests/mc/study_file.hpp"
 #include "tests/shipped_studies.hpp"

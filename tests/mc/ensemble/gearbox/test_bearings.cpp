@@ -4,7 +4,7 @@
 #include "mc/ensemble/gearbox/other_sources.hpp"
 #include "mc/report/run_sections.hpp"
 #include "mc/results/result_rows.hpp"
-#include "mc/study/other_sources.hpp"
+#include "mc/study/sensor_signal.hpp"
 #include "tests/mc/ensemble/gearbox/small_runs.hpp"
 #include "tests/mc/study_file.hpp"
 

@@ -1,7 +1,7 @@
 // Checks accelerometer noise given by its density before the low-pass.
 #include "mc/plan/calibration_plan.hpp"
 #include "mc/plan/sensor_plan.hpp"
-#include "mc/study/noise.hpp"
+#include "mc/study/sensor_signal.hpp"
 #include "mc/study/study.hpp"
 #include "signals/spectra/order_spectrum.hpp"
 #include "tests/mc/ensemble/gearbox/small_runs.hpp"

@@ -4,7 +4,7 @@
 #include <fmt/format.h>
 
 #include "mc/plan/sensor_plan.hpp"
-#include "mc/study/noise.hpp"
+#include "mc/study/sensor_signal.hpp"
 #include "mc/study/study.hpp"
 #include "tests/mc/ensemble/gearbox/small_runs.hpp"
 #include "tests/mc/study_file.hpp"
