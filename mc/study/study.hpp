@@ -2,12 +2,17 @@
 #pragma once
 
 #include <cmath>
+#include <concepts>
 #include <cstddef>
 #include <cstdint>
+#include <map>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
 #include <string_view>
+#include <typeindex>
+#include <typeinfo>
 #include <vector>
 
 #include "dynamics/effects/mesh_damping.hpp"
@@ -18,7 +23,6 @@
 #include "mc/files/input/problems.hpp"
 #include "mc/files/input/python_hashes.hpp"
 #include "mc/study/distributions/distribution.hpp"
-#include "mc/study/fault_shapes.hpp"
 #include "mc/study/member.hpp"
 #include "mc/study/sensor.hpp"
 #include "signals/path/transmission_path.hpp"
@@ -332,6 +336,65 @@ struct Effects {
         return motion == Motion::torsional || motion == Motion::quasi_static_torsional;
     }
     bool operator==(const Effects&) const = default;
+};
+
+// Fault parameters of a study, by kind of fault. Each kind has a struct that only its own file
+// knows.
+
+// Base of a fault kind's parameter struct, which must be copyable, comparable and
+// default-constructible.
+struct FaultShape {
+    bool operator==(const FaultShape&) const = default;
+};
+
+// Heterogeneous map from parameter type to value. Copies share the values until one of them edits
+// it.
+class FaultShapes {
+  public:
+    // Value as last edited, or a default-constructed one.
+    template <std::derived_from<FaultShape> Shape>
+    const Shape& get() const {
+        static const Shape defaults{};
+        const auto found = held_.find(typeid(Shape));
+        return found == held_.end() ? defaults
+                                    : static_cast<const Holder<Shape>&>(*found->second).shape;
+    }
+    // Reference for changing the value, valid until the next call of edit() for the same type.
+    template <std::derived_from<FaultShape> Shape>
+    Shape& edit() {
+        auto own = std::make_shared<Holder<Shape>>(get<Shape>());
+        Shape& shape = own->shape;
+        held_[typeid(Shape)] = std::move(own);
+        return shape;
+    }
+    bool operator==(const FaultShapes& other) const {
+        return all_same_in(other) && other.all_same_in(*this);
+    }
+
+  private:
+    struct Held {
+        virtual ~Held() = default;
+        virtual bool same_in(const FaultShapes& other) const = 0;
+    };
+    template <class Shape>
+    struct Holder final : Held {
+        explicit Holder(const Shape& from) : shape(from) {}
+        bool same_in(const FaultShapes& other) const override {
+            return shape == other.get<Shape>();
+        }
+        Shape shape;
+    };
+
+    bool all_same_in(const FaultShapes& other) const {
+        for (const auto& [type, held] : held_) {
+            if (!held->same_in(other)) {
+                return false;
+            }
+        }
+        return true;
+    }
+
+    std::map<std::type_index, std::shared_ptr<const Held>> held_;
 };
 
 // Fault of a study. Parameters of a kind are defined in its own file (mc/study/faults).
