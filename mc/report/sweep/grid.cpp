@@ -1,5 +1,3 @@
-#include "mc/report/sweep/grid.hpp"
-
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -11,6 +9,7 @@
 
 #include "mc/files/input/document.hpp"
 #include "mc/files/input/terminal_text.hpp"
+#include "mc/report/sweep/summaries.hpp"
 #include "mc/study/keys/key.hpp"
 #include "mc/study/random/fnv.hpp"
 #include "mc/study/schema/former_keys.hpp"

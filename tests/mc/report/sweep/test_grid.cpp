@@ -1,4 +1,4 @@
-#include "mc/report/sweep/grid.hpp"
+#include "mc/report/sweep/summaries.hpp"
 #include "tests/test.hpp"
 
 namespace gearpod::mc::test_grid {
