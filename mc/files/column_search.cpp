@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "mc/files/input/file_text.hpp"
+#include "mc/files/input/input_file.hpp"
 #include "mc/files/input/number_text.hpp"
 #include "mc/files/input/terminal_text.hpp"
 #include "mc/files/signal_units.hpp"

@@ -14,7 +14,7 @@
 #include <string_view>
 
 #include "mc/files/file_descriptor.hpp"
-#include "mc/files/input/file_text.hpp"
+#include "mc/files/input/input_file.hpp"
 #include "mc/files/input/terminal_text.hpp"
 #include "mc/files/python_process.hpp"
 #include "python_sources.hpp"

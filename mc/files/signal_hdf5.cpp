@@ -12,7 +12,7 @@
 #include "machine/no_value.hpp"
 #include "mc/files/column_search.hpp"
 #include "mc/files/hdf5_data.hpp"
-#include "mc/files/input/file_text.hpp"
+#include "mc/files/input/input_file.hpp"
 #include "mc/files/input/number_text.hpp"
 #include "mc/files/input/terminal_text.hpp"
 #include "mc/files/signal_units.hpp"

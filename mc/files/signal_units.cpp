@@ -13,7 +13,7 @@
 #include <sstream>
 #include <utility>
 
-#include "mc/files/input/file_text.hpp"
+#include "mc/files/input/input_file.hpp"
 #include "mc/files/input/terminal_text.hpp"
 
 namespace gearpod::mc {

@@ -9,7 +9,7 @@
 #include <span>
 
 #include "machine/no_value.hpp"
-#include "mc/files/input/file_text.hpp"
+#include "mc/files/input/input_file.hpp"
 #include "mc/files/input/problems.hpp"
 #include "mc/files/input/terminal_text.hpp"
 #include "mc/files/signal_units.hpp"

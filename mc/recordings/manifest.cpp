@@ -8,7 +8,7 @@
 #include <filesystem>
 #include <string_view>
 
-#include "mc/files/input/file_text.hpp"
+#include "mc/files/input/input_file.hpp"
 
 namespace gearpod::mc {
 namespace {

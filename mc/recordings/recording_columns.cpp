@@ -10,7 +10,7 @@
 
 #include "machine/contracts.hpp"
 #include "machine/upper_median.hpp"
-#include "mc/files/input/file_text.hpp"
+#include "mc/files/input/input_file.hpp"
 #include "mc/files/input/terminal_text.hpp"
 
 namespace gearpod::mc {

@@ -2,7 +2,7 @@
 
 #include <sstream>
 
-#include "mc/files/input/file_text.hpp"
+#include "mc/files/input/input_file.hpp"
 
 namespace gearpod::mc {
 namespace {

@@ -7,8 +7,8 @@
 
 namespace gearpod::mc {
 
-// The text as valid UTF-8 (file_text.hpp) without control characters, which can control a terminal: they
-// are replaced by a space if they are blanks, else by a question mark.
+// The text as valid UTF-8 (input_file.hpp) without control characters, which can control a
+// terminal: they are replaced by a space if they are blanks, else by a question mark.
 std::string printable(std::string_view bytes);
 
 bool is_printable(std::string_view text);

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "mc/files/input/file_text.hpp"
+#include "mc/files/input/input_file.hpp"
 #include "mc/files/input/number_text.hpp"
 #include "mc/files/signal_file.hpp"
 #include "mc/files/signal_units.hpp"

@@ -5,7 +5,6 @@
 #include <algorithm>
 
 #include "mc/files/foreign_file.hpp"
-#include "mc/files/input/file_text.hpp"
 #include "mc/files/input/input_file.hpp"
 #include "mc/files/signal_file.hpp"
 

@@ -1,5 +1,5 @@
 // Checks that every usual spelling of a unit is converted, and that other units are refused.
-#include "mc/files/input/file_text.hpp"
+#include "mc/files/input/input_file.hpp"
 #include "mc/files/input/terminal_text.hpp"
 #include "mc/files/signal_units.hpp"
 #include "tests/test.hpp"
