@@ -13,10 +13,10 @@
 #include <fstream>
 #include <string_view>
 
+#include "mc/files/child_process.hpp"
 #include "mc/files/file_descriptor.hpp"
 #include "mc/files/input/input_file.hpp"
 #include "mc/files/input/terminal_text.hpp"
-#include "mc/files/python_process.hpp"
 #include "python_sources.hpp"
 
 namespace gearpod::mc {

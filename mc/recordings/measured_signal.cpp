@@ -11,10 +11,10 @@
 #include <span>
 
 #include "features/feature.hpp"
+#include "mc/files/child_process.hpp"
 #include "mc/files/foreign_file.hpp"
 #include "mc/files/input/input_file.hpp"
 #include "mc/files/input/terminal_text.hpp"
-#include "mc/files/isolated_reading.hpp"
 #include "mc/files/signal_file.hpp"
 #include "mc/files/signal_units.hpp"
 #include "mc/recordings/quantisation.hpp"

@@ -7,8 +7,8 @@
 #include <utility>
 
 #include "mc/files/atomic_file.hpp"
+#include "mc/files/child_process.hpp"
 #include "mc/files/json_text.hpp"
-#include "mc/files/python_process.hpp"
 #include "mc/results/provenance.hpp"
 
 namespace gearpod::mc {

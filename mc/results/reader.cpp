@@ -7,10 +7,10 @@
 #include <set>
 #include <sstream>
 
+#include "mc/files/child_process.hpp"
 #include "mc/files/hdf5_data.hpp"
 #include "mc/files/input/input_file.hpp"
 #include "mc/files/input/terminal_text.hpp"
-#include "mc/files/isolated_reading.hpp"
 #include "mc/plan/study_facts.hpp"
 #include "mc/results/file_checksum.hpp"
 #include "mc/results/layout.hpp"

@@ -10,9 +10,9 @@
 #include <string>
 #include <vector>
 
+#include "mc/files/child_process.hpp"
 #include "mc/files/file_descriptor.hpp"
 #include "mc/files/input/python_hashes.hpp"
-#include "mc/files/python_process.hpp"
 
 namespace gearpod::mc {
 

@@ -11,9 +11,9 @@
 
 #include "analysis/report/false_alarm_text.hpp"
 #include "mc/files/atomic_file.hpp"
+#include "mc/files/child_process.hpp"
 #include "mc/files/hdf5_data.hpp"
 #include "mc/files/input/terminal_text.hpp"
-#include "mc/files/isolated_reading.hpp"
 #include "mc/results/results_file.hpp"
 
 namespace gearpod::mc {

@@ -5,8 +5,8 @@
 #include <stdexcept>
 
 #include "machine/no_value.hpp"
+#include "mc/files/child_process.hpp"
 #include "mc/files/json_text.hpp"
-#include "mc/files/python_process.hpp"
 #include "python_sources.hpp"
 
 namespace gearpod::mc {

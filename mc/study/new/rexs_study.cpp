@@ -5,7 +5,7 @@
 #include <optional>
 #include <tuple>
 
-#include "mc/files/python_process.hpp"
+#include "mc/files/child_process.hpp"
 #include "mc/study/new/datasheet.hpp"
 #include "python_sources.hpp"
 

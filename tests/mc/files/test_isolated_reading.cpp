@@ -5,7 +5,7 @@
 #include <cerrno>
 #include <csignal>
 
-#include "mc/files/isolated_reading.hpp"
+#include "mc/files/child_process.hpp"
 #include "tests/mc/files/recorded.hpp"
 #include "tests/mc/program.hpp"
 #include "tests/mc/recording_bytes.hpp"

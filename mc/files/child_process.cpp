@@ -1,20 +1,29 @@
-#include "mc/files/python_process.hpp"
+#include "mc/files/child_process.hpp"
 
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <signal.h>
 #include <spawn.h>
+#include <sys/prctl.h>
+#include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
+#include <cstdint>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
+#include <exception>
+#include <filesystem>
+#include <fstream>
 #include <memory>
+#include <new>
 #include <string_view>
 
+#include "machine/stop_signals.hpp"
 #include "mc/files/file_descriptor.hpp"
 
 namespace gearpod::mc {
@@ -49,6 +58,31 @@ std::vector<char*> pointers_to(std::vector<std::string>& texts) {
     }
     pointers.push_back(nullptr);
     return pointers;
+}
+
+constexpr std::uintmax_t kTrialMemory = std::uintmax_t{256} << 20;
+constexpr std::uintmax_t kTrial_s = 10, kTrialBytes_s = 10000000, kLongestTrial_s = 3600;
+
+// Limits of the child process: the memory is the present use plus `more_memory` bytes, core files
+// are disabled, crashes have their default actions, and the process ends with its parent.
+void confine_child(std::uintmax_t more_memory) {
+    ::prctl(PR_SET_PDEATHSIG, SIGKILL);
+    for (const int signal : {SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT, SIGALRM}) {
+        ::signal(signal, SIG_DFL);  // removes the handlers of the parent process
+    }
+    for (const int signal : machine::kStopSignals) {  // the parent decides when this one ends
+        ::signal(signal, SIG_IGN);
+    }
+    std::ifstream statm("/proc/self/statm");
+    std::uintmax_t pages = 0;
+    rlimit limit{};
+    if (statm >> pages && ::getrlimit(RLIMIT_AS, &limit) == 0) {
+        const auto page = static_cast<std::uintmax_t>(::sysconf(_SC_PAGESIZE));
+        limit.rlim_cur = std::min<rlim_t>(limit.rlim_cur, pages * page + more_memory);
+        ::setrlimit(RLIMIT_AS, &limit);
+    }
+    const rlimit none{0, 0};
+    ::setrlimit(RLIMIT_CORE, &none);
 }
 
 }  // namespace
@@ -114,6 +148,36 @@ PythonOutput run_python(const std::vector<std::string>& arguments, const std::st
     const int status = wait_for_end(start_python(arguments, fileno(in.get()), fileno(out.get()),
                                                  silent ? null.get() : STDERR_FILENO));
     return {status, content(out.get())};
+}
+
+bool survives_reading(const std::string& path, const std::function<void()>& read,
+                      std::uintmax_t memory_per_byte) {
+    std::error_code error;
+    const std::uintmax_t found = std::filesystem::file_size(path, error);
+    const std::uintmax_t size = error ? 0 : found;
+    const pid_t child = ::fork();
+    if (child < 0) {
+        return true;
+    }
+    if (child == 0) {
+        confine_child(kTrialMemory + memory_per_byte * size);
+        ::alarm(static_cast<unsigned>(std::min(kTrial_s + size / kTrialBytes_s, kLongestTrial_s)));
+        try {
+            read();
+        } catch (const std::bad_alloc&) {
+            ::_exit(1);
+        } catch (const std::exception&) {
+            ::_exit(0);  // the caller gets the same exception
+        }
+        ::_exit(0);
+    }
+    int status = 0;
+    while (::waitpid(child, &status, 0) < 0) {
+        if (errno != EINTR) {
+            return true;
+        }
+    }
+    return WIFEXITED(status) && WEXITSTATUS(status) == 0;
 }
 
 }  // namespace gearpod::mc

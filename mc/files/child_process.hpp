@@ -1,8 +1,11 @@
-// Starts Python: for pages, models and recordings of other programs, and for the users' features.
+// Child processes: Python, for pages, models and recordings of other programs and for the users'
+// features, and trials of a library that may crash or hang on a damaged file.
 #pragma once
 
 #include <sys/types.h>
 
+#include <cstdint>
+#include <functional>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -37,5 +40,12 @@ struct PythonOutput {
 // errors to standard error, unless `silent`. Throws PythonError if it cannot be started.
 PythonOutput run_python(const std::vector<std::string>& arguments, const std::string& input,
                         bool silent = false);
+
+// Calls `read`, which reads the file at `path`, in a forked child process. Returns true if it ends,
+// with or without an exception. Returns false if the library crashes, takes more than 256 MB plus
+// this many bytes per byte of the file, or does not end within 10 s plus one second per ten
+// megabytes. True if no process can be created. Not thread-safe.
+bool survives_reading(const std::string& path, const std::function<void()>& read,
+                      std::uintmax_t memory_per_byte = 8);
 
 }  // namespace gearpod::mc
