@@ -21,7 +21,6 @@
 #include "mc/library/run/run_preparation.hpp"
 #include "mc/lives/campaign.hpp"
 #include "mc/lives/interpolation.hpp"
-#include "mc/plan/scene_error.hpp"
 #include "mc/plan/study_facts.hpp"
 #include "mc/report/lives_report.hpp"
 #include "mc/report/page.hpp"

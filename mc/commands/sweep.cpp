@@ -22,7 +22,6 @@
 #include "mc/library/run/run_preparation.hpp"
 #include "mc/lives/campaign.hpp"
 #include "mc/plan/planner.hpp"
-#include "mc/plan/scene_error.hpp"
 #include "mc/report/sweep/summaries.hpp"
 #include "mc/results/result_rows.hpp"
 

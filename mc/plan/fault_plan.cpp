@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "mc/plan/scene_error.hpp"
+#include "mc/files/input/problems.hpp"
 #include "mc/study/gears.hpp"
 #include "mc/study/schema/sizes.hpp"
 

@@ -8,7 +8,7 @@
 
 #include "dynamics/gearbox_matrices.hpp"
 #include "machine/contracts.hpp"
-#include "mc/plan/scene_error.hpp"
+#include "mc/files/input/problems.hpp"
 #include "mc/study/fluctuations.hpp"
 #include "mc/study/gears.hpp"
 #include "mc/study/sensor_signal.hpp"

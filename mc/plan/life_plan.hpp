@@ -14,7 +14,6 @@
 #include "mc/plan/gearbox_plan.hpp"
 #include "mc/plan/record_plan.hpp"
 #include "mc/plan/sampling.hpp"
-#include "mc/plan/scene_error.hpp"
 #include "mc/study/study.hpp"
 #include "stiffness/teeth/fracture_mechanics.hpp"
 

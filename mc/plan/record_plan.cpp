@@ -7,7 +7,7 @@
 #include <cmath>
 #include <numeric>
 
-#include "mc/plan/scene_error.hpp"
+#include "mc/files/input/problems.hpp"
 #include "mc/plan/sensor_plan.hpp"
 #include "mc/study/assumptions.hpp"
 #include "mc/study/faults/fault_kind.hpp"

@@ -6,7 +6,7 @@
 
 #include "dynamics/helical_pair.hpp"
 #include "machine/contracts.hpp"
-#include "mc/plan/scene_error.hpp"
+#include "mc/files/input/problems.hpp"
 #include "mc/study/faults/fault_kind.hpp"
 #include "mc/study/schema/sizes.hpp"
 #include "stiffness/additive_mesh.hpp"

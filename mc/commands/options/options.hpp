@@ -18,7 +18,6 @@
 #include "mc/files/input/problems.hpp"
 #include "mc/library/run/command_files.hpp"
 #include "mc/library/run/run_options.hpp"
-#include "mc/plan/scene_error.hpp"
 #include "mc/recordings/measure_recordings.hpp"
 #include "mc/recordings/recording_columns.hpp"
 

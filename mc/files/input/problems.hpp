@@ -6,6 +6,7 @@
 #include <stdexcept>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 namespace gearpod::mc {
@@ -58,5 +59,21 @@ std::string format(const Problems& problems, std::size_t most = std::string::npo
 
 // Sorts by file in order of first appearance, overrides last, and by line within a file.
 void sort_problems(Problems& problems);
+
+// Error in a study that is found only when its scene is built: numbers of steps or samples, bodies
+// that no model covers.
+class SceneError : public std::runtime_error {
+  public:
+    SceneError(std::string key, const std::string& what, std::string remedy,
+               ProblemKind kind = ProblemKind::other)
+        : std::runtime_error(what), key_(std::move(key)), remedy_(std::move(remedy)), kind_(kind) {}
+    const std::string& key() const { return key_; }
+    const std::string& remedy() const { return remedy_; }
+    ProblemKind kind() const { return kind_; }
+
+  private:
+    std::string key_, remedy_;
+    ProblemKind kind_;
+};
 
 }  // namespace gearpod::mc
