@@ -149,67 +149,91 @@ bool PlanetaryDrivetrain::carrier_turns_backwards() const {
     return speeds(1.0).carrier < 0.0;
 }
 
-using std::numbers::pi;
+namespace {
 
-// The monitored gear is the one with the fault, else the pinion.
-FixedShaftDrivetrain::FixedShaftDrivetrain(const Study& study)
-    : pinion_teeth_(teeth_of(study, Member::pinion).value()),
-      gear_teeth_(teeth_of(study, Member::gear).value()),
-      pinion_radius_m_(gear_of(study, Member::pinion).base_radius()),
-      gear_radius_m_(gear_of(study, Member::gear).base_radius()),
-      gear_monitored_(study.fault.member == Member::gear) {}
+class FixedShaftDrivetrain final : public Drivetrain {
+  public:
+    // The monitored gear is the one with the fault, else the pinion.
+    explicit FixedShaftDrivetrain(const Study& study)
+        : pinion_teeth_(teeth_of(study, Member::pinion).value()),
+          gear_teeth_(teeth_of(study, Member::gear).value()),
+          pinion_radius_m_(gear_of(study, Member::pinion).base_radius()),
+          gear_radius_m_(gear_of(study, Member::gear).base_radius()),
+          gear_monitored_(study.fault.member == Member::gear) {}
 
-double FixedShaftDrivetrain::mesh_frequency_rad_s(double speed_rad_s) const {
-    return pinion_teeth_ * speed_rad_s;
-}
+    double mesh_frequency_rad_s(double speed_rad_s) const override {
+        return pinion_teeth_ * speed_rad_s;
+    }
 
-double FixedShaftDrivetrain::rotation_m_s(const InstanceInputs& instance) const {
-    return pinion_radius_m_ * instance.speed_rad_s;
-}
+    double rotation_m_s(const InstanceInputs& instance) const override {
+        return pinion_radius_m_ * instance.speed_rad_s;
+    }
 
-ShaftDegree FixedShaftDrivetrain::shaft_degree(const dynamics::GearboxLayout&,
-                                               Member member) const {
-    return member == Member::pinion ? ShaftDegree{dynamics::u_m, pinion_radius_m_}
-                                    : ShaftDegree{dynamics::u_b, gear_radius_m_};
-}
+    ShaftDegree shaft_degree(const dynamics::GearboxLayout&, Member member) const override {
+        return member == Member::pinion ? ShaftDegree{dynamics::u_m, pinion_radius_m_}
+                                        : ShaftDegree{dynamics::u_b, gear_radius_m_};
+    }
 
-void FixedShaftDrivetrain::set(const InstanceInputs& instance,
-                               dynamics::GearboxInputs& inputs) const {
-    auto& out = std::get<dynamics::FixedShaftInputs>(inputs);
-    out.mesh_period_s = mesh_period_s(instance.speed_rad_s);
-    out.motor_torque_N_m = instance.torque_N_m;
-    out.load_torque_N_m = instance.fixed_shaft.load_torque_N_m;
-}
+    void set(const InstanceInputs& instance, dynamics::GearboxInputs& inputs) const override {
+        auto& out = std::get<dynamics::FixedShaftInputs>(inputs);
+        out.mesh_period_s = mesh_period_s(instance.speed_rad_s);
+        out.motor_torque_N_m = instance.torque_N_m;
+        out.load_torque_N_m = instance.fixed_shaft.load_torque_N_m;
+    }
 
-// Unbalanced torques accelerate the whole train as one rigid body. The mesh carries the motor's
-// force minus the part that accelerates the motor's side.
-double FixedShaftDrivetrain::mesh_force_N(const InstanceInputs& instance) const {
-    const FixedShaftInstance& f = instance.fixed_shaft;
-    const double motor_N = instance.torque_N_m / pinion_radius_m_;
-    const double surplus_N = motor_N - f.load_torque_N_m / gear_radius_m_;
-    const double input_kg =
-        (f.motor_inertia_kg_m2 + instance.bodies[Member::pinion].inertia_kg_m2) /
-        (pinion_radius_m_ * pinion_radius_m_);
-    const double output_kg = (f.load_inertia_kg_m2 + instance.bodies[Member::gear].inertia_kg_m2) /
-                             (gear_radius_m_ * gear_radius_m_);
-    const double all_kg = input_kg + output_kg;
-    return all_kg > 0.0 ? motor_N - surplus_N * input_kg / all_kg : motor_N;
-}
+    // Unbalanced torques accelerate the whole train as one rigid body. The mesh carries the motor's
+    // force minus the part that accelerates the motor's side.
+    double mesh_force_N(const InstanceInputs& instance) const override {
+        const FixedShaftInstance& f = instance.fixed_shaft;
+        const double motor_N = instance.torque_N_m / pinion_radius_m_;
+        const double surplus_N = motor_N - f.load_torque_N_m / gear_radius_m_;
+        const double input_kg =
+            (f.motor_inertia_kg_m2 + instance.bodies[Member::pinion].inertia_kg_m2) /
+            (pinion_radius_m_ * pinion_radius_m_);
+        const double output_kg =
+            (f.load_inertia_kg_m2 + instance.bodies[Member::gear].inertia_kg_m2) /
+            (gear_radius_m_ * gear_radius_m_);
+        const double all_kg = input_kg + output_kg;
+        return all_kg > 0.0 ? motor_N - surplus_N * input_kg / all_kg : motor_N;
+    }
 
-// The gear's rotation is counted opposite to the pinion's, so that the pair turns without error
-// while u_1 = u_2.
-std::vector<double> FixedShaftDrivetrain::te_weight(const dynamics::GearboxLayout& layout) const {
-    std::vector<double> weight(static_cast<std::size_t>(dynamics::degrees_of_freedom(layout)), 0.0);
-    weight[dynamics::u_1] = -1.0 / gear_radius_m_;
-    weight[dynamics::u_2] = 1.0 / gear_radius_m_;
-    return weight;
-}
+    // The gear's rotation is counted opposite to the pinion's, so that the pair turns without error
+    // while u_1 = u_2.
+    std::vector<double> te_weight(const dynamics::GearboxLayout& layout) const override {
+        std::vector<double> weight(static_cast<std::size_t>(dynamics::degrees_of_freedom(layout)),
+                                   0.0);
+        weight[dynamics::u_1] = -1.0 / gear_radius_m_;
+        weight[dynamics::u_2] = 1.0 / gear_radius_m_;
+        return weight;
+    }
 
-// After Z_1 Z_2 mesh periods every tooth of the monitored gear has met every tooth of its mate.
-signals::SpanLayout FixedShaftDrivetrain::span() const {
-    return gear_monitored_ ? signals::SpanLayout{gear_teeth_, pinion_teeth_, 1}
-                           : signals::SpanLayout{pinion_teeth_, gear_teeth_, 1};
-}
+    // After Z_1 Z_2 mesh periods every tooth of the monitored gear has met every tooth of its mate.
+    signals::SpanLayout span() const override {
+        return gear_monitored_ ? signals::SpanLayout{gear_teeth_, pinion_teeth_, 1}
+                               : signals::SpanLayout{pinion_teeth_, gear_teeth_, 1};
+    }
+
+    double input_turns_per_mesh() const override { return 1.0 / pinion_teeth_; }
+    double frame_turns_per_mesh() const override { return 0.0; }
+    double shaft_turns_per_mesh(Member member) const override {
+        return 1.0 / (member == Member::pinion ? pinion_teeth_ : gear_teeth_);
+    }
+    int input_degree_of_freedom(const dynamics::GearboxLayout&) const override {
+        return dynamics::u_m;
+    }
+    int pairs_per_mesh() const override { return 1; }
+    std::string pair_name(PairId) const override { return "m1"; }
+    std::string pair_members(PairId) const override { return "both gears"; }
+    double pitch_phase(PairId) const override { return 0.0; }
+    bool reversed() const override { return false; }
+
+  private:
+    int pinion_teeth_, gear_teeth_;
+    double pinion_radius_m_, gear_radius_m_;  // base circle radii
+    bool gear_monitored_;
+};
+
+}  // namespace
 
 double nominal_mesh_frequency_Hz(const Study& study, const Drivetrain& drivetrain) {
     return drivetrain.mesh_frequency_rad_s(nominal_inputs(study).speed_rad_s) /

@@ -116,35 +116,4 @@ class PlanetaryDrivetrain : public Drivetrain {
     gears::CentralMembers radius_m_;  // base circle radii; for the carrier the centre distance
 };
 
-class FixedShaftDrivetrain : public Drivetrain {
-  public:
-    explicit FixedShaftDrivetrain(const Study& study);
-
-    double mesh_frequency_rad_s(double speed_rad_s) const override;
-    double input_turns_per_mesh() const override { return 1.0 / pinion_teeth_; }
-    double frame_turns_per_mesh() const override { return 0.0; }
-    double shaft_turns_per_mesh(Member member) const override {
-        return 1.0 / (member == Member::pinion ? pinion_teeth_ : gear_teeth_);
-    }
-    int input_degree_of_freedom(const dynamics::GearboxLayout&) const override {
-        return dynamics::u_m;
-    }
-    double rotation_m_s(const InstanceInputs& instance) const override;
-    ShaftDegree shaft_degree(const dynamics::GearboxLayout& layout, Member member) const override;
-    void set(const InstanceInputs& instance, dynamics::GearboxInputs& inputs) const override;
-    double mesh_force_N(const InstanceInputs& instance) const override;
-    int pairs_per_mesh() const override { return 1; }
-    std::string pair_name(PairId) const override { return "m1"; }
-    std::string pair_members(PairId) const override { return "both gears"; }
-    double pitch_phase(PairId) const override { return 0.0; }
-    bool reversed() const override { return false; }
-    std::vector<double> te_weight(const dynamics::GearboxLayout& layout) const override;
-    signals::SpanLayout span() const override;
-
-  private:
-    int pinion_teeth_, gear_teeth_;
-    double pinion_radius_m_, gear_radius_m_;  // base circle radii
-    bool gear_monitored_;
-};
-
 }  // namespace gearpod::mc
