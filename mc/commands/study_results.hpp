@@ -15,7 +15,7 @@
 #include "mc/files/input/problems.hpp"
 #include "mc/library/run/command_files.hpp"
 #include "mc/numerics/numerics_choice.hpp"
-#include "mc/plan/rare_event_studies.hpp"
+#include "mc/plan/study_facts.hpp"
 #include "mc/results/results_file.hpp"
 
 namespace gearpod::mc {

@@ -12,7 +12,7 @@
 #include "analysis/detection/splitting.hpp"
 #include "machine/fields.hpp"
 #include "mc/ensemble/ensemble.hpp"
-#include "mc/plan/rare_event_studies.hpp"
+#include "mc/plan/study_facts.hpp"
 
 namespace gearpod::mc {
 
