@@ -11,7 +11,7 @@
 #include "mc/commands/commands.hpp"
 #include "mc/commands/options/options.hpp"
 #include "mc/ensemble/results_check.hpp"
-#include "mc/files/file_descriptor.hpp"
+#include "mc/files/atomic_file.hpp"
 #include "mc/library/run/run_options.hpp"
 #include "mc/results/file_checksum.hpp"
 #include "mc/results/result_rows.hpp"

@@ -24,7 +24,7 @@
 #include <string_view>
 
 #include "machine/stop_signals.hpp"
-#include "mc/files/file_descriptor.hpp"
+#include "mc/files/atomic_file.hpp"
 
 namespace gearpod::mc {
 namespace {

@@ -13,8 +13,8 @@
 #include <fstream>
 #include <string_view>
 
+#include "mc/files/atomic_file.hpp"
 #include "mc/files/child_process.hpp"
-#include "mc/files/file_descriptor.hpp"
 #include "mc/files/input/input_file.hpp"
 #include "mc/files/input/terminal_text.hpp"
 #include "python_sources.hpp"

@@ -18,7 +18,7 @@
 #include <string>
 #include <vector>
 
-#include "mc/files/file_descriptor.hpp"
+#include "mc/files/atomic_file.hpp"
 #include "mc/results/provenance.hpp"
 #include "mc/results/result_rows.hpp"
 

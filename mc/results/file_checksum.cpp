@@ -10,7 +10,7 @@
 #include <string_view>
 #include <vector>
 
-#include "mc/files/file_descriptor.hpp"
+#include "mc/files/atomic_file.hpp"
 #include "mc/study/random/fnv.hpp"
 
 namespace gearpod::mc {

@@ -6,7 +6,7 @@
 #include <cerrno>
 #include <span>
 
-#include "mc/files/file_descriptor.hpp"
+#include "mc/files/atomic_file.hpp"
 #include "mc/files/hdf5_data.hpp"
 #include "mc/results/file_checksum.hpp"
 #include "mc/results/layout.hpp"

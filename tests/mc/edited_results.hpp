@@ -4,7 +4,7 @@
 #include <fcntl.h>
 #include <unistd.h>
 
-#include "mc/files/file_descriptor.hpp"
+#include "mc/files/atomic_file.hpp"
 #include "mc/files/hdf5_data.hpp"
 #include "mc/results/file_checksum.hpp"
 #include "tests/test.hpp"

@@ -18,7 +18,7 @@
 
 #include "machine/clocks.hpp"
 #include "machine/team.hpp"
-#include "mc/files/file_descriptor.hpp"
+#include "mc/files/atomic_file.hpp"
 #include "python_sources.hpp"
 
 namespace gearpod::mc {

@@ -10,8 +10,8 @@
 #include <string>
 #include <vector>
 
+#include "mc/files/atomic_file.hpp"
 #include "mc/files/child_process.hpp"
-#include "mc/files/file_descriptor.hpp"
 #include "mc/files/input/python_hashes.hpp"
 
 namespace gearpod::mc {
