@@ -8,7 +8,6 @@
 #include <sstream>
 
 #include "machine/no_value.hpp"
-#include "mc/files/column_search.hpp"
 #include "mc/files/foreign_file.hpp"
 #include "mc/files/hdf5_data.hpp"
 #include "mc/files/input/terminal_text.hpp"

@@ -10,11 +10,11 @@
 #include <set>
 
 #include "machine/no_value.hpp"
-#include "mc/files/column_search.hpp"
 #include "mc/files/hdf5_data.hpp"
 #include "mc/files/input/input_file.hpp"
 #include "mc/files/input/number_text.hpp"
 #include "mc/files/input/terminal_text.hpp"
+#include "mc/files/signal_file.hpp"
 #include "mc/files/signal_units.hpp"
 
 namespace gearpod::mc {
