@@ -17,7 +17,7 @@
 #include "mc/files/input/terminal_text.hpp"
 #include "mc/library/run/command_files.hpp"
 #include "mc/report/run_sections.hpp"
-#include "mc/report/sweep/compared_results.hpp"
+#include "mc/report/sweep/summaries.hpp"
 #include "mc/results/reliability_of_results.hpp"
 #include "mc/results/result_rows.hpp"
 

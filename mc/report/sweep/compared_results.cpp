@@ -1,5 +1,3 @@
-#include "mc/report/sweep/compared_results.hpp"
-
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -11,6 +9,7 @@
 #include "mc/ensemble/results_check.hpp"
 #include "mc/files/input/find_in.hpp"
 #include "mc/files/input/terminal_text.hpp"
+#include "mc/report/sweep/summaries.hpp"
 #include "mc/results/reliability_of_results.hpp"
 #include "mc/results/result_rows.hpp"
 #include "mc/study/random/philox.hpp"

@@ -15,7 +15,6 @@
 #include "mc/ensemble/results_check.hpp"
 #include "mc/files/input/find_in.hpp"
 #include "mc/report/run_sections.hpp"
-#include "mc/report/sweep/compared_results.hpp"
 #include "mc/report/sweep/summaries.hpp"
 #include "mc/results/reliability_of_results.hpp"
 #include "mc/results/result_rows.hpp"
