@@ -1,5 +1,3 @@
-#include "mc/report/monitoring_over_time.hpp"
-
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -17,6 +15,7 @@
 #include "analysis/report/wording.hpp"
 #include "machine/no_value.hpp"
 #include "mc/plan/study_facts.hpp"
+#include "mc/report/run_sections.hpp"
 #include "mc/study/random/philox.hpp"
 
 namespace gearpod::mc {

@@ -10,7 +10,6 @@
 #include "analysis/reliability.hpp"
 #include "analysis/report/report.hpp"
 #include "mc/plan/study_facts.hpp"
-#include "mc/report/monitoring_over_time.hpp"
 #include "mc/report/run_sections.hpp"
 #include "mc/results/result_rows.hpp"
 
