@@ -4,8 +4,11 @@
 #include <string>
 #include <vector>
 
+#include "features/feature.hpp"
 #include "mc/study/draft.hpp"
+#include "mc/study/elements/list_element.hpp"
 #include "mc/study/keys/key.hpp"
+#include "mc/study/study.hpp"
 
 namespace gearpod::mc {
 
@@ -59,5 +62,15 @@ void check_records(StudyDraft& draft);
 // meant is marked as bad, so that it is not reported as missing.
 void reject_unknown_key(StudyDraft& draft, const std::string& prefix, const std::string& section,
                         const Entry& entry);
+
+// Features of a list of files, or of tables that resolved_text() writes. A file is run to find its
+// features, and its path is relative to the folder of the study. A table is taken as it is, so that
+// results can be read without the file.
+// Files are refused unless `runs` is true.
+std::vector<PythonFeature> read_python_features(const Value& list, bool runs,
+                                                const RejectElement& reject);
+
+// Parameters of the function, "record, baselines".
+std::string_view uses_text(const features::Feature& feature);
 
 }  // namespace gearpod::mc

@@ -1,5 +1,3 @@
-#include "mc/study/reading/python_list.hpp"
-
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -8,6 +6,7 @@
 #include "mc/files/input/spelling.hpp"
 #include "mc/files/input/terminal_text.hpp"
 #include "mc/files/python/python_worker.hpp"
+#include "mc/study/reading/parts.hpp"
 
 namespace gearpod::mc {
 namespace {

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "features/feature.hpp"
-#include "mc/study/reading/python_list.hpp"
+#include "mc/study/reading/parts.hpp"
 #include "mc/study/schema/schema.hpp"
 
 namespace gearpod::mc {

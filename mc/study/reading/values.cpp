@@ -5,7 +5,6 @@
 #include "mc/study/distributions/range.hpp"
 #include "mc/study/elements/list_element.hpp"
 #include "mc/study/reading/parts.hpp"
-#include "mc/study/reading/python_list.hpp"
 #include "mc/study/schema/former_keys.hpp"
 
 namespace gearpod::mc {
