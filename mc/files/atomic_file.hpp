@@ -15,6 +15,8 @@
 
 namespace gearpod::mc {
 
+// POSIX file descriptor that closes itself. The functions below read and write in full despite
+// interruptions.
 class Descriptor {
   public:
     explicit Descriptor(int fd) : fd_(fd) {}

@@ -1,4 +1,5 @@
-// Signal with a name and one value per sample.
+// Columns of signal files, and their search: by path or by the last part of a path. Statements of
+// the sampling rate under their usual names.
 #pragma once
 
 #include <memory>
@@ -12,6 +13,7 @@
 
 namespace gearpod::mc {
 
+// Signal with a name and one value per sample.
 struct SignalColumn {
     std::string name;
     std::string unit;  // may be empty

@@ -47,6 +47,9 @@ std::optional<RunFacts> run_facts(const std::string& study_text, const std::stri
 // Makes the titles of features in Python known if the text is that of a study with some.
 void declare_recorded_features(const std::string& text);
 
+// Studies from which the rates of rare events are estimated: those of stored results, restricted to
+// one feature, one noise level and gearboxes of one kind.
+
 // Miss rate for faults of one size.
 struct MissRateRequest {
     std::string feature;

@@ -148,6 +148,10 @@ analysis::Section sensors_section(const Results& frame,
 // reason why there are none, or null. Signals and spectra are thinned for plotting.
 nlohmann::json examples_json(const Results& frame, const RowSource& rows);
 
+// Monitoring of measured recordings in time order. Every detector of the study compares each
+// gearbox with its own first recordings (analysis/monitoring). The thresholds come from the
+// recordings known to be healthy.
+
 // First alarm of a kind in one gearbox's recordings that are not known to be healthy.
 struct FirstAlarm {
     std::size_t row = 0;

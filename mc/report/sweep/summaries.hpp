@@ -171,6 +171,8 @@ analysis::Report lives_sweep_report(const LivesSweep& sweep);
 
 nlohmann::json lives_sweep_json(const LivesSweep& sweep);
 
+// Comparison of two results files of `run`, gearbox by gearbox where seed and sizes agree.
+
 // Results file with the rows of its two groups.
 struct ComparedSide {
     std::string path;
