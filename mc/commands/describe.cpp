@@ -28,7 +28,6 @@
 #include "mc/library/run/command_files.hpp"
 #include "mc/numerics/forecast/memory.hpp"
 #include "mc/numerics/numerics_choice.hpp"
-#include "mc/report/description/terminal_text.hpp"
 #include "mc/study/gears.hpp"
 #include "mc/study/schema/schema.hpp"
 

@@ -1,14 +1,41 @@
-// Parts of `describe` that compute: the effects that a study calls for, lives, and forecasts of
-// time, memory and disk.
+// Text printed by `describe`, and its parts that compute: the effects that a study calls for,
+// lives, and forecasts of time, memory and disk.
 #pragma once
 
+#include <set>
 #include <string>
+#include <string_view>
 
 #include "mc/lives/life_tile.hpp"
 #include "mc/numerics/forecast/forecast.hpp"
+#include "mc/plan/description.hpp"
 #include "mc/plan/planner.hpp"
 
 namespace gearpod::mc {
+
+// Prints only these from now on, without headings, and no more than a screen holds:
+// "heading: name" is an entry, "heading: " a paragraph, "heading: *" all entries, and
+// "heading: names" their names as one list.
+void print_first_screen(std::set<std::string> shown);
+
+void print_heading(const std::string& text);
+
+// Prints a name and a value in two columns, with long values in several lines. Names longer than 25
+// characters shift the value to the right.
+void print_entry(const std::string& name, const std::string& value);
+
+// Prints a text as indented lines.
+void print_paragraph(const std::string& text);
+
+// Prints a heading and its entries.
+void print_section(const DescriptionSection& section);
+
+// Study text for a terminal.
+
+// Breaks lines of a study that are longer than 80 characters where TOML allows it: an inline table
+// becomes dotted keys, and an array takes several lines. Strings stay whole. The meaning is the
+// same.
+std::string wrapped_study(std::string_view toml);
 
 // Prints one entry for each optional effect: its computing time, and whether it changes a feature
 // by more than numerics.tolerance, or 1 % without it. Uses the study's own solver setting, short

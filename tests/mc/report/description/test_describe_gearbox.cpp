@@ -1,6 +1,6 @@
 // Checks the output of describe about members, fault sizes, omitted damping, rigid bodies and tooth
 // contact.
-#include "mc/report/description/terminal_text.hpp"
+#include "mc/report/description/describe.hpp"
 #include "mc/study/study.hpp"
 #include "tests/mc/program.hpp"
 #include "tests/mc/study_example.hpp"
