@@ -59,6 +59,17 @@ int samples_at_least(double rate_Hz, double mesh_frequency_Hz, const char* key) 
     return std::max(1, static_cast<int>(samples));
 }
 
+// Pilot sample of the ensemble, the same for every run of the study: inputs of the first `count`
+// test gearboxes; none if all gearboxes are alike.
+std::vector<InstanceInputs> pilot_inputs(const Study& study, const Sampler& sampler,
+                                         std::uint64_t count = 32) {
+    std::vector<InstanceInputs> all;
+    for (std::uint64_t i = 0; i < (study.random.empty() ? 0 : count); ++i) {
+        all.push_back(sampler.draw({Group::test, i}).inputs);
+    }
+    return all;
+}
+
 // Requirements on the number of steps per mesh period.
 class StepNeeds {
   public:
@@ -72,11 +83,8 @@ class StepNeeds {
           mode_inertia_(mode_inertia),
           low_pass_rad_s_(2.0 * pi * study.sensor.low_pass_Hz) {
         gearboxes_.push_back(gearbox.inputs(gearbox.nominal));
-        // A pilot sample of the ensemble, the same for every run of the study, represents the other
-        // gearboxes.
-        constexpr std::uint64_t kPilot = 32;
-        for (std::uint64_t i = 0; i < (study.random.empty() ? 0 : kPilot); ++i) {
-            gearboxes_.push_back(test_gearbox(i));
+        for (const InstanceInputs& inputs : pilot_inputs(study, sampler)) {
+            gearboxes_.push_back(gearbox.inputs(inputs));
         }
         const dynamics::GearboxInputs& nominal = gearboxes_[0];
         check_equal_masses();
@@ -102,8 +110,8 @@ class StepNeeds {
         // it covers the maximum of 1e5 gearboxes.
         constexpr std::uint64_t kPilot = 256;
         std::vector<double> needs{needed_steps(gearboxes_[0], integrator)};
-        for (std::uint64_t i = 0; i < (study_.random.empty() ? 0 : kPilot); ++i) {
-            needs.push_back(needed_steps(test_gearbox(i), integrator));
+        for (const InstanceInputs& inputs : pilot_inputs(study_, sampler_, kPilot)) {
+            needs.push_back(needed_steps(gearbox_.inputs(inputs), integrator));
         }
         std::sort(needs.begin(), needs.end());
         const double worst = needs.back(), upper = needs[needs.size() * 9 / 10];
@@ -135,9 +143,6 @@ class StepNeeds {
                                  "remove it, or the scatter of the masses");
             }
         }
-    }
-    dynamics::GearboxInputs test_gearbox(std::uint64_t i) const {
-        return gearbox_.inputs(sampler_.draw({Group::test, i}).inputs);
     }
     dynamics::GearboxMatrices system(const dynamics::GearboxInputs& gearbox) const {
         return lockstep::with_mode_inertia(dynamics::assemble(layout_, gearbox, stiffest_),
@@ -394,9 +399,7 @@ double highest_frequency(const GearboxPlan& gearbox, const InstanceInputs& in) {
 // The same, the maximum over the nominal gearbox and a pilot sample of the ensemble.
 double highest_frequency(const Study& study, const Sampler& sampler, const GearboxPlan& gearbox) {
     double result = highest_frequency(gearbox, gearbox.nominal);
-    constexpr std::uint64_t kPilot = 32;
-    for (std::uint64_t i = 0; i < (study.random.empty() ? 0 : kPilot); ++i) {
-        const InstanceInputs inputs = sampler.draw({Group::test, i}).inputs;
+    for (const InstanceInputs& inputs : pilot_inputs(study, sampler)) {
         result = std::max(result, highest_frequency(gearbox, inputs));
     }
     return result;
@@ -435,17 +438,6 @@ void check_kernels(const ExcitationModel& model, const lockstep::IntegrationPlan
             : "use integrator = \"auto\"");
 }
 
-// A quasi-static gearbox has no time steps, only the encoders' samples.
-void check_samples(double rate, int samples) {
-    if (samples < 2.0 * rate) {
-        throw SceneError("sensor.encoder_sampling_Hz",
-                         fmt::format("{} samples per mesh period are too few for the fastest "
-                                     "fluctuation ({:.3g} cycles per mesh period)",
-                                     samples, rate),
-                         "raise the rate, or use a slower fluctuation");
-    }
-}
-
 // Throws SceneError if kernels are missing, or if steps or samples are too coarse for a
 // fluctuation.
 void check_excitation_resolved(const Study& study, const Sampler& sampler,
@@ -454,7 +446,15 @@ void check_excitation_resolved(const Study& study, const Sampler& sampler,
         return;
     }
     if (study.effects.quasi_static()) {
-        check_samples(highest_frequency(study, sampler, gearbox), plan.grid.samples);
+        // It has no time steps, only the encoders' samples.
+        const double rate = highest_frequency(study, sampler, gearbox);
+        if (plan.grid.samples < 2.0 * rate) {
+            throw SceneError("sensor.encoder_sampling_Hz",
+                             fmt::format("{} samples per mesh period are too few for the fastest "
+                                         "fluctuation ({:.3g} cycles per mesh period)",
+                                         plan.grid.samples, rate),
+                             "raise the rate, or use a slower fluctuation");
+        }
         return;
     }
     check_kernels(*gearbox.excitation, plan);
@@ -498,8 +498,6 @@ void check_shaft_orders(const Study& study, const Drivetrain& drivetrain, int sa
         }
     }
 }
-
-using std::numbers::pi;
 
 class PlanBuilder {
   public:
@@ -556,9 +554,13 @@ class PlanBuilder {
             add_tooth_pairs(integration);
         }
         if (dynamics::has_error(integration.mesh_law)) {
+            // Static transmission errors of one kind of mesh are the same for all planets, shifted
+            // by their mesh phases.
+            const MeshKind first = gearbox_.kind == GearboxKind::fixed_shaft ? MeshKind::pinion_gear
+                                                                             : MeshKind::sun_planet;
             std::vector<lockstep::MeshError> errors(
-                static_cast<std::size_t>(drivetrain_.pairs_per_mesh()), first_errors());
-            errors.resize(static_cast<std::size_t>(pairs.pairs()), second_errors());
+                static_cast<std::size_t>(drivetrain_.pairs_per_mesh()), error_of(first));
+            errors.resize(static_cast<std::size_t>(pairs.pairs()), error_of(MeshKind::ring_planet));
             lockstep::add_errors(pairs, integration.grid, errors, integration.nodes);
         }
         return integration;
@@ -575,13 +577,6 @@ class PlanBuilder {
         }
     }
 
-    // Static transmission errors of one kind of mesh are the same for all planets, shifted by their
-    // mesh phases.
-    lockstep::MeshError first_errors() const {
-        return error_of(gearbox_.kind == GearboxKind::fixed_shaft ? MeshKind::pinion_gear
-                                                                  : MeshKind::sun_planet);
-    }
-    lockstep::MeshError second_errors() const { return error_of(MeshKind::ring_planet); }
     lockstep::MeshError error_of(MeshKind kind) const {
         const MeshValues& mesh = study_.gearbox.meshes[kind];
         return {mesh.error_m, mesh.error_phase_rad};
