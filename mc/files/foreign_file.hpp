@@ -1,11 +1,16 @@
 // Recordings of other programs, which Python reads (analysis/python/gearpod/signal_files.py).
 #pragma once
 
+#include <stdexcept>
 #include <string>
 
-#include "mc/files/signal_error.hpp"
-
 namespace gearpod::mc {
+
+// Problem with a signal file; the message names the file and the place.
+class SignalError : public std::runtime_error {
+  public:
+    using std::runtime_error::runtime_error;
+};
 
 // Content of a file by its first bytes, or by the extension of its name.
 enum class FileKind { text, hdf5, mat, sound, tdms, uff, unknown };

@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include "mc/files/signal_error.hpp"
+#include "mc/files/foreign_file.hpp"
 
 namespace gearpod::mc {
 

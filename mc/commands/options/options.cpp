@@ -5,9 +5,9 @@
 
 #include <filesystem>
 
+#include "mc/files/foreign_file.hpp"
 #include "mc/files/input/spelling.hpp"
 #include "mc/files/input/terminal_text.hpp"
-#include "mc/files/signal_error.hpp"
 #include "mc/study/schema/schema.hpp"
 
 namespace gearpod::mc {
