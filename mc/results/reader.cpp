@@ -182,8 +182,7 @@ class ResultsReader {
             detection.warnings.push_back(line);
         }
         results_.request.groups = sizes(group);
-        read_levels(group, detection);
-        read_cells(group, detection);
+        read_levels(group, detection.levels);
         return detection;
     }
 
@@ -198,42 +197,41 @@ class ResultsReader {
         return result;
     }
 
-    void read_levels(hid_t group, analysis::FeatureDetection& detection) {
-        detection.levels.resize(numbers(group, "threshold").size());
-        const auto fill = [&](const auto& values, const char* name, auto member) {
-            require_count(values.size(), detection.levels.size(), name);
-            for (std::size_t i = 0; i < values.size(); ++i) {
-                detection.levels[i].*member = values[i];
+    // Reads a dataset for each of these members of `count` items, which `item` gives by their
+    // index.
+    void read_members(hid_t group, std::size_t count, const auto& item, const auto& doubles,
+                      const auto& integers) {
+        const auto fill = [&](const auto& values, const auto& named) {
+            require_count(values.size(), count, named.name);
+            for (std::size_t i = 0; i < count; ++i) {
+                item(i).*named.member = values[i];
             }
         };
-        for (const auto& number : kLevelNumbers) {
-            fill(numbers(group, number.name), number.name, number.member);
+        for (const auto& named : doubles) {
+            fill(numbers(group, named.name), named);
         }
-        for (const auto& count : kLevelCounts) {
-            fill(read_integers(group, count.name, most_), count.name, count.member);
+        for (const auto& named : integers) {
+            fill(read_integers(group, named.name, most_), named);
         }
     }
 
-    void read_cells(hid_t group, analysis::FeatureDetection& detection) {
+    void read_levels(hid_t group, std::vector<analysis::LevelDetection>& levels) {
         const auto& groups = results_.request.groups;
-        for (analysis::LevelDetection& level : detection.levels) {
+        levels.resize(numbers(group, "threshold").size());
+        for (analysis::LevelDetection& level : levels) {
             level.cells.resize(groups.size());
             for (std::size_t i = 0; i < groups.size(); ++i) {
                 level.cells[i].size = groups[i];
             }
         }
-        const auto fill = [&](const auto& values, const char* name, auto member) {
-            require_count(values.size(), detection.levels.size() * groups.size(), name);
-            for (std::size_t i = 0; i < values.size(); ++i) {
-                detection.levels[i / groups.size()].cells[i % groups.size()].*member = values[i];
-            }
+        const auto level = [&](std::size_t i) -> auto& {
+            return levels[i];
         };
-        for (const auto& number : kCellNumbers) {
-            fill(numbers(group, number.name), number.name, number.member);
-        }
-        for (const auto& count : kCellCounts) {
-            fill(read_integers(group, count.name, most_), count.name, count.member);
-        }
+        const auto cell = [&](std::size_t i) -> auto& {
+            return levels[i / groups.size()].cells[i % groups.size()];
+        };
+        read_members(group, levels.size(), level, kLevelNumbers, kLevelCounts);
+        read_members(group, levels.size() * groups.size(), cell, kCellNumbers, kCellCounts);
     }
 
     hid_t root_;

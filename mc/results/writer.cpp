@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <iterator>
 #include <span>
 
 #include "mc/files/atomic_file.hpp"
@@ -110,32 +111,20 @@ void write_sizes(hid_t group, const std::vector<analysis::SizeGroup>& sizes) {
     write_numbers(group, "size_high", {sizes.size()}, high);
 }
 
-// One member of every cell (levels x sizes), or of every level.
-template <class Value, class Member>
-std::vector<Value> cell_values(const analysis::FeatureDetection& detection, Member member) {
-    std::vector<Value> values;
-    for (const analysis::LevelDetection& level : detection.levels) {
-        for (const analysis::DetectionCell& cell : level.cells) {
-            values.push_back(cell.*member);
-        }
+// Writes a dataset for each of these members of the items: levels, or cells (levels x sizes).
+template <class Item>
+void write_members(hid_t group, const Shape& shape, const std::vector<Item>& items,
+                   const auto& numbers, const auto& counts) {
+    for (const auto& number : numbers) {
+        std::vector<double> values;
+        std::ranges::transform(items, std::back_inserter(values), number.member);
+        write_numbers(group, number.name, shape, values);
     }
-    return values;
-}
-template <class Value, class Member>
-std::vector<Value> level_values(const analysis::FeatureDetection& detection, Member member) {
-    std::vector<Value> values;
-    for (const analysis::LevelDetection& level : detection.levels) {
-        values.push_back(level.*member);
+    for (const auto& count : counts) {
+        std::vector<std::int64_t> values;
+        std::ranges::transform(items, std::back_inserter(values), count.member);
+        write_integers(group, count.name, shape, values);
     }
-    return values;
-}
-
-std::string joined_lines(const std::vector<std::string>& lines) {
-    std::string text;
-    for (const std::string& line : lines) {
-        text += (text.empty() ? "" : "\n") + line;
-    }
-    return text;
 }
 
 void write_feature_detection(hid_t parent, const analysis::FeatureDetection& detection,
@@ -143,25 +132,15 @@ void write_feature_detection(hid_t parent, const analysis::FeatureDetection& det
     const Hdf5Handle group = create_group(parent, detection.feature);
     const hsize_t levels = detection.levels.size();
     write_text(group.get(), ".", "alarm", analysis::alarm_name(detection.alarm));
-    write_text(group.get(), ".", "warnings", joined_lines(detection.warnings));
+    write_text(group.get(), ".", "warnings",
+               fmt::format("{}", fmt::join(detection.warnings, "\n")));
     write_sizes(group.get(), sizes);
-    for (const auto& number : kLevelNumbers) {
-        write_numbers(group.get(), number.name, {levels},
-                      level_values<double>(detection, number.member));
+    write_members(group.get(), {levels}, detection.levels, kLevelNumbers, kLevelCounts);
+    std::vector<analysis::DetectionCell> cells;
+    for (const analysis::LevelDetection& level : detection.levels) {
+        cells.insert(cells.end(), level.cells.begin(), level.cells.end());
     }
-    for (const auto& count : kLevelCounts) {
-        write_integers(group.get(), count.name, {levels},
-                       level_values<std::int64_t>(detection, count.member));
-    }
-    const Shape shape{levels, sizes.size()};
-    for (const auto& number : kCellNumbers) {
-        write_numbers(group.get(), number.name, shape,
-                      cell_values<double>(detection, number.member));
-    }
-    for (const auto& count : kCellCounts) {
-        write_integers(group.get(), count.name, shape,
-                       cell_values<std::int64_t>(detection, count.member));
-    }
+    write_members(group.get(), {levels, sizes.size()}, cells, kCellNumbers, kCellCounts);
 }
 
 void write_detection(hid_t root, const Results& results) {
