@@ -147,15 +147,12 @@ int run_lives_on_leader(const LivesOptions& options, const LifeTiles& tiles,
 // Chooses the numbers of torques and speeds at which gearboxes are integrated. A study without
 // possible lives loses its scene and gets all problems.
 std::optional<InterpolationChoice> prepare_lives(const RunOptions& run, StudyScene& made) {
-    const auto refuse = [&](const SceneError& error) {
-        made.problems.push_back({run.study.path, 0, error.key(), error.what(), error.remedy()});
-    };
     made.problems = made.scene->lives().problems_in(run.study.path);
     if (made.problems.empty()) {
         try {
             return choose_interpolation(made.scene->tile(), made.scene->life());
         } catch (const SceneError& error) {
-            refuse(error);
+            made.problems.push_back({run.study.path, 0, error.key(), error.what(), error.remedy()});
         } catch (const std::exception& error) {
             made.problems.push_back({run.study.path, 0, "", exception_text(error), ""});
         }

@@ -562,12 +562,12 @@ class Describer {
         }
     }
 
-    void add_size(const char* key, const std::string& unit, double size, const char* what,
-                  std::vector<std::string>& parts) {
+    // Adds the rms of an error of the teeth or of the planets' pins.
+    void add_rms(const char* key, double rms_m, const char* what, std::vector<std::string>& parts) {
         if (is_random(key)) {
             parts.push_back(fmt::format("{} random", what));
-        } else if (size > 0.0) {
-            parts.push_back(fmt::format("{} {:g}{}", what, size, unit));
+        } else if (rms_m > 0.0) {
+            parts.push_back(fmt::format("{} {:g} um rms", what, 1e6 * rms_m));
         }
     }
 
@@ -591,11 +591,8 @@ class Describer {
         if (has_measured_teeth(study_)) {
             parts.push_back("measured index deviations");
         }
-        const auto add = [&](const char* key, double rms_m, const char* what) {
-            add_size(key, " um rms", 1e6 * rms_m, what, parts);
-        };
-        add("gearbox.pitch_error_um", e.pitch_error_m, "pitch");
-        add("gearbox.eccentricity_um", e.eccentricity_m, "eccentricity");
+        add_rms("gearbox.pitch_error_um", e.pitch_error_m, "pitch", parts);
+        add_rms("gearbox.eccentricity_um", e.eccentricity_m, "eccentricity", parts);
         return fmt::format("{}", fmt::join(parts, "; "));
     }
 
@@ -608,12 +605,9 @@ class Describer {
                 parts.push_back(fmt::format("{} given", what));
             }
         }
-        const auto add = [&](const char* key, double size, const char* unit, const char* what) {
-            add_size(key, unit, size, what, parts);
-        };
-        add("gearbox.pin_tangential_rms_um", 1e6 * p.pin_tangential_rms_m, " um rms",
-            "tangential pin errors");
-        add("gearbox.pin_radial_rms_um", 1e6 * p.pin_radial_rms_m, " um rms", "radial pin errors");
+        add_rms("gearbox.pin_tangential_rms_um", p.pin_tangential_rms_m, "tangential pin errors",
+                parts);
+        add_rms("gearbox.pin_radial_rms_um", p.pin_radial_rms_m, "radial pin errors", parts);
         return fmt::format("{}", fmt::join(parts, "; "));
     }
 

@@ -667,12 +667,6 @@ int max_meshes(const SolveSettings& settings, double decay_meshes) {
                                                        : kFewest);
 }
 
-// Mesh periods in which the slowest mode of the sensor's low-pass filter decays to 1/e.
-double filter_decay_meshes(const SolvePlan& plan, const GearboxPlan& gearbox) {
-    const double rate = 0.5 * lockstep::kFilterDamping[1] * plan.integration().low_pass_rad_s;
-    return gearbox.mesh_frequency_Hz / rate;
-}
-
 int run_in(const SolvePlan& plan, const GearboxPlan& gearbox) {
     constexpr double kFewest = 10.0;
     if (plan.settings.repeats || plan.settings.quasi_static) {
@@ -681,8 +675,10 @@ int run_in(const SolvePlan& plan, const GearboxPlan& gearbox) {
     // Twice the decay time of the nominal gearbox and its sensor, because other gearboxes decay
     // more slowly.
     const double decays = -2.0 * std::log(plan.convergence.tolerance);
+    // Decay of the slowest mode of the sensor's low-pass filter to 1/e.
+    const double filter_1_s = 0.5 * lockstep::kFilterDamping[1] * plan.integration().low_pass_rad_s;
     const double meshes =
-        decays * std::max(plan.stepping().decay_meshes, filter_decay_meshes(plan, gearbox));
+        decays * std::max(plan.stepping().decay_meshes, gearbox.mesh_frequency_Hz / filter_1_s);
     return static_cast<int>(
         std::min(std::ceil(std::max(kFewest, meshes)), static_cast<double>(plan.longest_run_in())));
 }
