@@ -1,7 +1,6 @@
 // Options of `report`.
 #pragma once
 
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -20,7 +19,6 @@ struct ReportOptions {
     std::vector<std::string> sections;  // to print; empty: the screen, or everything if `full`
     bool full = false;
     std::string condition;  // random input; each of its values gets its own threshold; "": none
-    // Cost of a false alarm, cost of a missed fault, share of records with a fault: all or none.
     bool shows_withheld = false;  // of lives with too large an interpolation error
     bool force = false;           // replaces outputs of another kind
 };

@@ -1,5 +1,4 @@
 // Command `pod TABLE`: probability of detection (POD) from a table of inspections.
-#include <fmt/core.h>
 
 #include <nlohmann/json.hpp>
 #include <stdexcept>

@@ -1,7 +1,6 @@
 #include "mc/files/hdf5_data.hpp"
 
 #include <algorithm>
-#include <cstring>
 #include <initializer_list>
 #include <limits>
 

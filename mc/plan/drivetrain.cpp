@@ -4,7 +4,6 @@
 
 #include <cmath>
 #include <numbers>
-#include <utility>
 
 #include "machine/contracts.hpp"
 #include "mc/study/gears.hpp"

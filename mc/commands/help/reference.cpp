@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <nlohmann/json.hpp>
-#include <string_view>
 #include <vector>
 
 #include "analysis/detection/detection_table.hpp"

@@ -28,7 +28,6 @@ inline constexpr Unit kNmPerRad{"N_m_rad", "N m/rad", "N_m_rad", "N m/rad", 1.0}
 inline constexpr Unit kNmSPerRad{"N_m_s_rad", "N m s/rad", "N_m_s_rad", "N m s/rad", 1.0};
 inline constexpr Unit kS{"s", "s", "s", "s", 1.0};
 inline constexpr Unit kHours{"h", "h", "h", "h", 1.0};
-inline constexpr Unit kMPaRootM{"MPa_m05", "MPa m^(1/2)", "Pa_m05", "Pa m^(1/2)", 1e6};
 inline constexpr Unit kHz{"Hz", "Hz", "Hz", "Hz", 1.0};
 inline constexpr Unit kRpm{"rpm", "rpm", "rad_s", "rad/s", kPi / 30};
 inline constexpr Unit kMPerS2{"m_s2", "m/s^2", "m_s2", "m/s^2", 1.0};
