@@ -7,7 +7,7 @@
 #include <numbers>
 
 #include "analysis/statistics/distributions.hpp"
-#include "mc/plan/fault_plan.hpp"
+#include "mc/plan/scene_stiffness.hpp"
 #include "mc/study/assumptions.hpp"
 #include "mc/study/faults/crack.hpp"
 #include "mc/study/fluctuations.hpp"

@@ -1,5 +1,7 @@
 #include "mc/plan/scene_stiffness.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <ranges>
@@ -8,6 +10,7 @@
 #include "machine/contracts.hpp"
 #include "mc/files/input/problems.hpp"
 #include "mc/study/faults/fault_kind.hpp"
+#include "mc/study/gears.hpp"
 #include "mc/study/schema/sizes.hpp"
 #include "stiffness/additive_mesh.hpp"
 #include "stiffness/coupled_mesh.hpp"
@@ -17,6 +20,14 @@
 
 namespace gearpod::mc {
 namespace {
+
+std::string location_of(const Study& study) {
+    const Fault& fault = study.fault;
+    return !fault.side ? fmt::format("the {}", member_name(*fault.member))
+                       : fmt::format("planet {}, {} side{}", fault.planet,
+                                     choice_text(study, "fault", "side"),
+                                     *fault.side == FaultSide::both ? "s" : "");
+}
 
 // Stiffness levels as given in the study, along the teeth's normal.
 struct StiffnessLevels {
@@ -198,6 +209,30 @@ std::vector<int> pairs_of_member(const Fault& fault, int meshes, const lockstep:
 }
 
 }  // namespace
+
+FaultPlan make_fault_plan(const Study& study) {
+    FaultPlan plan;
+    plan.size_key = &fault_size_key(study);
+    if (study.fault.kind == nullptr) {
+        return plan;
+    }
+    const FaultKind& kind = *study.fault.kind;
+    plan.kind = kind.name();
+    plan.words = kind.words();
+    plan.title = kind.title();
+    plan.location = location_of(study);
+    plan.sizes = fault_sizes(study);
+    if (has_gears(study)) {
+        plan.origin = kind.origin(study, plan.sizes);
+        plan.share = kind.share(study);
+    }
+    plan.groups = !size_edges(study).empty();
+    return plan;
+}
+
+std::string FaultPlan::name_at(double size) const {
+    return fmt::format("{}_{:g}{}", kind, size / unit().to_si, unit().suffix);
+}
 
 double pitch_error_m(const Study& study, Member member) {
     const MemberValues& body = study.gearbox.bodies[member];

@@ -8,8 +8,8 @@
 
 #include "analysis/detection/detection_table.hpp"
 #include "mc/plan/ensemble_plan.hpp"
-#include "mc/plan/fault_plan.hpp"
 #include "mc/plan/gearbox_streams.hpp"
+#include "mc/plan/scene_stiffness.hpp"
 #include "mc/study/study.hpp"
 
 namespace gearpod::mc {
