@@ -38,6 +38,14 @@ class Folder {
     std::filesystem::path path_;
 };
 
+// Path of a file, not yet written, in a temporary folder of its own.
+struct TemporaryFile {
+    explicit TemporaryFile(const std::string& name) : path(folder.file(name)) {}
+
+    Folder folder;
+    std::string path;
+};
+
 // Replaces every line break and the spaces around it by a single space.
 inline std::string without_line_breaks(const std::string& text) {
     std::string out;

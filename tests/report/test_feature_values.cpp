@@ -5,8 +5,8 @@
 
 namespace gearpod::test_feature_values {
 
-using test::Folder;
 using test::require_success;
+using test::TemporaryFile;
 
 TEST_CASE("Values are printed only without thresholds and for few gearboxes") {
     int with = 0;
