@@ -1,5 +1,5 @@
 // Catch2 and the parts of the standard library that most tests use, compiled in advance
-// (CMakeLists.txt).
+// (CMakeLists.txt), and what tests of messages share.
 #pragma once
 
 #include <algorithm>
@@ -33,3 +33,11 @@
 #include <tuple>
 #include <utility>
 #include <vector>
+
+namespace gearpod::test {
+
+inline bool contains(std::string_view text, std::string_view part) {
+    return text.find(part) != std::string_view::npos;
+}
+
+}  // namespace gearpod::test

@@ -106,7 +106,7 @@ TEST_CASE("the published trains can be assembled, and invalid ones give the reas
     CHECK(assembly_problems({19, 31, 81, 3}).size() == 1);
     const auto crowded = assembly_problems({19, 31, 81, 5});
     REQUIRE(crowded.size() == 1);
-    CHECK(crowded[0].find("at most 4 planets") != std::string::npos);
+    CHECK(test::contains(crowded[0], "at most 4 planets"));
     CHECK(assembly_problems({0, 31, 81, 4}).size() == 1);
 }
 

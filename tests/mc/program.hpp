@@ -7,8 +7,8 @@
 
 #include "mc/results/results_file.hpp"
 #include "tests/mc/gearbox_bits.hpp"
+#include "tests/numbers.hpp"
 #include "tests/shipped_studies.hpp"
-#include "tests/test.hpp"
 
 namespace gearpod::test {
 
@@ -178,10 +178,6 @@ inline std::string bytes_of(const std::string& path) {
 
 inline void write_bytes(const std::string& path, const std::string& bytes) {
     std::ofstream(path, std::ios::binary) << bytes;
-}
-
-inline bool contains(const std::string& text, const std::string& part) {
-    return text.find(part) != std::string::npos;
 }
 
 // Message of the error that a call throws, "" if there is none.

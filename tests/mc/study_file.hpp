@@ -6,8 +6,8 @@
 #include "mc/ensemble/gearbox/realization_features.hpp"
 #include "mc/plan/scene.hpp"
 #include "tests/mc/gearbox_bits.hpp"
+#include "tests/numbers.hpp"
 #include "tests/shipped_studies.hpp"
-#include "tests/test.hpp"
 
 namespace gearpod::test {
 
@@ -27,6 +27,14 @@ inline mc::Study study_of_text(const std::string& text,
     return valid_study(mc::read_study_text(text, "study.toml", overrides));
 }
 
+// Whether one of the problems is of this key and has these words.
+inline bool has_problem(const mc::Problems& problems, const std::string& key,
+                        const std::string& words) {
+    return std::ranges::any_of(problems, [&](const mc::Problem& problem) {
+        return problem.key == key && contains(problem.what, words);
+    });
+}
+
 // Checks that the resolved text of a study is read as the same study.
 inline void check_reads_back(const mc::Study& study) {
     CHECK(study_of_text(resolved_text(study)) == study);
@@ -43,8 +51,7 @@ inline std::string check_scene_refused(const std::function<void()>& make, const 
         CHECK(error.key() == key);
         for (const std::string& text : words) {
             INFO(text);
-            CHECK((std::string(error.what()) + "; " + error.remedy()).find(text) !=
-                  std::string::npos);
+            CHECK(contains(std::string(error.what()) + "; " + error.remedy(), text));
         }
         return error.what();
     }

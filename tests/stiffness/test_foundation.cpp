@@ -133,7 +133,7 @@ TEST_CASE("a foundation out of range is reported, an impossible one is refused")
     const auto warnings = foundation_warnings(gear(28), Profile::fillet, FoundationModel::sainsot,
                                               gear(28).root_radius() / 1.2);
     REQUIRE(warnings.size() == 1);
-    CHECK(warnings[0].find("1.2") != std::string::npos);
+    CHECK(test::contains(warnings[0], "1.2"));
     CHECK(foundation_warnings(gear(12), Profile::fillet, FoundationModel::sainsot, 3e-3).size() ==
           1);
     CHECK(foundation_warnings(gear(28), Profile::fillet, FoundationModel::elastic_ring, 24e-3)

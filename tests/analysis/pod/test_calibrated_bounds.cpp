@@ -198,7 +198,7 @@ TEST_CASE("The documented coverage is that printed next to the bounds") {
         const std::string line = fmt::format("| {} | {} | {} | {} | {} |", row.kind, row.specimens,
                                              row.tables, row.upper_per_cent, row.lower_per_cent);
         INFO(line);
-        CHECK(page.find(line) != std::string::npos);
+        CHECK(test::contains(page, line));
     }
     const MeasuredCoverage* nearest = measured_coverage(kHits, 40);
     REQUIRE(nearest != nullptr);

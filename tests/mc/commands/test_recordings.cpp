@@ -181,8 +181,7 @@ TEST_CASE("Recordings without gearbox names are monitored as those of one machin
             " --samples-per-mesh 8 --set monitoring.baseline_records=5 --out " + results);
     const auto json = json_of("report " + results + " --json -");
     // Recordings without gearbox names are monitored as one machine, and this is reported.
-    CHECK(json["monitoring"]["note"].get<std::string>().find("of one machine") !=
-          std::string::npos);
+    CHECK(contains(json["monitoring"]["note"].get<std::string>(), "of one machine"));
     check_mentions(program("report " + results + " --full"),
                    {"are assumed to be of one machine", "5 of 5"});
 }

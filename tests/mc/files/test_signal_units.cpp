@@ -63,13 +63,12 @@ TEST_CASE("Units of other quantities and unknown units are refused by name") {
         CHECK(!reading.factor);
         return reading.problem;
     };
-    CHECK(problem(Quantity::acceleration, "mm/s").find("mm/s is not that of an acceleration") !=
-          std::string::npos);
+    CHECK(test::contains(problem(Quantity::acceleration, "mm/s"),
+                         "mm/s is not that of an acceleration"));
     CHECK(
         problem(Quantity::acceleration, "rear") ==
         "unknown unit rear; known units are m/s^2, mm/s^2, cm/s^2, um/s^2, ft/s^2, in/s^2, g, mg");
-    CHECK(problem(Quantity::acceleration, "V").find("not that of an acceleration") !=
-          std::string::npos);
+    CHECK(test::contains(problem(Quantity::acceleration, "V"), "not that of an acceleration"));
     // One per second may be turns or radians per second; an M before V is not that of mV.
     CHECK(!problem(Quantity::speed, "1/s").empty());
     CHECK(!problem(Quantity::voltage, "MV").empty());
@@ -81,7 +80,7 @@ TEST_CASE("Units of other quantities and unknown units are refused by name") {
     }
     // The message is UTF-8 whatever the file contains.
     const std::string text = problem(Quantity::acceleration, "m/s\xB3");
-    CHECK(text.find("m/s³") != std::string::npos);
+    CHECK(test::contains(text, "m/s³"));
     CHECK(utf8_text(text) == text);
 }
 
@@ -101,7 +100,7 @@ TEST_CASE("A remark after a unit is named, or refused if it changes the values")
         INFO(unit);
         const UnitReading reading = read_unit(Quantity::acceleration, unit);
         CHECK(!reading.factor);
-        CHECK(reading.problem.find("instantaneous") != std::string::npos);
+        CHECK(test::contains(reading.problem, "instantaneous"));
     }
     for (const char* place : {"rear", "gearbox", "front left", "sensor 1", "x", ""}) {
         INFO(place);
@@ -158,7 +157,7 @@ TEST_CASE("--sensor-unit takes precedence over the file, which is reported") {
     CHECK(sensor("m/s\xB3", {"g", ""}).note == "the file states m/s³; taken as g (--sensor-unit)");
     CHECK(sensor("m/s**2", {"m/s²", ""}).note.empty());  // the same unit
     CHECK(sensor("g", {"parsec", ""}).problem.find("--sensor-unit: unknown unit parsec") == 0);
-    CHECK(sensor("parsec", {}).problem.find("--sensor-unit takes precedence") != std::string::npos);
+    CHECK(test::contains(sensor("parsec", {}).problem, "--sensor-unit takes precedence"));
     CHECK(column_factor("ms", Quantity::time, {"g", "100 mV/g"}).factor == 1e-3);
 }
 
@@ -171,11 +170,11 @@ TEST_CASE("Voltages are converted by the sensitivity") {
     CHECK(sensor("V", {"mV", "0.1 V/g"}).note.find("the file states V") == 0);
     const ColumnFactor assumed = sensor("", {"", "100 mV/g"});
     CHECK(assumed.factor == Approx(expected).epsilon(1e-14));
-    CHECK(assumed.note.find("taken as V") != std::string::npos);
-    CHECK(sensor("V", {}).problem.find("give --sensor-sensitivity, for example \"100 mV/g\"") !=
-          std::string::npos);
-    CHECK(sensor("g", {"", "100 mV/g"}).problem.find("but the unit is g") != std::string::npos);
-    CHECK(sensor("V", {"g", "100 mV/g"}).problem.find("but the unit is g") != std::string::npos);
+    CHECK(test::contains(assumed.note, "taken as V"));
+    CHECK(test::contains(sensor("V", {}).problem,
+                         "give --sensor-sensitivity, for example \"100 mV/g\""));
+    CHECK(test::contains(sensor("g", {"", "100 mV/g"}).problem, "but the unit is g"));
+    CHECK(test::contains(sensor("V", {"g", "100 mV/g"}).problem, "but the unit is g"));
     CHECK(sensor("V", {"", "100"}).problem.find("--sensor-sensitivity 100: is not a voltage") == 0);
 }
 

@@ -20,21 +20,19 @@ std::string message_of(Call call) {
     return "nothing was thrown";
 }
 
-bool mentions(const std::string& text, const std::string& part) {
-    return text.find(part) != std::string::npos;
-}
+using test::contains;
 
 TEST_CASE("A study that is read by a program reports every problem in one exception") {
     const std::string text = "[gearbox]\nsun_teth = 1\n[operation]\ntorque = 1\n";
     const std::string with_lines = message_of([&] { mc::OpenStudy("text", text); });
-    CHECK(mentions(with_lines, "text:2: gearbox.sun_teth: unknown key"));
-    CHECK(mentions(with_lines, "\ntext:4: operation.torque: unknown key"));
+    CHECK(contains(with_lines, "text:2: gearbox.sun_teth: unknown key"));
+    CHECK(contains(with_lines, "\ntext:4: operation.torque: unknown key"));
     const std::string without = message_of([&] { mc::OpenStudy("text", text, {}, false); });
-    CHECK(mentions(without, "text: gearbox.sun_teth: unknown key"));
+    CHECK(contains(without, "text: gearbox.sun_teth: unknown key"));
 
     mc::OpenStudy study(kStudy);
     CHECK(&study.plans() == &study.plans());
-    CHECK(mentions(
+    CHECK(contains(
         message_of([&] { mc::simulate_row(study.plans().tile, study.plans().ensemble, -1); }),
         "must be a row of the results, 0 to"));
 }
@@ -84,8 +82,8 @@ TEST_CASE("A table in memory is inspected like one of a file") {
     wrong.convention = "both";
     wrong.links = {"line"};
     const std::string message = message_of([&] { mc::inspect_table(table, wrong); });
-    CHECK(mentions(message, "--convention: must be calibrated or handbook or"));
-    CHECK(mentions(message, "\ntable: --link: must be logit or"));
+    CHECK(contains(message, "--convention: must be calibrated or handbook or"));
+    CHECK(contains(message, "\ntable: --link: must be logit or"));
 }
 
 }  // namespace gearpod::test_library

@@ -112,7 +112,7 @@ TEST_CASE("A snapshot's baseline record varies the inputs per record, and only t
 
 TEST_CASE("Keys of inputs per record are read, written and refused by name") {
     const mc::Study study = life_study({kTorque});
-    CHECK(mc::resolved_text(study).find("per = \"record\"") != std::string::npos);
+    CHECK(contains(mc::resolved_text(study), "per = \"record\""));
     CHECK(*mc::read_study_text(mc::resolved_text(study), "again").study == study);
 
     const auto refused = [&](const std::vector<std::string>& more) {

@@ -88,9 +88,9 @@ TEST_CASE("The report names the assumption that changes the answer most, also fr
         const std::string text =
             analysis::report_text(analysis::sections_of(report, {"limits"}), 200);
         CAPTURE(text);
-        CHECK(text.find("Assumed ") != std::string::npos);
-        CHECK(text.find("torque scatter of the baseline") != std::string::npos);
-        CHECK(text.find("predicted with its 95 % interval from 16 gearboxes") != std::string::npos);
+        CHECK(test::contains(text, "Assumed "));
+        CHECK(test::contains(text, "torque scatter of the baseline"));
+        CHECK(test::contains(text, "predicted with its 95 % interval from 16 gearboxes"));
     }
 }
 

@@ -138,7 +138,7 @@ TEST_CASE("A module is given in one plane only") {
             .problems;
     REQUIRE(problems.size() == 1);
     CHECK(problems[0].key == "gearbox.module_mm");
-    CHECK(problems[0].what.find("gearbox.normal_module_mm is given") != std::string::npos);
+    CHECK(contains(problems[0].what, "gearbox.normal_module_mm is given"));
 }
 
 TEST_CASE("Relief and crowning of helical teeth change the approach under load alone") {

@@ -411,9 +411,8 @@ TEST_CASE("The datasets of contact loss have descriptions") {
     write_results(path, example(10));
     const Hdf5Handle file(H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), H5Fclose, "opening");
     CHECK(read_text(file.get(), "contact_loss/sun-planet", "unit") == "1");
-    CHECK(
-        read_text(file.get(), "contact_loss/ring-planet", "description").find("carries no load") !=
-        std::string::npos);
+    CHECK(contains(read_text(file.get(), "contact_loss/ring-planet", "description"),
+                   "carries no load"));
 }
 
 // Files of versions before 0.3, and of studies whose teeth cannot separate.

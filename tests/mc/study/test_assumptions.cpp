@@ -57,7 +57,7 @@ TEST_CASE("A target of false alarms in time is a rate of one record") {
           Approx(0.01));
     const Study study = study_of_text(kExampleStudy, {year, daily, "detection.machines=10"});
     CHECK(study_of_text(resolved_text(study)) == study);
-    CHECK(resolved_text(study_of_text(kExampleStudy)).find("machines") == std::string::npos);
+    CHECK_FALSE(contains(resolved_text(study_of_text(kExampleStudy)), "machines"));
     CHECK(false_alarm_target_text(study_of_text(kExampleStudy)) == "");
     CHECK(false_alarm_target_text(study_of_text(kExampleStudy, {year, daily})) ==
           "0.114 false alarms in 1000 h of a machine, with a record of each every 24 h, are a rate "

@@ -62,10 +62,6 @@ std::string problems_of(const std::string& text, const std::string& from, const 
     return format(read_study_text(replaced(text, from, to), "fault.toml").problems);
 }
 
-bool holds(const std::string& text, std::string_view words) {
-    return text.find(words) != std::string::npos;
-}
-
 TEST_CASE("Every kind of fault has its own name, words and size") {
     std::set<std::string_view> names{"none"}, words, sizes;
     for (const FaultKind* kind : all_faults()) {
@@ -95,7 +91,7 @@ TEST_CASE("Every key of a kind of fault is one of the schema, its size the only 
             const std::string owner = "\"" + std::string(kind->name()) + "\"";
             for (const FaultKind* other : all_faults()) {
                 const Presence presence = key->presence(study_with(*other));
-                CHECK((presence.need != Need::forbidden || holds(presence.why, owner)));
+                CHECK((presence.need != Need::forbidden || contains(presence.why, owner)));
             }
         }
     }
@@ -163,15 +159,15 @@ TEST_CASE("Text about a fault names its kind and its size") {
         const FaultKind& other = *find_fault(kind->name() == "broken" ? "reduction" : "broken");
         const std::string misplaced =
             problems_of(text_with(other), "[fault]\n", "[fault]\n" + size + " = 0\n");
-        CHECK(holds(misplaced, "fault." + size + ": is not allowed"));
-        CHECK(holds(misplaced, "only for " + name));
+        CHECK(contains(misplaced, "fault." + size + ": is not allowed"));
+        CHECK(contains(misplaced, "only for " + name));
         const std::string without_member = problems_of(text, "member = \"sun\"\n", "");
-        CHECK(
-            holds(without_member, "missing (fault.kind is \"" + std::string(kind->name()) + "\")"));
+        CHECK(contains(without_member,
+                       "missing (fault.kind is \"" + std::string(kind->name()) + "\")"));
 
         const std::string both =
             problems_of(text, "member = \"sun\"", "member = \"planet\"\nside = \"both\"");
-        CHECK(holds(both, words + " is on one flank") == kind->on_one_flank());
+        CHECK(contains(both, words + " is on one flank") == kind->on_one_flank());
     }
 }
 
@@ -183,27 +179,27 @@ TEST_CASE("A partly broken planet tooth weakens the meshes of both its flanks") 
     REQUIRE(reading.study);
     CHECK(Scene(*reading.study).gearbox().fault().curves() == 2);
     const std::string wide = problems_of(text, "break_width_mm = 10", "break_width_mm = 40");
-    CHECK(holds(wide, "fault.break_width_mm"));
-    CHECK(holds(wide, "wider than the face"));
+    CHECK(contains(wide, "fault.break_width_mm"));
+    CHECK(contains(wide, "wider than the face"));
 }
 
 TEST_CASE("Wear needs extended contact, a depth within the tooth, and no life") {
     const std::string text = text_with(*find_fault("wear"));
     const std::string abrupt = problems_of(text, "\"extended\"", "\"abrupt\"");
-    CHECK(holds(abrupt, "fault.kind"));
-    CHECK(holds(abrupt, "contact_onset = \"extended\""));
+    CHECK(contains(abrupt, "fault.kind"));
+    CHECK(contains(abrupt, "contact_onset = \"extended\""));
     const std::string negative = problems_of(text, "wear_um = 20", "wear_um = -1");
-    CHECK(holds(negative, "fault.wear_um"));
-    CHECK(holds(negative, "must be >= 0, but is -1"));
+    CHECK(contains(negative, "fault.wear_um"));
+    CHECK(contains(negative, "must be >= 0, but is -1"));
     const std::string deep = problems_of(text, "wear_um = 20", "wear_um = 6000");
-    CHECK(holds(deep, "fault.wear_um"));
-    CHECK(holds(deep, "4987.28 um thick"));  // half of a pitch of 3.175 mm times pi
+    CHECK(contains(deep, "fault.wear_um"));
+    CHECK(contains(deep, "4987.28 um thick"));  // half of a pitch of 3.175 mm times pi
     const std::string lives = problems_of(text, "[sensor]", "[life]\ninterval_h = 10\n[sensor]");
-    CHECK(holds(lives, "life.interval_h"));
-    CHECK(holds(lives, "the fault is not a crack"));
-    CHECK(holds(problems_of(text, "kind = \"planetary\"\n",
-                            "kind = \"planetary\"\ntooth_profile = \"constant\"\n"),
-                "wear needs the shape of its tooth"));
+    CHECK(contains(lives, "life.interval_h"));
+    CHECK(contains(lives, "the fault is not a crack"));
+    CHECK(contains(problems_of(text, "kind = \"planetary\"\n",
+                               "kind = \"planetary\"\ntooth_profile = \"constant\"\n"),
+                   "wear needs the shape of its tooth"));
 }
 
 TEST_CASE("Cracks follow the law given by the study, by default that of its tooth profile") {
@@ -226,8 +222,8 @@ TEST_CASE("Cracks follow the law given by the study, by default that of its toot
     }
     const std::string wrong = problems_of(text_with(*find_fault("crack")), "[fault]\n",
                                           "[fault]\ncrack_law = \"beams\"\n");
-    CHECK(holds(wrong, "fault.crack_law"));
-    CHECK(holds(wrong, "fracture-mechanics"));
+    CHECK(contains(wrong, "fault.crack_law"));
+    CHECK(contains(wrong, "fracture-mechanics"));
 }
 
 TEST_CASE("A crack's fraction of the critical section is reported") {
@@ -236,8 +232,8 @@ TEST_CASE("A crack's fraction of the critical section is reported") {
     const double sizes[] = {0.25 * largest, 0.5 * largest};
     const std::string origin = find_fault("crack")->origin(study, sizes);
     INFO(origin);
-    CHECK(holds(origin, "root circle"));
-    CHECK(holds(origin, "mm is 25, 50 % of that section"));
+    CHECK(contains(origin, "root circle"));
+    CHECK(contains(origin, "mm is 25, 50 % of that section"));
 }
 
 }  // namespace gearpod::mc::test_faults

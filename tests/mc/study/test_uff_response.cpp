@@ -121,8 +121,8 @@ TEST_CASE("Responses of bearings are accelerations over forces") {
                                 "sensor.sun_response_gain=" + column("gain"),
                                 "sensor.sun_response_phase_deg=" + column("phase")});
     // Only the response of the housing needs a ratio of accelerations.
-    CHECK(mc::format(reading.problems).find("the housing needs") != std::string::npos);
-    CHECK(mc::format(reading.problems).find("a bearing needs") == std::string::npos);
+    CHECK(contains(mc::format(reading.problems), "the housing needs"));
+    CHECK_FALSE(contains(mc::format(reading.problems), "a bearing needs"));
 }
 
 TEST_CASE("Responses that are no ratio of accelerations are refused with the reason") {

@@ -138,7 +138,7 @@ TEST_CASE("A wrapped study has short lines and the same meaning") {
          "'window_z']"}));
     const std::string text = resolved_text(reading), wrapped = wrapped_study(text);
     INFO(wrapped);
-    CHECK(wrapped.find("operation.torque_N_m.sd = 20\n") != std::string::npos);
+    CHECK(contains(wrapped, "operation.torque_N_m.sd = 20\n"));
     std::istringstream lines(wrapped);
     for (std::string line; std::getline(lines, line);) {
         CHECK((line.size() <= 80 || line.starts_with("title = ")));
