@@ -1,10 +1,51 @@
-// Comparisons of sequences of numbers, and checks on every instruction set.
+// Sequences of numbers: made by a function and compared; checks on every instruction set.
 #pragma once
 
 #include "machine/instruction_sets.hpp"
 #include "tests/test.hpp"
 
 namespace gearpod::test {
+
+// Vector of f(item) for each item of a range, in this order.
+template <class Range, class Function>
+auto mapped(const Range& range, Function f) {
+    std::vector<std::decay_t<decltype(f(*std::begin(range)))>> all;
+    for (const auto& item : range) {
+        all.push_back(f(item));
+    }
+    return all;
+}
+
+// Vector of f(0), f(1), ..., f(count - 1), in this order.
+template <class Count, class Function>
+auto tabulated(Count count, Function f) {
+    return mapped(std::views::iota(Count{0}, count), f);
+}
+
+// Every step-th number from the first one on: of a tile with so many lanes, those of one lane.
+template <class Numbers>
+std::vector<double> every(std::size_t step, const Numbers& numbers, std::size_t first = 0) {
+    std::vector<double> some;
+    for (std::size_t i = first; i < numbers.size(); i += step) {
+        some.push_back(numbers[i]);
+    }
+    return some;
+}
+
+// Independent values of a normal distribution.
+inline std::vector<double> normal_values(std::size_t count, unsigned seed, double mean = 0.0,
+                                         double deviation = 1.0) {
+    std::mt19937_64 engine(seed);
+    std::normal_distribution<double> normal(mean, deviation);
+    return tabulated(count, [&](std::size_t) { return normal(engine); });
+}
+
+// Sine with so many cycles over all points.
+inline std::vector<double> sine(double amplitude, int cycles, int points) {
+    return tabulated(points, [&](int i) {
+        return amplitude * std::sin(2.0 * std::numbers::pi * cycles * i / points);
+    });
+}
 
 // Largest absolute difference of numbers at the same index; NaN if any number is.
 template <class A, class B>
@@ -55,6 +96,10 @@ double largest_magnitude(const A& values) {
 
 inline double sum_of_squares(const std::vector<double>& values) {
     return std::inner_product(values.begin(), values.end(), values.begin(), 0.0);
+}
+
+inline double mean_of(const std::vector<double>& values) {
+    return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
 }
 
 inline double rms_of(const std::vector<double>& values) {

@@ -92,10 +92,8 @@ TEST_CASE("Bounds of a90 include the threshold's scatter over 100 studies") {
 TEST_CASE("Rates that a sample cannot determine leave the bounds of a90 at others unchanged") {
     // Forty recordings each of 50 gearboxes: the rarest threshold may be lower than the first.
     const Study study(2000, 3000, 4);
-    std::vector<std::size_t> gearbox;
-    for (std::size_t i = 0; i < study.healthy.size(); ++i) {
-        gearbox.push_back(i / 40);
-    }
+    std::vector<std::size_t> gearbox =
+        test::tabulated(study.healthy.size(), [&](std::size_t i) { return i / 40; });
     const TestValues values{Alarm::high, {study.healthy, gearbox}, study.size, study.value};
     const auto points = false_alarm_curve(values, {&kProbit, 1}, 0.95).points;
     REQUIRE(points.size() > 5);

@@ -4,7 +4,7 @@
 #include "analysis/report/detection_json.hpp"
 #include "analysis/report/findings/findings.hpp"
 #include "analysis/report/report.hpp"
-#include "tests/test.hpp"
+#include "tests/numbers.hpp"
 
 namespace gearpod::analysis::test_reliability {
 
@@ -49,12 +49,10 @@ struct Study {
     }
 
     std::vector<FeatureDetection> detections() const {
-        std::vector<FeatureDetection> all;
-        for (std::size_t f = 0; f < names.size(); ++f) {
-            all.push_back(detect(names[f], Alarm::high, {healthy_size, healthy[f]},
-                                 {test_size, test[f]}, request));
-        }
-        return all;
+        return test::tabulated(names.size(), [&](std::size_t f) {
+            return detect(names[f], Alarm::high, {healthy_size, healthy[f]}, {test_size, test[f]},
+                          request);
+        });
     }
 
     Reliability assess(bool by_torque = false, int threads = 2, std::size_t shares = 1) const {

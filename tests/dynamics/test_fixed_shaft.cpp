@@ -3,7 +3,7 @@
 #include "dynamics/fixed_shaft_motion.hpp"
 #include "dynamics/gearbox.hpp"
 #include "dynamics/gearbox_matrices.hpp"
-#include "tests/test.hpp"
+#include "tests/numbers.hpp"
 
 namespace gearpod::dynamics::test_fixed_shaft {
 
@@ -68,10 +68,8 @@ TEST_CASE(
     std::uniform_real_distribution<double> unit(-1.0, 1.0);
     for (const auto damping : {MeshDamping::ratio, MeshDamping::proportional}) {
         const FixedShaftLayout layout = layout_of(damping);
-        std::vector<FixedShaftInputs> inputs;
-        for (int l = 0; l < 8; ++l) {
-            inputs.push_back(random_inputs(engine));
-        }
+        std::vector<FixedShaftInputs> inputs =
+            test::tabulated(8, [&](int) { return random_inputs(engine); });
         const auto lanes = make_lanes<8>(layout, std::span<const FixedShaftInputs>(inputs));
         std::vector<double> q(64), v(64), a(64);
         FixedShaftMotions<LinearMesh, 8>::Pairs mesh;
@@ -138,10 +136,8 @@ TEST_CASE("Stiffness and damping of every gearbox kind are symmetric and zero fo
         {torsional, train},
         {layout_of(MeshDamping::proportional), random_inputs(engine)}};
     for (const auto& [layout, inputs] : kinds) {
-        std::vector<double> k;
-        for (int pair = 0; pair < pairs(layout); ++pair) {
-            k.push_back(5e8 * uniform(engine));
-        }
+        std::vector<double> k =
+            test::tabulated(pairs(layout), [&](int) { return 5e8 * uniform(engine); });
         const GearboxMatrices m = assemble(layout, inputs, k);
         const Eigen::VectorXd turn = rigid_rotation(layout);
         const double largest = m.stiffness.norm();

@@ -2,7 +2,7 @@
 // from spring rows, and the statics of a loaded train.
 #include "dynamics/gearbox_matrices.hpp"
 #include "dynamics/planetary_motion.hpp"
-#include "tests/test.hpp"
+#include "tests/numbers.hpp"
 
 namespace gearpod::dynamics::test_motion_kernels {
 
@@ -20,9 +20,7 @@ PlanetaryInputs random_inputs(std::mt19937& engine) {
     in.mesh_damping = 0.07 * uniform(engine);
     in.carrier_speed_rad_s = 100.0 * uniform(engine);
     in.mesh_period_s = 1e-3;
-    for (double& force : in.force_N) {
-        force = 1e4 * uniform(engine);
-    }
+    std::ranges::generate(in.force_N, [&] { return 1e4 * uniform(engine); });
     for (PlanetDeviations& own : in.planet_deviations) {
         own = {1e-5 * uniform(engine), -1e-5 * uniform(engine)};
     }
@@ -35,21 +33,15 @@ double kernel_error(PlanetaryLayout layout, unsigned seed) {
     std::mt19937 engine(seed);
     std::uniform_real_distribution<double> unit(-1.0, 1.0);
     constexpr int W = Model::kWidth;
-    std::vector<PlanetaryInputs> inputs;
-    for (int l = 0; l < W; ++l) {
-        inputs.push_back(random_inputs(engine));
-    }
+    std::vector<PlanetaryInputs> inputs =
+        test::tabulated(W, [&](int) { return random_inputs(engine); });
     const auto lanes = make_lanes<W>(layout, std::span<const PlanetaryInputs>(inputs));
     const auto degrees = static_cast<std::size_t>(layout.degrees_of_freedom());
     const auto pairs = static_cast<std::size_t>(layout.pairs());
     std::vector<double> q(degrees * W), v(degrees * W), a(degrees * W);
     typename Model::Pairs mesh{};
-    for (auto& x : q) {
-        x = 1e-5 * unit(engine);
-    }
-    for (auto& x : v) {
-        x = 1e-2 * unit(engine);
-    }
+    std::ranges::generate(q, [&] { return 1e-5 * unit(engine); });
+    std::ranges::generate(v, [&] { return 1e-2 * unit(engine); });
     for (std::size_t pair = 0; pair < pairs; ++pair) {
         for (std::size_t l = 0; l < W; ++l) {
             mesh.k[pair * W + l] = 4e8 * (1.5 + unit(engine));
@@ -62,10 +54,8 @@ double kernel_error(PlanetaryLayout layout, unsigned seed) {
 
     double error = 0.0, scale = 0.0;
     for (std::size_t l = 0; l < W; ++l) {
-        std::vector<double> stiffness(pairs);
-        for (std::size_t pair = 0; pair < pairs; ++pair) {
-            stiffness[pair] = mesh.k[pair * W + l];
-        }
+        std::vector<double> stiffness =
+            test::tabulated(pairs, [&](std::size_t pair) { return mesh.k[pair * W + l]; });
         const GearboxMatrices m = assemble(layout, inputs[l], stiffness);
         Eigen::VectorXd ql(degrees), vl(degrees);
         for (std::size_t d = 0; d < degrees; ++d) {

@@ -1,24 +1,19 @@
 // Checks features of the change since the baseline record against closed forms. Their numpy
 // counterparts: tests/features/reference.
 #include "features/feature.hpp"
-#include "tests/test.hpp"
+#include "tests/numbers.hpp"
 
 namespace gearpod::features::test_change_features {
 
 std::vector<double> cosine(int cycles, int points, double amplitude, double mean) {
-    std::vector<double> values;
-    for (int i = 0; i < points; ++i) {
-        values.push_back(mean + amplitude * std::cos(2.0 * std::numbers::pi * cycles * i / points));
-    }
-    return values;
+    return test::tabulated(points, [&](int i) {
+        return mean + amplitude * std::cos(2.0 * std::numbers::pi * cycles * i / points);
+    });
 }
 
 double value(const char* name, const std::vector<double>& record,
              const std::vector<double>& baseline) {
-    std::vector<double> since(record);
-    for (std::size_t i = 0; i < since.size(); ++i) {
-        since[i] -= baseline[i];
-    }
+    const std::vector<double> since = test::difference(record, baseline);
     FeatureInput input, change;
     input.change = &change;
     input.get<SensorTurn>().turn = record;

@@ -7,30 +7,15 @@
 #include "features/tooth_windows.hpp"
 #include "features/vibration_statistics.hpp"
 #include "signals/spectra/order_spectrum.hpp"
-#include "tests/test.hpp"
+#include "tests/numbers.hpp"
 
 namespace gearpod::features::test_condition_indicators {
 
-std::vector<double> normal_sample(std::size_t count) {
-    std::mt19937_64 engine(8);
-    std::normal_distribution<double> normal(2.0, 3.0);
-    std::vector<double> values(count);
-    for (double& value : values) {
-        value = normal(engine);
-    }
-    return values;
-}
-
-std::vector<double> sine(double amplitude, int cycles, int points) {
-    std::vector<double> values;
-    for (int i = 0; i < points; ++i) {
-        values.push_back(amplitude * std::sin(2.0 * std::numbers::pi * cycles * i / points));
-    }
-    return values;
-}
+using test::normal_values;
+using test::sine;
 
 TEST_CASE("FM4, M6A and M8A of a normal difference signal are 3, 15 and 105") {
-    const auto difference = normal_sample(1000000);
+    const auto difference = normal_values(1000000, 8, 2.0, 3.0);
     SensorTurn input;
     TeParts te;
     input.difference = difference;
@@ -77,10 +62,8 @@ TEST_CASE("Energy ratio, sideband index and level match the given amplitudes") {
     // Mesh order 20: 2 at 20, 0.3 at 19, 0.1 at 21, and in addition 0.5 at order 7.
     const int n = 800;
     const auto mesh = sine(2.0, 20, n), low = sine(0.3, 19, n), high = sine(0.1, 21, n);
-    std::vector<double> regular(n);
-    for (std::size_t i = 0; i < regular.size(); ++i) {
-        regular[i] = mesh[i] + low[i] + high[i];
-    }
+    std::vector<double> regular =
+        test::tabulated(n, [&](std::size_t i) { return mesh[i] + low[i] + high[i]; });
     const auto difference = sine(0.5, 7, n);
     std::vector<double> amplitude(n / 2 + 1, 0.0);
     amplitude[20] = 2.0;
@@ -98,7 +81,7 @@ TEST_CASE("Energy ratio, sideband index and level match the given amplitudes") {
 }
 
 TEST_CASE("NA4 is a kurtosis in steady state and rises with the square of energy") {
-    const auto record = normal_sample(100000);
+    const auto record = normal_values(100000, 8, 2.0, 3.0);
     std::vector<double> louder(record);
     for (double& value : louder) {
         value *= 2.0;
@@ -152,12 +135,7 @@ TEST_CASE("The window score compares the worst tooth with the spread of the othe
 }
 
 TEST_CASE("The window score of normal teeth is in standard deviations") {
-    std::mt19937_64 engine(12);
-    std::normal_distribution<double> normal(100.0, 2.0);
-    std::vector<double> rms(100000);
-    for (double& value : rms) {
-        value = normal(engine);
-    }
+    std::vector<double> rms = normal_values(100000, 12, 100.0, 2.0);
     rms[77] = 120.0;
     CHECK(window_z(teeth(rms)) == Approx(10.0).epsilon(0.02));
 }
@@ -185,9 +163,8 @@ constexpr int kTeeth = 31, kPerMesh = 16, kPoints = kTeeth * kPerMesh;
 struct Turn {
     template <class Function>
     explicit Turn(const Function& x) {
-        for (int i = 0; i < kPoints; ++i) {
-            samples.push_back(x(2.0 * std::numbers::pi * i / kPoints));
-        }
+        samples = test::tabulated(kPoints,
+                                  [&](int i) { return x(2.0 * std::numbers::pi * i / kPoints); });
         parts.load(samples);
         sensor.turn = samples;
         sensor.amplitude = parts.amplitude();

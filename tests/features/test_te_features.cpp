@@ -2,19 +2,13 @@
 #include "features/speed_features.hpp"
 #include "features/te_features.hpp"
 #include "signals/spectra/order_spectrum.hpp"
-#include "tests/test.hpp"
+#include "tests/numbers.hpp"
 
 namespace gearpod::features::test_te_features {
 
 constexpr double kPi = std::numbers::pi;
 
-std::vector<double> sine(double amplitude, int cycles, int points) {
-    std::vector<double> x(points);
-    for (int i = 0; i < points; ++i) {
-        x[i] = amplitude * std::sin(2.0 * kPi * cycles * i / points);
-    }
-    return x;
-}
+using test::sine;
 
 TeTurn te_input(const std::vector<double>& turn, const std::vector<double>& amplitude = {}) {
     return {turn, amplitude, 31, 8};
@@ -27,20 +21,12 @@ TEST_CASE("A sine has rms A over root 2 and kurtosis 3/2") {
 }
 
 TEST_CASE("A square wave has kurtosis 1, normal noise 3") {
-    std::vector<double> square(100);
-    for (int i = 0; i < 100; ++i) {
-        square[i] = i % 2 == 0 ? 4.0 : 1.0;  // about its mean
-    }
+    const auto square =  // about its mean
+        test::tabulated(100, [](int i) { return i % 2 == 0 ? 4.0 : 1.0; });
     CHECK(te_kurtosis(te_input(square)) == Approx(1.0));
-
-    std::mt19937_64 engine(8);
-    std::normal_distribution<double> normal(1.0, 2.0);
-    std::vector<double> noise(400000);
-    for (double& value : noise) {
-        value = normal(engine);
-    }
     // The standard error is sqrt(24/n) = 0.008.
-    CHECK(te_kurtosis(te_input(noise)) == Approx(3.0).margin(0.03));
+    CHECK(te_kurtosis(te_input(test::normal_values(400000, 8, 1.0, 2.0))) ==
+          Approx(3.0).margin(0.03));
 }
 
 TEST_CASE("The frequency centre is the amplitude-weighted mean order without the constant part") {

@@ -9,7 +9,7 @@
 #include "lockstep/strategies/solution.hpp"
 #include "stiffness/additive_mesh.hpp"
 #include "stiffness/faults/tooth_crack.hpp"
-#include "tests/test.hpp"
+#include "tests/numbers.hpp"
 
 namespace gearpod::test {
 
@@ -19,16 +19,6 @@ inline lockstep::FaultCurves no_fault(const lockstep::PairSet& pairs, int lanes)
     f.curve.resize(1);
     f.curve[0].resize(static_cast<std::size_t>(lanes));
     return f;
-}
-
-// Values of one lane of a tile of that many lanes.
-inline std::vector<double> lane_of(const machine::AlignedVector& values, std::size_t lane,
-                                   std::size_t lanes) {
-    std::vector<double> result;
-    for (std::size_t i = lane; i < values.size(); i += lanes) {
-        result.push_back(values[i]);
-    }
-    return result;
 }
 
 // A state at rest at these displacements, for one lane.
@@ -156,11 +146,9 @@ struct LiangTrain {
     // each next one.
     std::vector<dynamics::GearboxInputs> spread(double speedup, int count = 8,
                                                 double step = 0.05) const {
-        std::vector<dynamics::GearboxInputs> all;
-        for (int l = 0; l < count; ++l) {
-            all.emplace_back(inputs(speedup, 1e8 * (0.8 + step * l)));
-        }
-        return all;
+        return tabulated(count, [&](int l) {
+            return dynamics::GearboxInputs(inputs(speedup, 1e8 * (0.8 + step * l)));
+        });
     }
 
     lockstep::FaultCurves no_fault(int lanes) const { return test::no_fault(pairs, lanes); }

@@ -1,7 +1,7 @@
 // Compares gearboxes bit by bit between tiles of different lanes and numbers of gearboxes.
 #pragma once
 
-#include "tests/test.hpp"
+#include "tests/numbers.hpp"
 
 namespace gearpod::test {
 
@@ -9,11 +9,7 @@ namespace gearpod::test {
 using Bits = std::vector<std::uint64_t>;
 
 inline Bits bits_of(std::span<const double> values) {
-    Bits bits;
-    for (const double value : values) {
-        bits.push_back(std::bit_cast<std::uint64_t>(value));
-    }
-    return bits;
+    return mapped(values, [](double value) { return std::bit_cast<std::uint64_t>(value); });
 }
 
 struct TileFilling {

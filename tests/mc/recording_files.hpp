@@ -34,11 +34,9 @@ inline CsvColumns read_columns(const std::string& path, const std::string& group
                                const std::vector<std::string>& names) {
     const mc::Hdf5Handle file(H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), H5Fclose, path);
     const mc::Hdf5Handle opened = mc::open_group(file.get(), group);
-    CsvColumns columns;
-    for (const std::string& name : names) {
-        columns.push_back(mc::read_numbers(opened.get(), name, 1000000).values);
-    }
-    return columns;
+    return mapped(names, [&](const std::string& name) {
+        return mc::read_numbers(opened.get(), name, 1000000).values;
+    });
 }
 
 inline std::vector<double> times(std::vector<double> values, double factor) {

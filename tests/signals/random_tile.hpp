@@ -28,12 +28,8 @@ struct RandomTile {
         for (int mesh = 0; mesh < meshes; ++mesh) {
             accel[mesh].resize(static_cast<std::size_t>(phases) * 2 * planets * lanes);
             te[mesh].resize(static_cast<std::size_t>(phases) * lanes);
-            for (double& value : accel[mesh]) {
-                value = normal(engine);
-            }
-            for (double& value : te[mesh]) {
-                value = 1e-5 * normal(engine);
-            }
+            std::ranges::generate(accel[mesh], [&] { return normal(engine); });
+            std::ranges::generate(te[mesh], [&] { return 1e-5 * normal(engine); });
             signals.accel.push_back(accel[mesh].data());
             signals.te.push_back(te[mesh].data());
         }

@@ -2,18 +2,15 @@
 #include "stiffness/faults/spatial_crack.hpp"
 #include "stiffness/faults/tooth_crack.hpp"
 #include "stiffness/teeth/tooth_compliance.hpp"
+#include "tests/numbers.hpp"
 #include "tests/stiffness/yang_gears.hpp"
-#include "tests/test.hpp"
 
 namespace gearpod::stiffness::test_spatial_crack {
 
 using namespace yang_gears;
 
 std::vector<double> positions(double contact_ratio, int count) {
-    std::vector<double> tau(count);
-    for (int i = 0; i < count; ++i)
-        tau[i] = contact_ratio * (i + 0.5) / count;
-    return tau;
+    return test::tabulated(count, [&](int i) { return contact_ratio * (i + 0.5) / count; });
 }
 
 std::vector<double> compliance_of(const ToothFault& fault, const std::vector<double>& tau) {
@@ -147,10 +144,9 @@ TEST_CASE("slices converge to Yang's sum over very many slices of equal width") 
     const auto tau = positions(mesh.contact_ratio(), 5);
     CrackGrowth path = growth();
     for (const int stage : {2, 5}) {
-        std::vector<double> expected;
-        for (const double at : tau)
-            expected.push_back(
-                uniform_slices(mesh, 1, path.at(stage, kSteel.face_width_m), at, 400));
+        const auto expected = test::mapped(tau, [&](double at) {
+            return uniform_slices(mesh, 1, path.at(stage, kSteel.face_width_m), at, 400);
+        });
         for (const int slices : {16, 64}) {
             path.slices = slices;
             const SpatialCrack family(mesh, kSteel, Profile::fillet, 1, path);

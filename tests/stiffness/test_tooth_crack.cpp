@@ -2,8 +2,8 @@
 #include "stiffness/additive_mesh.hpp"
 #include "stiffness/faults/tooth_crack.hpp"
 #include "stiffness/teeth/tooth_compliance.hpp"
+#include "tests/numbers.hpp"
 #include "tests/stiffness/gear_pairs.hpp"
-#include "tests/test.hpp"
 
 namespace gearpod::stiffness::test_tooth_crack {
 
@@ -33,10 +33,7 @@ double reference(const CrackedGear& gear, double tau, double depth) {
 }
 
 std::vector<double> positions(double contact_ratio, int count) {
-    std::vector<double> tau(count);
-    for (int i = 0; i < count; ++i)
-        tau[i] = contact_ratio * i / (count - 1);
-    return tau;
+    return test::tabulated(count, [&](int i) { return contact_ratio * i / (count - 1); });
 }
 
 // Depths in units of the largest: uniform, and dense at zero, at the centre line and at breakage.

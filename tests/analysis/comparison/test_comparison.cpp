@@ -1,7 +1,7 @@
 #include "analysis/comparison/comparison.hpp"
 #include "analysis/statistics/interval.hpp"
 #include "analysis/statistics/link.hpp"
-#include "tests/test.hpp"
+#include "tests/numbers.hpp"
 
 namespace gearpod::analysis::test_comparison {
 
@@ -33,9 +33,7 @@ struct Synthetic {
         ComparisonRequest request;
         request.paired = paired;
         request.resamples = resamples;
-        for (int g = 0; g < 7; ++g) {
-            request.groups.push_back({0.5 * g, 0.5 * g});
-        }
+        request.groups = test::tabulated(7, [](int g) { return SizeGroup{0.5 * g, 0.5 * g}; });
         return compare_detection({Alarm::high, healthy_a, size, a},
                                  {Alarm::high, healthy_b, size, b}, request, 2);
     }

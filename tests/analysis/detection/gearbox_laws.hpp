@@ -4,7 +4,7 @@
 
 #include <boost/math/distributions/normal.hpp>
 
-#include "tests/test.hpp"
+#include "tests/numbers.hpp"
 
 namespace gearpod::analysis {
 

@@ -2,18 +2,14 @@
 
 #include "analysis/detection/detection.hpp"
 #include "analysis/detection/threshold.hpp"
-#include "tests/test.hpp"
+#include "tests/numbers.hpp"
 
 namespace gearpod::analysis::test_detection {
 
 const double kNan = std::numeric_limits<double>::quiet_NaN();
 
 std::vector<double> counted(int n) {
-    std::vector<double> values;
-    for (int i = 1; i <= n; ++i) {
-        values.push_back(i);
-    }
-    return values;
+    return test::tabulated(n, [](int i) { return i + 1.0; });
 }
 
 TEST_CASE("The threshold is the order statistic that keeps the false-alarm rate") {
@@ -40,10 +36,8 @@ TEST_CASE(
     double sum = 0.0;
     constexpr int kTrials = 4000;
     for (int trial = 0; trial < kTrials; ++trial) {
-        std::vector<double> healthy(39);
-        for (double& value : healthy) {
-            value = draw(engine);
-        }
+        const std::vector<double> healthy =
+            test::tabulated(39, [&](auto) { return draw(engine); });
         sum += cdf(complement(normal, SortedSample(healthy, Alarm::high).threshold(0.05).value));
     }
     // (n+1)(1-rate) = 38 is an integer, so the rate is met exactly: 2/40. Its standard deviation in

@@ -159,10 +159,7 @@ TEST_CASE("With fewer than 20 gearboxes that alarm, the first records set the th
     const Records records(2.0, Law::normal, 300, 8, engine);
     const HealthyThresholds importance_sampled({records.values, records.gearbox, records.weights},
                                                Alarm::high);
-    std::vector<double> first;
-    for (std::size_t i = 0; i < records.values.size(); i += 8) {
-        first.push_back(records.values[i]);
-    }
+    const std::vector<double> first = test::every(8, records.values);
     CHECK(importance_sampled.plain() == first);
     const Threshold threshold = importance_sampled.at(0.01, 0.95);
     CHECK(!threshold.importance_sampled);

@@ -3,7 +3,7 @@
 #include <boost/math/distributions/normal.hpp>
 
 #include "analysis/detection/splitting.hpp"
-#include "tests/test.hpp"
+#include "tests/numbers.hpp"
 
 namespace gearpod::analysis::test_splitting {
 
@@ -51,11 +51,7 @@ struct Gearboxes {
     }
     SplitValues values() const {
         return [*this](std::span<const SplitMember> members) {
-            std::vector<double> all;
-            for (const SplitMember& member : members) {
-                all.push_back(value(member));
-            }
-            return all;
+            return test::mapped(members, [&](const SplitMember& member) { return value(member); });
         };
     }
     SplitTail::Settings settings(long members) const {

@@ -2,7 +2,7 @@
 #include "analysis/statistics/interval.hpp"
 #include "analysis/statistics/link.hpp"
 #include "tests/analysis/reference_data.hpp"
-#include "tests/test.hpp"
+#include "tests/numbers.hpp"
 
 namespace gearpod::analysis::test_input_effects {
 
@@ -148,10 +148,8 @@ TEST_CASE("One outcome class, no gearboxes or no curve: a reason instead of a nu
     none.refusal = "no threshold";
     CHECK(effects(study.hit, none).inputs[0].refusal == "no threshold");
     // Hits and misses that one input separates completely have no likelihood maximum.
-    std::vector<int> parted;
-    for (const double z : study.z) {
-        parted.push_back(z > 0.0 ? 1 : 0);
-    }
+    std::vector<int> parted =
+        test::mapped(study.z, [&](const double z) { return z > 0.0 ? 1 : 0; });
     CHECK(!effects(parted, pod).inputs[0].refusal.empty());
 }
 

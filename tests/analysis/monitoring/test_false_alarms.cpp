@@ -3,10 +3,11 @@
 #include "analysis/detection/threshold.hpp"
 #include "analysis/monitoring/baseline_deviations.hpp"
 #include "analysis/monitoring/false_alarms.hpp"
-#include "tests/test.hpp"
+#include "tests/numbers.hpp"
 
 namespace gearpod::analysis::test_false_alarms {
 
+using test::normal_values;
 using Engine = std::mt19937_64;
 
 // Hourly records of gearboxes whose baseline comes from the first `baseline` records (0: known
@@ -17,9 +18,7 @@ std::vector<HealthyLife> draw_lives(int gearboxes, std::size_t baseline, int rec
     std::vector<HealthyLife> lives;
     for (int g = 0; g < gearboxes; ++g) {
         std::vector<double> values(baseline + static_cast<std::size_t>(records));
-        for (double& value : values) {
-            value = normal(engine);
-        }
+        std::ranges::generate(values, [&] { return normal(engine); });
         lives.push_back(
             {baseline_deviations(values, {}, baseline, Alarm::high), static_cast<double>(records)});
     }
@@ -41,10 +40,8 @@ TEST_CASE("Lives of one record have the thresholds of single recordings") {
     Engine engine(1);
     for (const int gearboxes : {40, 100, 399}) {
         const auto lives = draw_lives(gearboxes, 0, 1, engine);
-        std::vector<double> values;
-        for (const HealthyLife& life : lives) {
-            values.push_back(life.values[0]);
-        }
+        std::vector<double> values =
+            test::mapped(lives, [&](const HealthyLife& life) { return life.values[0]; });
         for (const double rate : {0.05, 0.1, 0.3}) {
             INFO(gearboxes << " " << rate);
             const Threshold single = SortedSample(values, Alarm::high).threshold(rate);
@@ -138,16 +135,6 @@ TEST_CASE("Intervals of false alarms hold in 95 of 100 campaigns", "[.rare-cover
 }
 
 // Checks sustained alarms, alarms of held-out healthy records, and the drift of a level.
-
-std::vector<double> normal_values(std::size_t count, unsigned seed) {
-    std::mt19937_64 engine(seed);
-    std::normal_distribution<double> normal;
-    std::vector<double> values(count);
-    for (double& value : values) {
-        value = normal(engine);
-    }
-    return values;
-}
 
 // A record a day, or a given number of records on each day.
 HealthyRecords timed(const std::vector<double>& values, int a_day = 1) {

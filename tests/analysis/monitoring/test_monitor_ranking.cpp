@@ -1,7 +1,7 @@
 // Checks the performance of monitored detectors, the size from which a crack has an effect, and the
 // order of detectors: what false alarms alone find does not count.
 #include "analysis/monitoring/monitor_performance.hpp"
-#include "tests/test.hpp"
+#include "tests/numbers.hpp"
 
 namespace gearpod::analysis::test_monitor_ranking {
 
@@ -17,11 +17,9 @@ std::vector<double> alarms_at_random(std::mt19937& engine, double probability) {
 }
 
 std::vector<HealthyLife> healthy_lives(std::mt19937& engine, int lives, double probability) {
-    std::vector<HealthyLife> all;
-    for (int i = 0; i < lives; ++i) {
-        all.push_back({alarms_at_random(engine, probability), kRecords});
-    }
-    return all;
+    return test::tabulated(lives, [&](int) {
+        return HealthyLife{alarms_at_random(engine, probability), kRecords};
+    });
 }
 
 // Cracks that begin at record 20 and end at record 99; the detector alarms from `seen` on with the
@@ -299,10 +297,7 @@ TEST_CASE("A quantile's bound has its nominal coverage") {
     int above = 0;
     constexpr int kSamples = 4000;
     for (int s = 0; s < kSamples; ++s) {
-        std::vector<double> sample(60);
-        for (double& value : sample) {
-            value = uniform(engine);
-        }
+        std::vector<double> sample = test::tabulated(60, [&](auto) { return uniform(engine); });
         above += quantile_bound(sample, 0.9, 0.95) >= 0.9 ? 1 : 0;
     }
     // The rank is an integer, so the bound is slightly conservative.

@@ -1,7 +1,7 @@
 #include "analysis/pod/signal_response_pod.hpp"
 #include "analysis/statistics/link.hpp"
 #include "tests/analysis/reference_data.hpp"
-#include "tests/test.hpp"
+#include "tests/numbers.hpp"
 
 namespace gearpod::analysis::test_signal_response_pod {
 
@@ -90,10 +90,8 @@ TEST_CASE("A POD from a line with normal scatter agrees with statsmodels and the
 
 TEST_CASE("A low alarm on the reciprocal gives the same detector") {
     const auto columns = reference_columns("line_60");
-    std::vector<double> reciprocal;
-    for (const double value : columns[1]) {
-        reciprocal.push_back(1.0 / value);
-    }
+    std::vector<double> reciprocal =
+        test::mapped(columns[1], [&](const double value) { return 1.0 / value; });
     const auto high = signal_response_pod(columns[0], columns[1], {2.0, Alarm::high, 0.95});
     const auto low = signal_response_pod(columns[0], reciprocal, {0.5, Alarm::low, 0.95});
     REQUIRE(low.refusal == "");

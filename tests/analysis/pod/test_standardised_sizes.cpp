@@ -1,7 +1,7 @@
 // Checks few nodes in place of many sizes: moments, and log likelihoods of curves of any slope.
 #include "analysis/pod/pod_curve.hpp"
 #include "analysis/pod/pod_likelihood.hpp"
-#include "tests/test.hpp"
+#include "tests/numbers.hpp"
 
 namespace gearpod::analysis::test_standardised_sizes {
 
@@ -40,10 +40,9 @@ TEST_CASE("nodes of any width keep the sizes' count, mean and variance, and are 
 }
 
 TEST_CASE("sizes tested at few levels stay unchanged") {
-    HitMissTable table;
-    for (int level = 1; level <= 12; ++level) {
-        table.push_back({0.3 * level, 40.0 + level, 100.0});
-    }
+    const HitMissTable table = test::tabulated(12, [](int i) {
+        return HitMissRow{0.3 * (i + 1), 41.0 + i, 100.0};
+    });
     const StandardisedSizes sizes(table, false);
     CHECK(sizes.nodes(100.0).cell == 0.0);
     CHECK(sizes.nodes(100.0).u.size() == 24);

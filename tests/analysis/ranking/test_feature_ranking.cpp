@@ -3,7 +3,7 @@
 #include "analysis/statistics/interval.hpp"
 #include "analysis/statistics/rank_statistics.hpp"
 #include "tests/analysis/reference_data.hpp"
-#include "tests/test.hpp"
+#include "tests/numbers.hpp"
 
 namespace gearpod::analysis::test_roc {
 
@@ -18,13 +18,8 @@ double area_below(const std::vector<RocPoint>& points) {
 
 // Integer values, so that ties are frequent.
 std::vector<double> sample(std::size_t count, double mean, unsigned seed) {
-    std::mt19937_64 engine(seed);
-    std::normal_distribution<double> normal(mean, 8.0);
-    std::vector<double> values(count);
-    for (double& value : values) {
-        value = std::round(normal(engine));
-    }
-    return values;
+    return test::mapped(test::normal_values(count, seed, mean, 8.0),
+                        [](double value) { return std::round(value); });
 }
 
 TEST_CASE("A ROC has one corner per threshold; equal values share a corner") {

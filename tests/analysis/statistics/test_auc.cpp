@@ -78,12 +78,8 @@ TEST_CASE("The area of two normal laws is Phi(d / sqrt 2), and its interval cove
     constexpr int kStudies = 2000;
     for (int s = 0; s < kStudies; ++s) {
         Sample sample{std::vector<double>(60), std::vector<double>(40)};
-        for (double& value : sample.healthy) {
-            value = draw(engine);
-        }
-        for (double& value : sample.faulty) {
-            value = draw(engine) + 1.2;
-        }
+        std::ranges::generate(sample.healthy, [&] { return draw(engine); });
+        std::ranges::generate(sample.faulty, [&] { return draw(engine) + 1.2; });
         const Auc result = auc(sample.healthy, sample.faulty, true, 0.95);
         covered += result.bounds.lower <= truth && truth <= result.bounds.upper ? 1 : 0;
     }

@@ -32,11 +32,7 @@ LikelihoodSums sums_of(const OutcomeLine& line, bool yes, const std::vector<doub
 }
 
 std::vector<double> evenly(double low, double high, int count) {
-    std::vector<double> values;
-    for (int i = 0; i < count; ++i) {
-        values.push_back(low + (high - low) * i / (count - 1));
-    }
-    return values;
+    return test::tabulated(count, [&](int i) { return low + (high - low) * i / (count - 1); });
 }
 
 TEST_CASE("Terms of outcomes agree with the link functions from tail to tail") {

@@ -12,9 +12,9 @@
 
 namespace gearpod::lockstep::test_implicit {
 
+using test::every;
 using test::integrate_meshes;
 using test::Integrated;
-using test::lane_of;
 using test::largest_difference;
 using test::LiangTrain;
 using test::state_at;
@@ -36,8 +36,8 @@ void check_lanes(const IntegrationPlan& plan, const std::vector<dynamics::Gearbo
             run_tile<W>(plan, std::span(inputs).subspan(first, W), faults(first, W), solution);
         for (std::size_t l = 0; l < W; ++l) {
             const MeshRecord &a = tile.records[record], &b = eight.records[record];
-            CHECK(lane_of(a.acceleration, l, W) == lane_of(b.acceleration, first + l, 8));
-            CHECK(lane_of(a.te, l, W) == lane_of(b.te, first + l, 8));
+            CHECK(every(W, a.acceleration, l) == every(8, b.acceleration, first + l));
+            CHECK(every(W, a.te, l) == every(8, b.te, first + l));
         }
     }
 }
@@ -119,21 +119,27 @@ TEST_CASE("The implicit integrators keep their order on a smooth stiffness") {
     }
 }
 
+double energy(const dynamics::GearboxMatrices& m, const TileState& s) {
+    const Eigen::Map<const Eigen::VectorXd> q(s.q.data(), m.mass.rows());
+    const Eigen::Map<const Eigen::VectorXd> v(s.v.data(), m.mass.rows());
+    return 0.5 * v.dot(m.mass * v) + 0.5 * q.dot(m.stiffness * q);
+}
+
+// Tian's stage without damping and load.
+dynamics::FixedShaftInputs undamped_stage() {
+    dynamics::FixedShaftInputs in = TianGearbox::instance().inputs();
+    for (const auto g : {dynamics::pinion, dynamics::gear}) {
+        in.bearing_damping_N_s_m[g] = in.coupling_damping_N_m_s_rad[g] = 0.0;
+    }
+    in.mesh_damping = in.motor_torque_N_m = in.load_torque_N_m = 0.0;
+    return in;
+}
+
 TEST_CASE("Newmark conserves the energy of an undamped, unloaded gearbox of constant stiffness") {
-    const auto energy = [](const dynamics::GearboxMatrices& m, const TileState& s) {
-        const Eigen::Map<const Eigen::VectorXd> q(s.q.data(), m.mass.rows());
-        const Eigen::Map<const Eigen::VectorXd> v(s.v.data(), m.mass.rows());
-        return 0.5 * v.dot(m.mass * v) + 0.5 * q.dot(m.stiffness * q);
-    };
     dynamics::PlanetaryInputs train = LiangTrain::instance().inputs(20.0);
     std::fill(std::begin(train.bearing_damping_N_s_m), std::end(train.bearing_damping_N_s_m), 0.0);
     std::fill(std::begin(train.force_N), std::end(train.force_N), 0.0);
     train.support_damping_N_s_m = train.mesh_damping = 0.0;
-    dynamics::FixedShaftInputs stage = TianGearbox::instance().inputs();
-    for (const auto g : {dynamics::pinion, dynamics::gear}) {
-        stage.bearing_damping_N_s_m[g] = stage.coupling_damping_N_m_s_rad[g] = 0.0;
-    }
-    stage.mesh_damping = stage.motor_torque_N_m = stage.load_torque_N_m = 0.0;
 
     IntegrationPlan planetary =
         liang_plan(1200, dynamics::Motion::translational_torsional, Integrator::newmark);
@@ -142,7 +148,7 @@ TEST_CASE("Newmark conserves the energy of an undamped, unloaded gearbox of cons
         liang_plan(1200, dynamics::Motion::torsional, Integrator::newmark);
     const IntegrationPlan fixed_shaft = TianGearbox::instance().plan(20, 200, Integrator::newmark);
     const std::vector<std::pair<IntegrationPlan, dynamics::GearboxInputs>> scenes{
-        {planetary, train}, {torsional, train}, {fixed_shaft, stage}};
+        {planetary, train}, {torsional, train}, {fixed_shaft, undamped_stage()}};
     for (auto [plan, in] : scenes) {
         std::fill(plan.nodes.stiffness.begin(), plan.nodes.stiffness.end(), 6e8);
         const std::vector<double> k(static_cast<std::size_t>(plan.nodes.pairs), 6e8);
@@ -158,28 +164,21 @@ TEST_CASE("Newmark conserves the energy of an undamped, unloaded gearbox of cons
 TEST_CASE("Sdirk3 damps modes that its steps cannot resolve") {
     // An undamped stage a million times stiffer than Tian's, in 60 steps of many periods each.
     // Newmark's method conserves its energy.
-    const auto& gearbox = TianGearbox::instance();
-    dynamics::FixedShaftInputs in = gearbox.inputs();
+    dynamics::FixedShaftInputs in = undamped_stage();
     for (const auto g : {dynamics::pinion, dynamics::gear}) {
-        in.bearing_damping_N_s_m[g] = in.coupling_damping_N_m_s_rad[g] = 0.0;
         in.bearing_stiffness_N_m[g] *= 1e6;
         in.coupling_stiffness_N_m_rad[g] *= 1e6;
     }
-    in.mesh_damping = in.motor_torque_N_m = in.load_torque_N_m = 0.0;
     for (const auto integrator : {Integrator::sdirk3, Integrator::newmark}) {
-        IntegrationPlan plan = gearbox.plan(20, 60, integrator);
+        IntegrationPlan plan = TianGearbox::instance().plan(20, 60, integrator);
         plan.grid = make_phase_grid(20, 60, {});
         plan.grid.stage_nodes = stage_nodes(integrator);
         plan.nodes.stiffness.assign(180, 8e14);
         plan.nodes.damping_shape = plan.nodes.stiffness;
         const auto m = dynamics::assemble(plan.layout, in, {8e14});
-        const auto energy = [&](const TileState& s) {
-            const Eigen::Map<const Eigen::VectorXd> q(s.q.data(), m.mass.rows());
-            const Eigen::Map<const Eigen::VectorXd> v(s.v.data(), m.mass.rows());
-            return 0.5 * v.dot(m.mass * v) + 0.5 * q.dot(m.stiffness * q);
-        };
         const TileState start = state_at(plan, 1e-6 * Eigen::VectorXd::LinSpaced(8, -1.0, 2.0));
-        const double left = energy(integrate_meshes(plan, in, start, 1).state) / energy(start);
+        const double left =
+            energy(m, integrate_meshes(plan, in, start, 1).state) / energy(m, start);
         if (integrator == Integrator::newmark) {
             CHECK(left == Approx(1.0).epsilon(1e-6));
         } else {
@@ -194,10 +193,7 @@ TEST_CASE("Implicit integrators converge to the periodic orbit of Runge-Kutta") 
     const auto full = dynamics::Motion::translational_torsional;
     const TileResult exact = run_tile<1>(liang_plan(4800, full, Integrator::rk4), one,
                                          train.no_fault(1), PeriodicSolution{});
-    double largest = 0.0;
-    for (const double a : exact.records[0].acceleration) {
-        largest = std::max(largest, std::abs(a));
-    }
+    const double largest = test::largest_magnitude(exact.records[0].acceleration);
     for (const Integrator integrator : kImplicitOnes) {
         const TileResult tile = run_tile<1>(liang_plan(4800, full, integrator), one,
                                             train.no_fault(1), PeriodicSolution{});
@@ -212,10 +208,9 @@ TEST_CASE(
     "set") {
     const auto& train = LiangTrain::instance();
     const std::vector<double> depths{0.0, 0.5e-3, 1e-3, 2e-3, 3e-3, 4.28e-3, 6e-3, 8.5e-3};
-    std::vector<dynamics::GearboxInputs> inputs;
-    for (int l = 0; l < 8; ++l) {
-        inputs.push_back(train.inputs(10.0 + l, 1e8 * (0.8 + 0.05 * l)));
-    }
+    const auto inputs = test::tabulated(8, [&](int l) {
+        return dynamics::GearboxInputs(train.inputs(10.0 + l, 1e8 * (0.8 + 0.05 * l)));
+    });
     const FullSolution solution{.convergence = {.max_meshes = 4}, .span = {.meshes = 6}};
     for (const Integrator integrator : kImplicitOnes) {
         const IntegrationPlan plan =
@@ -273,10 +268,7 @@ TEST_CASE("Implicit and explicit integration of separating meshes agree") {
             run(plan_of(12800, Integrator::rk4, 5e-6, MeshLaw::separating), backlash_m, 2);
         const auto linear =
             run(plan_of(12800, Integrator::rk4, 5e-6, MeshLaw::with_error), backlash_m, 2);
-        double scale = 0.0;
-        for (const double q : exact) {
-            scale = std::max(scale, std::abs(q));
-        }
+        const double scale = test::largest_magnitude(exact);
         CHECK(largest_difference(exact, linear) > 0.1 * scale);  // the teeth lost contact
         for (const Integrator integrator : kImplicitOnes) {
             const auto separating =

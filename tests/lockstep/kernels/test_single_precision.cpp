@@ -43,7 +43,7 @@ std::vector<double> unrolled(const TileResult& tile, machine::AlignedVector Mesh
     std::vector<double> all;
     for (const int id : tile.content) {
         const auto own =
-            test::lane_of(tile.records[static_cast<std::size_t>(id)].*member, lane, width);
+            test::every(width, tile.records[static_cast<std::size_t>(id)].*member, lane);
         all.insert(all.end(), own.begin(), own.end());
     }
     return all;
@@ -64,15 +64,8 @@ void check_width(const IntegrationPlan& plan, const std::vector<dynamics::Gearbo
 
 // Root mean square of a - b over that of b about its mean.
 double relative_rms(const std::vector<double>& a, const std::vector<double>& b) {
-    double mean = 0.0, deviation = 0.0, own = 0.0;
-    for (const double x : b) {
-        mean += x / static_cast<double>(b.size());
-    }
-    for (std::size_t i = 0; i < b.size(); ++i) {
-        deviation += (a[i] - b[i]) * (a[i] - b[i]);
-        own += (b[i] - mean) * (b[i] - mean);
-    }
-    return std::sqrt(deviation / own);
+    const std::vector<double> mean(b.size(), test::mean_of(b));
+    return test::rms_of(test::difference(a, b)) / test::rms_of(test::difference(b, mean));
 }
 
 TEST_CASE("Sixteen singles, eight, four and one give the same bits, on every instruction set") {

@@ -2,7 +2,7 @@
 #include "gears/planetary.hpp"
 #include "lockstep/plan/fault_schedule.hpp"
 #include "stiffness/square_wave_mesh.hpp"
-#include "tests/test.hpp"
+#include "tests/numbers.hpp"
 
 namespace gearpod::lockstep::test_fault_pattern {
 
@@ -34,11 +34,7 @@ struct Train {
 };
 
 PlanetPositions equal_planets(int planets) {
-    PlanetPositions turns;
-    for (int n = 0; n < planets; ++n) {
-        turns.position.push_back(static_cast<double>(n) / planets);
-    }
-    return turns;
+    return {test::tabulated(planets, [&](int n) { return static_cast<double>(n) / planets; })};
 }
 
 // Trains with equally spaced planets, and with planets at positions where (Z_s + Z_r) psi / 2 pi is

@@ -44,10 +44,9 @@ struct Stage {
         p.layout = layout;
         p.grid = make_phase_grid(8, steps, {});
         p.grid.stage_nodes = stage_nodes(p.integrator);
-        p.nodes.stiffness.clear();
-        for (const Step& step : p.grid.steps) {
-            p.nodes.stiffness.push_back(stiffness(step.phase + 0.5 * step.length));
-        }
+        p.nodes.stiffness = test::mapped(p.grid.steps, [&](const Step& step) {
+            return stiffness(step.phase + 0.5 * step.length);
+        });
         p.nodes.damping_shape = p.nodes.stiffness;
         return p;
     }
@@ -216,10 +215,9 @@ TEST_CASE("Stages without shafts have the bits of single stages", "[coupled]") {
     const LiangTrain& liang = LiangTrain::instance();
     const IntegrationPlan plan = liang.plan(24, 480, dynamics::Motion::translational_torsional,
                                             Integrator::central_difference);
-    std::vector<dynamics::GearboxInputs> inputs;
-    for (int l = 0; l < 8; ++l) {
-        inputs.emplace_back(liang.inputs(20.0, 1e8 * (1.0 + 0.1 * l)));
-    }
+    const auto inputs = test::tabulated(8, [&](int l) -> dynamics::GearboxInputs {
+        return liang.inputs(20.0, 1e8 * (1.0 + 0.1 * l));
+    });
     const FaultCurves faults =
         liang.ring_side_cracks({0.0, 1e-3, 2e-3, 4e-3, 0.0, 3e-3, 0.0, 1e-3});
     const FullSolution full{{}, {5, 3}};

@@ -65,9 +65,7 @@ TEST_CASE("in time integration, too, the bearings of a train carry its weight",
     IntegrationPlan plan =
         train.plan(50, steps, dynamics::Motion::translational_torsional, integrator, false);
     auto in = train.inputs(12.0);
-    for (double& damping : in.bearing_damping_N_s_m) {
-        damping = 5e3;
-    }
+    std::ranges::fill(in.bearing_damping_N_s_m, 5e3);
     const std::vector<dynamics::GearboxInputs> inputs{in};
     Excitation excitation;
     excitation.gravity = Gravity{kGravity, -pi / 2, 1.0 / 81.0};
@@ -100,9 +98,7 @@ TEST_CASE("constant weight keeps the periodic orbit and the passage of a fault",
     const IntegrationPlan plan =
         train.plan(50, 450, dynamics::Motion::translational_torsional, false);
     auto in = train.inputs(12.0);
-    for (double& damping : in.bearing_damping_N_s_m) {
-        damping = 5e3;
-    }
+    std::ranges::fill(in.bearing_damping_N_s_m, 5e3);
     const std::vector<dynamics::GearboxInputs> inputs{in};
     const FaultCurves cracked = train.ring_side_cracks({3e-3});
     Excitation excitation;

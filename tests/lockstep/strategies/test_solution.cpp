@@ -6,7 +6,7 @@
 
 namespace gearpod::lockstep::test_solution {
 
-using test::lane_of;
+using test::every;
 using test::LiangTrain;
 
 constexpr auto kFull = dynamics::Motion::translational_torsional;
@@ -20,7 +20,7 @@ std::vector<double> unrolled(const TileResult& tile, std::size_t lane, std::size
     for (const int id : tile.content) {
         const MeshRecord& record = tile.records[static_cast<std::size_t>(id)];
         for (const auto* values : {&record.acceleration, &record.te}) {
-            const auto one = lane_of(*values, lane, width);
+            const auto one = every(width, *values, lane);
             all.insert(all.end(), one.begin(), one.end());
         }
     }
@@ -97,7 +97,7 @@ std::vector<double> changes(const TileResult& tile, std::size_t lane) {
         }
         all.push_back(static_cast<double>(k));
         for (const auto* values : {&record.acceleration, &record.te}) {
-            const auto one = lane_of(*values, lane, W);
+            const auto one = every(W, *values, lane);
             all.insert(all.end(), one.begin(), one.end());
         }
     }

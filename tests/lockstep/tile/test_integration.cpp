@@ -86,11 +86,8 @@ TEST_CASE("An integrated mesh period agrees with an adaptive solver over the ass
     MeshRecord record;
     const TileState ours = integrate_mesh_period(plan, in, start, record);
     const auto theirs = dormand_prince(plan, in, start);
-    double scale_q = 0.0, scale_v = 0.0;
-    for (std::size_t i = 0; i < ours.q.size(); ++i) {
-        scale_q = std::max(scale_q, std::abs(ours.q[i]));
-        scale_v = std::max(scale_v, std::abs(ours.v[i]));
-    }
+    const double scale_q = test::largest_magnitude(ours.q),
+                 scale_v = test::largest_magnitude(ours.v);
     for (std::size_t i = 0; i < ours.q.size(); ++i) {
         CHECK(ours.q[i] == Approx(theirs[i]).margin(1e-7 * scale_q));
         CHECK(ours.v[i] == Approx(theirs[ours.q.size() + i]).margin(1e-6 * scale_v));
@@ -148,9 +145,7 @@ TEST_CASE("Runge-Kutta keeps order 4 across the contact transitions, in state an
 TEST_CASE("An undamped mode of a gearbox with constant stiffness follows its cosine") {
     const auto& train = LiangTrain::instance();
     dynamics::PlanetaryInputs in = train.inputs();
-    for (double& c : in.bearing_damping_N_s_m) {
-        c = 0.0;
-    }
+    std::ranges::fill(in.bearing_damping_N_s_m, 0.0);
     in.support_damping_N_s_m = in.mesh_damping = 0.0;
     std::fill(std::begin(in.force_N), std::end(in.force_N), 0.0);
     in.mesh_period_s = 1e-3;

@@ -4,7 +4,7 @@
 #include "mc/lives/interpolation.hpp"
 #include "tests/mc/lives/campaign_in_memory.hpp"
 #include "tests/mc/lives/life_example.hpp"
-#include "tests/test.hpp"
+#include "tests/numbers.hpp"
 
 namespace gearpod::test_interpolation {
 
@@ -148,11 +148,6 @@ TEST_CASE(
 
 using Samples = std::vector<double>;
 
-double rms_of(const Samples& samples) {
-    return std::sqrt(std::inner_product(samples.begin(), samples.end(), samples.begin(), 0.0) /
-                     static_cast<double>(samples.size()));
-}
-
 TEST_CASE("Records at random loads are off by no more than stated in 95 % of 200 trials",
           "[.long][interpolation-trials]") {
     const mc::Study study = varying({});
@@ -187,14 +182,9 @@ TEST_CASE("Records at random loads are off by no more than stated in 95 % of 200
         };
         const mc::HealthySolution own = tiles.healthy_solution(gearboxes, {});
         const auto faulty = own.with_fault(mc::smallest_depth_m(study.life));
-        std::vector<double> change;
-        for (std::size_t lane = 0; lane < kLanes; ++lane) {
-            Samples both = faulty.lane[lane].sensor;
-            for (std::size_t i = 0; i < both.size(); ++i) {
-                both[i] -= own.healthy().lane[lane].sensor[i];
-            }
-            change.push_back(rms_of(both));
-        }
+        std::vector<double> change = test::tabulated(kLanes, [&](std::size_t lane) {
+            return rms_of(difference(faulty.lane[lane].sensor, own.healthy().lane[lane].sensor));
+        });
         std::vector<std::vector<Samples>> nodes;
         for (const double torque : torques.factors()) {
             for (const double speed : speeds.factors()) {

@@ -44,11 +44,8 @@ TEST_CASE("Short recordings cover a part of the turns, and many of them all") {
     const auto spread = [&](const std::vector<std::string>& more) {
         const mc::Scene scene(quiet_study(more));
         const auto life = healthy_life(scene);
-        double sum = 0.0;
-        for (const double value : life.values[0]) {
-            sum += std::pow(value / whole.values[0][0] - 1.0, 2);
-        }
-        return std::sqrt(sum / static_cast<double>(life.values[0].size()));
+        const double first = whole.values[0][0];
+        return rms_of(mapped(life.values[0], [&](double value) { return value / first - 1.0; }));
     };
     // A duration of 1.2 carrier turns is three planet turns. The path gives each of them a
     // different weight.
@@ -75,14 +72,8 @@ TEST_CASE("Noise of a record decreases with the root of its duration") {
         all.emplace_back("life.records=60");
         const mc::Scene scene(life_study(all));
         const auto values = healthy_life(scene).values[1];
-        double mean = 0.0, square = 0.0;
-        for (const double value : values) {
-            mean += value / 60.0;
-        }
-        for (const double value : values) {
-            square += (value - mean) * (value - mean) / 59.0;
-        }
-        return std::sqrt(square);
+        const std::vector<double> mean(values.size(), mean_of(values));
+        return std::sqrt(sum_of_squares(difference(values, mean)) / 59.0);
     };
     const double one = deviation({});
     CHECK(deviation({"life.recordings=16"}) == Approx(0.25 * one).epsilon(0.35));

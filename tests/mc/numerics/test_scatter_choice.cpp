@@ -24,11 +24,9 @@ Study real_teeth(std::vector<std::string> more = {}) {
 
 std::vector<double> values(const Scene& scene, const BatchRows& rows, std::size_t feature) {
     const RowShape& shape = scene.ensemble().shape;
-    std::vector<double> all;
-    for (std::size_t row = 0; row < rows.count(); ++row) {
-        all.push_back(rows.values[row * shape.values() + shape.value_of(feature, 0)]);
-    }
-    return all;
+    return test::tabulated(rows.count(), [&](std::size_t row) {
+        return rows.values[row * shape.values() + shape.value_of(feature, 0)];
+    });
 }
 
 TEST_CASE("Steps for a share of the scatter keep it on other gearboxes, with fewer steps") {
@@ -44,18 +42,15 @@ TEST_CASE("Steps for a share of the scatter keep it on other gearboxes, with few
     const Scene chosen = planner.scene(resolved.numerics), reference = planner.scene(own);
     CHECK(2 * chosen.solve().integration().grid.steps.size() <
           reference.solve().integration().grid.steps.size());
-    std::vector<GearboxId> others;
-    for (std::uint64_t i = 16; i < 32; ++i) {
-        others.push_back({Group::threshold, i});
-    }
+    const auto others = test::tabulated(std::uint64_t{16}, [](std::uint64_t i) {
+        return GearboxId{Group::threshold, 16 + i};
+    });
     const BatchRows here = rows_of_gearboxes(chosen.tile(), chosen.ensemble(), others),
                     there = rows_of_gearboxes(reference.tile(), reference.ensemble(), others);
     for (std::size_t f = 0; f < chosen.features().used.size(); ++f) {
         const std::vector<double> a = values(chosen, here, f), b = values(reference, there, f);
-        std::vector<double> errors;
-        for (std::size_t i = 0; i < a.size(); ++i) {
-            errors.push_back(std::abs(a[i] - b[i]));
-        }
+        std::vector<double> errors =
+            test::tabulated(a.size(), [&](std::size_t i) { return std::abs(a[i] - b[i]); });
         std::ranges::nth_element(errors, errors.begin() + 8);
         CHECK(errors[8] / 0.6745 < 2.0 * 0.2 * standard_deviation(b));
         CHECK(errors[8] > 0.0);
@@ -134,8 +129,8 @@ TEST_CASE("Pairs of a run with mass scaling are healthy and faulty gearboxes in 
     REQUIRE(found->pairs.changed.size() == 1);
     CHECK(found->pairs.changed[0].values == from_run->pairs.changed[0].values);
     // The fine steps are those of the integrator's own rule, without scaling.
-    CHECK(found->finer.find("mass_scaling_Hz") == std::string::npos);
-    CHECK(found->setting.find("mass_scaling_Hz=3000") != std::string::npos);
+    CHECK_FALSE(test::contains(found->finer, "mass_scaling_Hz"));
+    CHECK(test::contains(found->setting, "mass_scaling_Hz=3000"));
 
     study.ensemble.instances = 1;
     study.ensemble.threshold_instances = 1;

@@ -203,10 +203,9 @@ TEST_CASE("Fluctuations and weight give the same bits in 1, 4 and 8 lanes, with 
                              "effects.gravity=true", "features.use=[\"te_rms\"]",
                              "effects.separation=one-sided"}));
     const Scene scene(study);
-    std::vector<GearboxId> ids;
-    for (std::uint64_t i = 0; i < 8; ++i) {
-        ids.push_back({Group::test, i});
-    }
+    std::vector<GearboxId> ids = test::tabulated(8, [&](std::uint64_t i) {
+        return GearboxId{Group::test, i};
+    });
     const GearboxTile eight = run(scene, ids, 8);
     const GearboxTile four = run(scene, {ids[5], ids[2], ids[7]}, 4);
     const GearboxTile one = run(scene, {ids[2]}, 1);

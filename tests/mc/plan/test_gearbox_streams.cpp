@@ -17,11 +17,7 @@ std::vector<double> numbers(std::uint64_t index, const std::vector<InputExchange
     GearboxId id{group, index};
     id.exchanged = exchanged;
     Normals normals(kSeed, id, StreamPurpose::planets);
-    std::vector<double> all;
-    for (int i = 0; i < kNumbers; ++i) {
-        all.push_back(normals());
-    }
-    return all;
+    return test::tabulated(kNumbers, [&](int) { return normals(); });
 }
 
 std::vector<double> many_numbers(const GearboxId& id) {

@@ -18,14 +18,11 @@
 namespace gearpod::mc::test_sampling {
 
 using namespace tests;
+using test::mean_of;
 using tests::samples_of;
 
 Study study_with(const std::vector<std::string>& overrides) {
     return gearpod::test::study_of_text(kExampleStudy, overrides);
-}
-
-double mean_of(const std::vector<double>& values) {
-    return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
 }
 
 bool same(const InstanceInputs& a, const InstanceInputs& b) {
@@ -229,10 +226,9 @@ TEST_CASE("Levels and grids of several inputs form all combinations, each equall
 
 TEST_CASE("An instance does not depend on what was sampled before and how often") {
     const Sampler forward(DrawPlan{study_with({})}), backward(DrawPlan{study_with({})});
-    std::vector<InstanceInputs> first;
-    for (std::uint64_t i = 0; i < 50; ++i) {
-        first.push_back(forward.draw({Group::test, i}).inputs);
-    }
+    std::vector<InstanceInputs> first = test::tabulated(50, [&](std::uint64_t i) {
+        return forward.draw({Group::test, i}).inputs;
+    });
     for (std::uint64_t i = 50; i-- > 0;) {
         CHECK(same(backward.draw({Group::test, i}).inputs, first[i]));
     }
@@ -283,11 +279,9 @@ TEST_CASE("Inertias come from J / r^2, J, or a solid disc on the pitch radius") 
 }
 
 void check_columns(const EnsemblePlan& plan, const std::vector<std::string>& names) {
-    std::vector<std::string> found;
-    for (const auto& column : plan.inputs) {
-        found.push_back(column.name + " [" + column.unit + "]");
-    }
-    CHECK(found == names);
+    CHECK(test::mapped(plan.inputs, [](const auto& column) {
+              return column.name + " [" + column.unit + "]";
+          }) == names);
 }
 
 TEST_CASE("A fixed-shaft gearbox's inputs are sampled like any other's") {

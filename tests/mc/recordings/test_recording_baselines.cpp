@@ -27,27 +27,16 @@ class Machine {
         std::uniform_real_distribution<double> start(0.0, kSamples);
         std::normal_distribution<double> normal(0.0, 0.4);
         const double begin = start(engine_);
-        std::vector<double> samples;
-        for (int i = 0; i < kSamples; ++i) {
-            samples.push_back(gain * healthy(i + begin) + fault * burst(i + begin) +
-                              normal(engine_));
-        }
-        return samples;
+        return test::tabulated(kSamples, [&](int i) {
+            return gain * healthy(i + begin) + fault * burst(i + begin) + normal(engine_);
+        });
     }
     std::vector<double> corrupt() {
         std::normal_distribution<double> normal(0.0, 5.0);
-        std::vector<double> samples(kSamples);
-        for (double& one : samples) {
-            one = normal(engine_);
-        }
-        return samples;
+        return test::tabulated(kSamples, [&](auto) { return normal(engine_); });
     }
     std::vector<double> truth() const {
-        std::vector<double> samples;
-        for (int i = 0; i < kSamples; ++i) {
-            samples.push_back(healthy(i));
-        }
-        return samples;
+        return test::tabulated(kSamples, [&](int i) { return healthy(i); });
     }
 
   private:

@@ -4,7 +4,7 @@
 
 #include "mc/recordings/recording_columns.hpp"
 #include "mc/recordings/sample_faults.hpp"
-#include "tests/test.hpp"
+#include "tests/numbers.hpp"
 
 namespace gearpod::mc::test_sample_times {
 
@@ -44,11 +44,9 @@ const std::vector<Format>& formats() {
 }
 
 std::vector<double> written(const Format& format, std::size_t count, double step = kStep) {
-    std::vector<double> times;
-    for (std::size_t i = 0; i < count; ++i) {
-        times.push_back(format.written(format.start + static_cast<double>(i) * step));
-    }
-    return times;
+    return test::tabulated(count, [&](std::size_t i) {
+        return format.written(format.start + static_cast<double>(i) * step);
+    });
 }
 
 double factor(const Format& format) {
@@ -142,10 +140,6 @@ std::vector<double> vibration(std::size_t samples, double rounding = 1e-4) {
     return signal;
 }
 
-bool says(const std::string& text, const std::string& part) {
-    return text.find(part) != std::string::npos;
-}
-
 TEST_CASE("Constant stretches, tails of zeros and copied blocks are found with their samples") {
     const std::vector<double> good = vibration(6000);
     CHECK(stretches_text(good).empty());
@@ -153,13 +147,14 @@ TEST_CASE("Constant stretches, tails of zeros and copied blocks are found with t
     CHECK(stretches_text(std::vector<double>(500, 0.0)).empty());
     auto held = good;
     std::fill(held.begin() + 1200, held.begin() + 1240, held[1199]);
-    CHECK(says(stretches_text(held), "samples 1200 to 1240 are all"));
+    CHECK(test::contains(stretches_text(held), "samples 1200 to 1240 are all"));
     auto tail = good;
     std::fill(tail.end() - 900, tail.end(), 0.0);
-    CHECK(says(stretches_text(tail), "samples 5101 to 6000 are all 0: the recording ends before"));
+    CHECK(test::contains(stretches_text(tail),
+                         "samples 5101 to 6000 are all 0: the recording ends before"));
     auto copied = good;
     std::copy_n(copied.begin() + 2000, 256, copied.begin() + 2256);
-    CHECK(says(stretches_text(copied), "samples 2257 to 2512 repeat those from 2001 on"));
+    CHECK(test::contains(stretches_text(copied), "samples 2257 to 2512 repeat those from 2001 on"));
 }
 
 TEST_CASE("Spikes and steps of level are found, and the mean is removed to rounding") {
@@ -168,12 +163,13 @@ TEST_CASE("Spikes and steps of level are found, and the mean is removed to round
     CHECK(level_step_text(good).empty());
     auto spiked = good;
     spiked[777] = -400.0;
-    CHECK(says(spikes_text(spiked), "1 isolated spike(s) far outside the signal (sample 778)"));
+    CHECK(test::contains(spikes_text(spiked),
+                         "1 isolated spike(s) far outside the signal (sample 778)"));
     auto stepped = good;
     for (std::size_t i = 5000; i < stepped.size(); ++i) {
         stepped[i] += 2.0;
     }
-    CHECK(says(level_step_text(stepped), "its mean steps by"));
+    CHECK(test::contains(level_step_text(stepped), "its mean steps by"));
     auto moved = good, plain = good;
     for (double& value : moved) {
         value += 70.0;

@@ -4,7 +4,7 @@
 #include "tests/mc/program.hpp"
 #include "tests/mc/study_example.hpp"
 #include "tests/mc/study_problems.hpp"
-#include "tests/test.hpp"
+#include "tests/numbers.hpp"
 
 namespace gearpod::test_bad_input {
 
@@ -229,11 +229,9 @@ TEST_CASE("A crack depth is refused from the length on at which the crack exits 
 TEST_CASE("Every bad entry of a distribution or a list is reported") {
     const auto whats_of = [](const std::string& text) {
         const auto reading = read_study_text(text, "bad.toml");
-        std::vector<std::string> whats;
-        for (const Problem& problem : reading.problems) {
-            whats.push_back(problem.key + ": " + problem.what);
-        }
-        return whats;
+        return test::mapped(reading.problems, [&](const Problem& problem) {
+            return problem.key + ": " + problem.what;
+        });
     };
     using Whats = std::vector<std::string>;
     const std::string bearing = "random.gearbox.planet.bearing_stiffness_N_m",
@@ -299,9 +297,8 @@ TEST_CASE("All problems of a file are reported at once, sorted by line, override
     CHECK(reading.problems[4].file == "--set");
     CHECK(reading.problems[5].file == "--set");
     const std::string shown = format(reading.problems);
-    CHECK(shown.find("bad.toml:5: gearbox.planets: must be between 2 and 8, but is 40") !=
-          std::string::npos);
-    CHECK(shown.find("--set: ") != std::string::npos);
+    CHECK(test::contains(shown, "bad.toml:5: gearbox.planets: must be between 2 and 8, but is 40"));
+    CHECK(test::contains(shown, "--set: "));
 }
 
 TEST_CASE("Overrides that are no assignments or hold no value are refused") {
@@ -325,8 +322,8 @@ TEST_CASE("An empty file lacks each section with required keys") {
                   return p.key == section && p.what == "the section is missing";
               }) == 1);
     }
-    CHECK(format(reading.problems).find("torque_N_m and sun_speed_rpm or carrier_speed_rpm") !=
-          std::string::npos);
+    CHECK(test::contains(format(reading.problems),
+                         "torque_N_m and sun_speed_rpm or carrier_speed_rpm"));
 }
 
 TEST_CASE("A file that cannot be read is one problem") {

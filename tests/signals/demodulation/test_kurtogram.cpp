@@ -1,6 +1,6 @@
 // Checks the kurtogram of tones, impulses, modulated signals and noise against closed forms.
 #include "signals/demodulation/kurtogram.hpp"
-#include "tests/test.hpp"
+#include "tests/numbers.hpp"
 
 namespace gearpod::test_kurtogram {
 
@@ -8,13 +8,7 @@ using signals::Kurtogram;
 using signals::KurtogramBand;
 
 std::vector<double> noise(std::size_t points, double rms) {
-    std::mt19937_64 engine(33);
-    std::normal_distribution<double> normal(0.0, rms);
-    std::vector<double> values(points);
-    for (double& value : values) {
-        value = normal(engine);
-    }
-    return values;
+    return test::normal_values(points, 33, 0.0, rms);
 }
 
 // Impulses every `period` samples, filtered ideally to the orders of a band that are multiples of
@@ -81,10 +75,9 @@ TEST_CASE("An impulse has the kurtosis of its lines in every band, and most in t
 }
 
 TEST_CASE("A tone has a kurtosis of -1 in its band; bands of rounding errors are left out") {
-    std::vector<double> x;
-    for (int i = 0; i < 1200; ++i) {
-        x.push_back(1e-3 * std::cos(2.0 * std::numbers::pi * 110.0 * i / 1200.0 + 0.3));
-    }
+    const auto x = test::tabulated(1200, [](int i) {
+        return 1e-3 * std::cos(2.0 * std::numbers::pi * 110.0 * i / 1200.0 + 0.3);
+    });
     const Kurtogram kurtogram(x, 8);
     REQUIRE(kurtogram.bands().size() == 6);  // one per level
     for (const KurtogramBand& band : kurtogram.bands()) {

@@ -9,10 +9,8 @@ namespace gearpod::signals::test_normals {
 // Random words, with extreme words in both positions of the pairs.
 std::vector<std::uint64_t> some_words() {
     std::mt19937_64 engine(3);
-    std::vector<std::uint64_t> words(kNormalBlock * 4000);
-    for (std::uint64_t& word : words) {
-        word = engine();
-    }
+    std::vector<std::uint64_t> words =
+        test::tabulated(kNormalBlock * 4000, [&](auto) { return engine(); });
     constexpr std::uint64_t kAll = std::numeric_limits<std::uint64_t>::max();
     std::size_t block = 0;
     for (const std::uint64_t word :

@@ -8,19 +8,13 @@
 namespace gearpod::signals::test_sensor_noise {
 
 struct Moments {
-    double mean = 0.0;
-    double variance = 0.0;
+    double mean, variance;
 };
 
 Moments moments(const std::vector<double>& sample) {
-    Moments m;
-    for (const double value : sample) {
-        m.mean += value / static_cast<double>(sample.size());
-    }
-    for (const double value : sample) {
-        m.variance += (value - m.mean) * (value - m.mean) / static_cast<double>(sample.size() - 1);
-    }
-    return m;
+    const double mean = test::mean_of(sample);
+    const auto deviations = test::difference(sample, std::vector<double>(sample.size(), mean));
+    return {mean, test::sum_of_squares(deviations) / static_cast<double>(sample.size() - 1)};
 }
 
 double transformed(const ChiSquaredTransform& transform, double z) {
@@ -84,10 +78,8 @@ TEST_CASE("A noisy folded bin is distributed as the sum of its noisy samples' sq
     const SensorNoise noise(kTurns);
     NoiseVariates draw;
     noise.draw(engine, kSamples, draw);
-    std::vector<double> shortcut(kSamples);
-    for (std::size_t b = 0; b < kSamples; ++b) {
-        shortcut[b] = noisy_bin(folded, draw, b, sigma);
-    }
+    std::vector<double> shortcut =
+        test::tabulated(kSamples, [&](std::size_t b) { return noisy_bin(folded, draw, b, sigma); });
 
     // Closed forms of mean and variance of the noncentral chi-square law.
     const double mean = folded + kTurns * sigma * sigma;
@@ -105,10 +97,7 @@ TEST_CASE("A reconstructed noisy signal folds to the noisy bins and its noise is
     constexpr std::size_t kBins = 500;
     std::mt19937_64 engine(17);
     std::normal_distribution<double> normal;
-    std::vector<double> signal(kTurns * kBins);
-    for (double& y : signal) {
-        y = normal(engine);
-    }
+    auto signal = test::tabulated(kTurns * kBins, [&](std::size_t) { return normal(engine); });
     for (int i = 0; i < kTurns; ++i) {
         signal[i * kBins] = 0.0;  // a silent bin
     }
@@ -116,10 +105,8 @@ TEST_CASE("A reconstructed noisy signal folds to the noisy bins and its noise is
     NoiseVariates draw;
     SensorNoise(kTurns).draw(engine, kBins, draw);
     const double sigma = 0.5;
-    std::vector<double> expected(kBins);
-    for (std::size_t b = 0; b < kBins; ++b) {
-        expected[b] = noisy_bin(folded[b], draw, b, sigma);
-    }
+    std::vector<double> expected =
+        test::tabulated(kBins, [&](std::size_t b) { return noisy_bin(folded[b], draw, b, sigma); });
     const std::vector<double> unit = unit_noise(signal, kBins, draw, engine);
     std::vector<double> noisy(signal);
     for (std::size_t i = 0; i < noisy.size(); ++i) {

@@ -71,9 +71,7 @@ TEST_CASE("Folded squares with tones equal the sums over all samples of the span
         for (int lane = 0; lane < 8; ++lane) {
             const auto signal = direct_signal_with_tones(tile, lane, timeline, layout, tones);
             const std::vector<double> expected = test::folded_squares(signal, bins);
-            for (std::size_t b = 0; b < bins; ++b) {
-                worst = std::max(worst, std::abs(folded[b * 8 + lane] / expected[b] - 1.0));
-            }
+            worst = std::max(worst, test::largest_error(lanes_of(folded, lane, 1), expected));
         }
         // A tone of 360 Hz over 2511 meshes is 75,000 periods: the product f T_m alone is rounded
         // to 1e-11.
@@ -159,15 +157,11 @@ TEST_CASE(
 
     machine::AlignedVector folded;
     fold_squares(tile.signals, FoldPlan(timeline, layout), path, kExponents, tones, folded);
-    std::vector<double> bins(31 * 6, 0.0);
+    machine::AlignedVector bins(31 * 6, 0.0);
     for (std::size_t i = 0; i < signal.size(); ++i) {
         bins[i % bins.size()] = std::fma(signal[i], signal[i], bins[i % bins.size()]);
     }
-    bool same = true;
-    for (std::size_t b = 0; b < bins.size(); ++b) {
-        same = same && bins[b] == folded[b * 8 + lane];
-    }
-    CHECK(same);
+    CHECK(lanes_of(folded, lane, 1) == bins);
 }
 
 TEST_CASE("Tones of another shape than the tile are refused") {

@@ -38,10 +38,8 @@ TEST_CASE(
         OrderSpectrum spectrum(points);
         spectrum.load(signal, noise);
         for (const double factor : {0.0, 0.5, 3.0}) {
-            std::vector<double> mixed(points);
-            for (int i = 0; i < points; ++i) {
-                mixed[i] = signal[i] + factor * noise[i];
-            }
+            std::vector<double> mixed =
+                test::tabulated(points, [&](int i) { return signal[i] + factor * noise[i]; });
             const std::vector<double> expected = direct_amplitudes(mixed);
             std::vector<double> amplitudes(spectrum.orders());
             spectrum.amplitudes(factor, amplitudes);
@@ -53,10 +51,8 @@ TEST_CASE(
 
 TEST_CASE("A sine of one order has its amplitude at that order alone") {
     const int points = 31 * 16;
-    std::vector<double> signal(points);
-    for (int i = 0; i < points; ++i) {
-        signal[i] = 2.5 * std::sin(2.0 * kPi * 31.0 * i / points + 0.4) + 0.7;
-    }
+    const auto signal = test::tabulated(
+        points, [&](int i) { return 2.5 * std::sin(2.0 * kPi * 31.0 * i / points + 0.4) + 0.7; });
     OrderSpectrum spectrum(points);
     spectrum.load(signal);
     std::vector<double> amplitudes(spectrum.orders());
@@ -68,10 +64,7 @@ TEST_CASE("A sine of one order has its amplitude at that order alone") {
 }
 
 TEST_CASE("Noise that is zero throughout leaves the signal's spectrum unchanged") {
-    std::vector<double> signal(62);
-    for (std::size_t i = 0; i < signal.size(); ++i) {
-        signal[i] = std::cos(0.3 * static_cast<double>(i * i));
-    }
+    const auto signal = test::tabulated(62, [](int i) { return std::cos(0.3 * (i * i)); });
     OrderSpectrum spectrum(62);
     std::vector<double> alone(spectrum.orders()), with_other(spectrum.orders());
     spectrum.load(signal);
@@ -96,11 +89,7 @@ namespace gearpod::signals::test_mesh_separation {
 constexpr double kTwoPi = 2.0 * std::numbers::pi;
 
 std::vector<double> sampled(int points, const auto& function) {
-    std::vector<double> values;
-    for (int i = 0; i < points; ++i) {
-        values.push_back(function(kTwoPi * i / points));
-    }
-    return values;
+    return test::tabulated(points, [&](int i) { return function(kTwoPi * i / points); });
 }
 
 TEST_CASE("Mesh harmonics, their first sidebands and the rest go to their parts") {

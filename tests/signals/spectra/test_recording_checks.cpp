@@ -1,7 +1,7 @@
 #include "signals/spectra/recording_checks.hpp"
 #include "signals/spectra/speed_variation.hpp"
 #include "signals/spectra/wide_speed.hpp"
-#include "tests/test.hpp"
+#include "tests/numbers.hpp"
 
 namespace gearpod::signals::test_mesh_speed {
 
@@ -166,10 +166,7 @@ TEST_CASE("Few turns, noise alone and silence give no result") {
         !lost_samples(std::span(samples).first(5 * kTurnMeshes * kPerMesh), kPerMesh, kTurnMeshes));
     std::mt19937 engine(1);
     std::normal_distribution<double> draw;
-    std::vector<double> noise(samples.size());
-    for (double& value : noise) {
-        value = draw(engine);
-    }
+    std::vector<double> noise = test::tabulated(samples.size(), [&](auto) { return draw(engine); });
     CHECK(!lost_samples(noise, kPerMesh, kTurnMeshes));
     CHECK(!lost_samples(std::vector<double>(samples.size(), 0.0), kPerMesh, kTurnMeshes));
     CHECK(!lost_samples({}, kPerMesh, kTurnMeshes));

@@ -1,21 +1,13 @@
 #include "signals/spectra/synchronous_average.hpp"
 #include "signals/windowing/tooth_statistics.hpp"
 #include "signals/windowing/windowing.hpp"
-#include "tests/test.hpp"
+#include "tests/numbers.hpp"
 
 namespace gearpod::signals::test_tooth_signals {
 
 constexpr double kTwoPi = 2.0 * std::numbers::pi;
 
-std::vector<double> normal_samples(std::size_t count, unsigned seed) {
-    std::mt19937_64 engine(seed);
-    std::normal_distribution<double> normal;
-    std::vector<double> samples(count);
-    for (double& sample : samples) {
-        sample = normal(engine);
-    }
-    return samples;
-}
+using test::normal_values;
 
 TEST_CASE("The turns of a gear fill whole turns of the carrier") {
     // Liang's 19/31/81 with the ring fixed: 81 meshes per carrier turn.
@@ -32,7 +24,7 @@ TEST_CASE("The turns of a gear fill whole turns of the carrier") {
 TEST_CASE("A tooth's RMS matches the folded squares") {
     const int phases = 12;
     const GearTurns gear{7, 5};
-    const auto samples = normal_samples(gear.meshes() * phases + 40, 1);  // and some more
+    const auto samples = normal_values(gear.meshes() * phases + 40, 1);  // and some more
     const auto span = std::span(samples).first(gear.meshes() * phases);
     Windowing windowing(gear.layout(), phases, 0.3);
     std::vector<double> rms(7);
@@ -47,7 +39,7 @@ TEST_CASE("A tooth's RMS matches the folded squares") {
 TEST_CASE("A shock once per turn of a gear affects one tooth of that gear only") {
     // Teeth 13/11/35. The sun's tooth 4 has a shock once in 13 meshes, over 13 x 35 meshes.
     const int phases = 16;
-    auto samples = normal_samples(13 * 35 * phases, 2);
+    auto samples = normal_values(13 * 35 * phases, 2);
     for (int k = 4; k < 13 * 35; k += 13) {
         samples[k * phases + 5] += 12.0;
     }
@@ -72,10 +64,7 @@ TEST_CASE("A shock once per turn of a gear affects one tooth of that gear only")
 TEST_CASE("Statistics of a tooth's signal match its samples") {
     // Sine sampled at eight phases with a rectangular window: crest sqrt 2, kurtosis 1.5, M8A 35/8
     // (eighth moment 35/128 over (1/2)^4).
-    std::vector<double> samples(3 * 4 * 8);
-    for (std::size_t i = 0; i < samples.size(); ++i) {
-        samples[i] = std::sin(kTwoPi * static_cast<double>(i) / 8.0);
-    }
+    const std::vector<double> samples = test::sine(1.0, 3 * 4, 3 * 4 * 8);
     for (const int offset : {0, 3}) {
         const auto teeth = tooth_statistics(samples, {4, 3}, std::vector<double>(8, 1.0), offset);
         CHECK(teeth.rms.size() == 4);
@@ -111,7 +100,7 @@ TEST_CASE("Smooth variation along the path is removed, a single tooth remains") 
 
 TEST_CASE("The average over turns keeps the repeating part, the rest is the residual") {
     const int bins = 30, turns = 400;
-    auto samples = normal_samples(bins * turns + 11, 5);
+    auto samples = normal_values(bins * turns + 11, 5);
     for (std::size_t i = 0; i < samples.size(); ++i) {
         samples[i] += 4.0 * std::sin(kTwoPi * static_cast<double>(i) / bins);
     }

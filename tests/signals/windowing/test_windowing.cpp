@@ -28,11 +28,10 @@ std::vector<double> window_and_map(const std::vector<double>& signal, const Span
         for (int n = 1; n <= layout.ring_teeth; ++n) {
             const long first =
                 (static_cast<long>(n - 1) * layout.planet_teeth + s) * phases + offset;
-            std::vector<double> segment;
-            for (int m = 0; m < phases; ++m) {
-                segment.push_back(printed_tukey(m, phases, taper) *
-                                  signal[(first + m) % static_cast<long>(signal.size())]);
-            }
+            std::vector<double> segment = test::tabulated(phases, [&](int m) {
+                return printed_tukey(m, phases, taper) *
+                       signal[(first + m) % static_cast<long>(signal.size())];
+            });
             const int ring_tooth = ((n - 1) * layout.planet_teeth + 1) % layout.ring_teeth;
             of_ring_tooth[ring_tooth == 0 ? layout.ring_teeth - 1 : ring_tooth - 1] = segment;
         }
@@ -69,11 +68,7 @@ TEST_CASE(
 std::vector<double> random_values(std::size_t count, unsigned seed, double low, double high) {
     std::mt19937_64 engine(seed);
     std::uniform_real_distribution<double> uniform(low, high);
-    std::vector<double> values(count);
-    for (double& value : values) {
-        value = uniform(engine);
-    }
-    return values;
+    return test::tabulated(count, [&](auto) { return uniform(engine); });
 }
 
 // Sums the noisy bins one by one for each window as printed, in 80 bits.
@@ -119,9 +114,7 @@ TEST_CASE("Tooth RMS from the folded squares equals windowing and mapping of the
     const int phases = 22;
     for (const double taper : {0.0, 0.1, 0.4, 1.0}) {
         std::vector<double> signal(static_cast<std::size_t>(layout.meshes()) * phases);
-        for (double& y : signal) {
-            y = normal(engine);
-        }
+        std::ranges::generate(signal, [&] { return normal(engine); });
         Windowing windowing(layout, phases, taper);
         std::vector<double> rms(layout.planet_teeth);
         windowing.load(test::folded_squares(signal, 7 * 22));

@@ -56,8 +56,7 @@ struct TorsionalTrain {
 
 // Amplitude of a signal's line at a frequency in cycles per sample, with a Hann window.
 double amplitude_at(const std::vector<double>& signal, double frequency) {
-    const double mean =
-        std::accumulate(signal.begin(), signal.end(), 0.0) / static_cast<double>(signal.size());
+    const double mean = mean_of(signal);
     std::complex<double> sum = 0.0;
     double weights = 0.0;
     for (std::size_t i = 0; i < signal.size(); ++i) {

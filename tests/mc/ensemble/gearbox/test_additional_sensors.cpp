@@ -19,11 +19,7 @@ mc::Results run(const Folder& folder, const std::string& name, const std::string
 
 // Values of a feature at one of the two noise levels.
 std::vector<double> at_level(const mc::FeatureResult& feature, std::size_t level) {
-    std::vector<double> values;
-    for (std::size_t row = 0; 2 * row < feature.values.size(); ++row) {
-        values.push_back(feature.values[2 * row + level]);
-    }
-    return values;
+    return every(2, feature.values, level);
 }
 
 const mc::FeatureResult& named(const std::vector<mc::FeatureResult>& features,

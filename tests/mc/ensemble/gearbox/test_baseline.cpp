@@ -39,11 +39,8 @@ TEST_CASE("Relative features compare the gearbox with its state before the fault
     CHECK(healthy.value(kRatio) == Approx(1.0).margin(1e-6));
     // The difference is due to crack and torque; the crack's part is localized at its tooth.
     const LaneSignals now = faulty.signals(0), then = healthy.signals(0);
-    std::vector<double> change(now.sensor.size());
-    for (std::size_t i = 0; i < change.size(); ++i) {
-        change[i] = now.sensor[i] - then.sensor[i];
-    }
-    CHECK(faulty.value(kChangeRms) == Approx(rms(change)).epsilon(1e-12));
+    const double change = rms_of(difference(now.sensor, then.sensor));
+    CHECK(faulty.value(kChangeRms) == Approx(change).epsilon(1e-12));
     CHECK(faulty.value(kChangeRatio) > 2.0 * faulty.value(kRatio));
 }
 
@@ -108,8 +105,8 @@ TEST_CASE("A baseline torque is refused where no feature uses it") {
     const auto reading = read_study(test::study_path("planet-crack-ideal.toml"),
                                     {"features.baseline_torque_scatter=0.05"});
     REQUIRE_FALSE(reading.study);
-    CHECK(format(reading.problems).find("features.baseline_torque_scatter") != std::string::npos);
-    CHECK(format(reading.problems).find("change_") != std::string::npos);
+    CHECK(contains(format(reading.problems), "features.baseline_torque_scatter"));
+    CHECK(contains(format(reading.problems), "change_"));
 }
 
 }  // namespace gearpod::mc::test_baseline

@@ -29,11 +29,7 @@ std::vector<std::uint64_t> bits(const BatchRows& rows) {
 }
 
 std::vector<Batch> test_tiles(std::size_t count) {
-    std::vector<Batch> tiles;
-    for (std::size_t t = 0; t < count; ++t) {
-        tiles.push_back({Group::test, 8 * t, 0, 8});
-    }
-    return tiles;
+    return test::tabulated(count, [&](std::size_t t) { return Batch{Group::test, 8 * t, 0, 8}; });
 }
 
 TEST_CASE("Cached responses are not integrated again, and give the same bits") {

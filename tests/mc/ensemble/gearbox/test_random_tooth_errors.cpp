@@ -135,10 +135,8 @@ TEST_CASE("Tooth errors belong to the gearbox: the same in any lane, for any noi
     const auto of = [](std::vector<std::string> overrides, const std::vector<GearboxId>& ids) {
         overrides.push_back("gearbox.tooth_quality=6");
         const Scene scene(study_with(overrides));
-        std::vector<Realization> gearboxes;
-        for (const GearboxId& id : ids) {
-            gearboxes.push_back(scene.sampler().draw(id));
-        }
+        std::vector<Realization> gearboxes =
+            test::mapped(ids, [&](const GearboxId& id) { return scene.sampler().draw(id); });
         return draw_tooth_errors(*scene.gearbox().tooth_errors, scene.draw(), gearboxes);
     };
     const auto alone = of({}, {{Group::test, 5}});

@@ -75,11 +75,7 @@ TEST_CASE("Redrawn teeth are the gearbox's own errors, shifted by whole teeth") 
         return draw_tooth_errors(*scene.gearbox().tooth_errors, scene.draw(), both);
     };
     const auto lane = [](const machine::AlignedVector& values, std::size_t which) {
-        std::vector<double> own;
-        for (std::size_t i = which; i < values.size(); i += 4) {
-            own.push_back(values[i]);
-        }
-        return own;
+        return every(4, values, which);
     };
     const lockstep::ToothErrors same = errors_of({}),
                                 other = errors_of({"features.baseline_redraws=[\"teeth\"]"});

@@ -44,12 +44,8 @@ TEST_CASE("The features of a short record are those of its samples") {
         turn[i % turn.size()] +=
             signals.te[static_cast<std::size_t>(window.first_mesh) * te_samples + i] / window.turns;
     }
-    const double mean =
-        std::accumulate(turn.begin(), turn.end(), 0.0) / static_cast<double>(turn.size());
-    for (double& value : turn) {
-        value -= mean;
-    }
-    CHECK(record.value(2) == Approx(rms(turn)).epsilon(1e-9));
+    const std::vector<double> mean(turn.size(), mean_of(turn));
+    CHECK(record.value(2) == Approx(rms_of(difference(turn, mean))).epsilon(1e-9));
 }
 
 TEST_CASE("Noise of a short record has its own number of samples") {
@@ -216,10 +212,9 @@ TEST_CASE("Gearboxes that are computed together have the window of the first one
     // Others have the window of the first one, whatever tile computes them.
     const Computed other(real_teeth({}), {{Group::test, 19}});
     CHECK(other.window().first_mesh == alone.window().first_mesh);
-    std::vector<GearboxId> ids;
-    for (std::uint64_t index = 16; index < 24; ++index) {
-        ids.push_back({Group::test, index});
-    }
+    const auto ids = tabulated(8, [](int lane) {
+        return GearboxId{Group::test, std::uint64_t(16 + lane)};
+    });
     const GearboxTile tile = run_gearboxes(other.scene().tile(), ids, 8);
     const HealthyReference healthy;
     RealizationFeatures features(other.scene().tile(), &healthy);
@@ -321,8 +316,7 @@ TEST_CASE("Lengths of records that make no sense are refused, and reports state 
     const std::string conditions = record_conditions(ideal_crack_study({"sensor.record_turns=4"}));
     CHECK(contains(conditions, "begins at a random tooth position"));
     CHECK(contains(conditions, "10 of the 81 ring teeth that it can meet (12 %)"));
-    CHECK(record_conditions(ideal_crack_study({})).find("81 of the 81 ring teeth") !=
-          std::string::npos);
+    CHECK(contains(record_conditions(ideal_crack_study({})), "81 of the 81 ring teeth"));
 }
 
 }  // namespace gearpod::mc::test_record_window

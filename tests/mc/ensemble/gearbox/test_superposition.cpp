@@ -29,10 +29,9 @@ Study study_with(const std::string& horizon, const std::vector<std::string>& mor
 class Tile {
   public:
     explicit Tile(const Study& study) : scene_(study) {
-        std::vector<GearboxId> ids;
-        for (std::uint64_t i = 0; i < 8; ++i) {
-            ids.push_back({Group::test, i});
-        }
+        std::vector<GearboxId> ids = test::tabulated(8, [&](std::uint64_t i) {
+            return GearboxId{Group::test, i};
+        });
         tile_ = run_gearboxes(scene_.tile(), ids, 8);
     }
     const GearboxTile& operator*() const { return tile_; }
@@ -49,12 +48,7 @@ class Tile {
 };
 
 double relative_rms(const std::vector<double>& a, const std::vector<double>& b) {
-    double difference = 0.0, size = 0.0;
-    for (std::size_t i = 0; i < a.size(); ++i) {
-        difference += (a[i] - b[i]) * (a[i] - b[i]);
-        size += b[i] * b[i];
-    }
-    return std::sqrt(difference / size);
+    return test::rms_of(test::difference(a, b)) / test::rms_of(b);
 }
 
 const std::string kLight =

@@ -76,10 +76,8 @@ Coverage coverage_of(Synthetic& synthetic, std::size_t sets) {
     std::vector<SimulatedSet> first;
     Coverage coverage{std::vector<double>(kPriors.size()), std::vector<double>(kPriors.size())};
     for (std::size_t set = 0; set < sets; ++set) {
-        std::vector<double> truth;
-        for (std::size_t p = 0; p < kPriors.size(); ++p) {
-            truth.push_back(prior(engine));
-        }
+        std::vector<double> truth =
+            test::tabulated(kPriors.size(), [&](std::size_t) { return prior(engine); });
         const CalibrationResult result = synthetic.find(truth, set, first);
         for (std::size_t p = 0; p < truth.size(); ++p) {
             const nlohmann::ordered_json& found = result.json["inputs"][p];
@@ -192,8 +190,7 @@ TEST_CASE("Exported recordings give a study file that runs, independent of the n
           Approx(inputs[2]["median"].get<double>())
               .margin(0.1 * (inputs[2]["high"].get<double>() - inputs[2]["low"].get<double>())));
     CHECK(study.study->detection.uncertain_inputs.size() == 4);
-    CHECK(bytes_of(folder.file("c.toml")).find("THE RECORDINGS DO NOT DETERMINE IT") !=
-          std::string::npos);
+    CHECK(contains(bytes_of(folder.file("c.toml")), "THE RECORDINGS DO NOT DETERMINE IT"));
     require_success("run " + folder.file("c.toml") + " --quiet --instances 2 --out " +
                     folder.file("c.h5"));
 }
