@@ -4,7 +4,8 @@
 #include "lockstep/integrators/sensor_filter.hpp"
 #include "lockstep/tile/tile_integrators.hpp"
 #include "tests/lockstep/liang_train.hpp"
-#include "tests/test.hpp"
+#include "tests/numbers.hpp"
+#include "tests/signals/butterworth.hpp"
 
 namespace gearpod::lockstep::test_bearing_sources {
 
@@ -39,11 +40,8 @@ MeshRecord last_mesh(const IntegrationPlan& plan, int meshes = kMeshes) {
 
 // Values of one column of a record over the mesh period.
 std::vector<double> column(const machine::AlignedVector& rows, int columns, int at) {
-    std::vector<double> values;
-    for (int p = 0; p < kSamples; ++p) {
-        values.push_back(rows[static_cast<std::size_t>(p * columns + at)]);
-    }
-    return values;
+    return test::tabulated(kSamples,
+                           [&](int p) { return rows[static_cast<std::size_t>(p * columns + at)]; });
 }
 
 Complex line(const std::vector<double>& values, int k) {
@@ -55,14 +53,8 @@ Complex line(const std::vector<double>& values, int k) {
     return sum / static_cast<double>(kSamples);
 }
 
-// Butterworth filter of order 4.
 Complex low_pass(double w) {
-    const double r = w / kLowPass_rad_s;
-    Complex all = 1.0;
-    for (const double angle : {std::numbers::pi / 8.0, 3.0 * std::numbers::pi / 8.0}) {
-        all /= Complex(1.0 - r * r, 2.0 * std::cos(angle) * r);
-    }
-    return all;
+    return test::butterworth(w / kLowPass_rad_s);
 }
 
 // Largest error of the low harmonics of a source's absolute acceleration, over the largest one.

@@ -4,17 +4,15 @@
 #include "signals/path/transmission_path.hpp"
 #include "signals/sensor/sensor_signal.hpp"
 #include "tests/numbers.hpp"
+#include "tests/signals/butterworth.hpp"
 
 namespace gearpod::signals::test_housing_response {
 
 constexpr double kPi = std::numbers::pi;
 
 std::vector<double> cosine(int samples, int cycles) {
-    std::vector<double> signal;
-    for (int i = 0; i < samples; ++i) {
-        signal.push_back(std::cos(2.0 * kPi * cycles * i / samples));
-    }
-    return signal;
+    return test::tabulated(samples,
+                           [&](int i) { return std::cos(2.0 * kPi * cycles * i / samples); });
 }
 
 std::vector<double> response_to(const std::vector<double>& signal, double sampling_Hz,
@@ -89,10 +87,7 @@ TEST_CASE("A response of gain 1 and linear phase delays a signal") {
         response.measured->frequency_Hz.push_back(k);
         response.measured->value.push_back(std::polar(1.0, -2.0 * kPi * k * kDelay / kSamples));
     }
-    std::vector<double> signal(kSamples);
-    for (std::size_t i = 0; i < signal.size(); ++i) {
-        signal[i] = static_cast<double>(i * i % 17) - 8.0;
-    }
+    const auto signal = test::tabulated(kSamples, [](int i) { return i * i % 17 - 8.0; });
     const auto out = response_to(signal, kSamples, response);
     for (std::size_t i = 0; i < signal.size(); ++i) {
         REQUIRE(out[(i + kDelay) % kSamples] == Approx(signal[i]).margin(1e-10));
@@ -199,22 +194,13 @@ constexpr double kPi = std::numbers::pi;
 constexpr double kSampling_Hz = 2000.0;
 constexpr int kSamples = 2000;  // one second: harmonics at whole Hz
 
-// Butterworth low-pass of order 4 by its poles on the unit circle.
-Complex butterworth(double r) {
-    Complex product = 1.0;
-    for (const double turns : {5.0, 7.0, 9.0, 11.0}) {
-        product *= Complex(0.0, r) - std::polar(1.0, turns * kPi / 8.0);
-    }
-    return 1.0 / product;
-}
+using test::butterworth;
 
 // Sine of that frequency with a complex amplitude.
 std::vector<double> sine(double f_Hz, Complex amplitude) {
-    std::vector<double> signal;
-    for (int i = 0; i < kSamples; ++i) {
-        signal.push_back((amplitude * std::polar(1.0, 2.0 * kPi * f_Hz * i / kSampling_Hz)).imag());
-    }
-    return signal;
+    return test::tabulated(kSamples, [&](int i) {
+        return (amplitude * std::polar(1.0, 2.0 * kPi * f_Hz * i / kSampling_Hz)).imag();
+    });
 }
 
 std::vector<double> measured_by(const MeasuringChain& chain, const std::vector<double>& signal) {
@@ -244,10 +230,7 @@ TEST_CASE("A low-pass of its own takes the place of the one that was applied") {
 }
 
 TEST_CASE("A delay of whole samples shifts them, and one of half a sample shifts a sine") {
-    std::vector<double> signal(kSamples);
-    for (std::size_t i = 0; i < signal.size(); ++i) {
-        signal[i] = static_cast<double>(i * i % 17) - 8.0;
-    }
+    const auto signal = test::tabulated(kSamples, [](int i) { return i * i % 17 - 8.0; });
     for (const int shift : {7, -3, 0}) {
         const auto out =
             measured_by({.low_pass = {}, .mounting = {}, .delay_s = shift / kSampling_Hz}, signal);
@@ -277,10 +260,8 @@ TEST_CASE("A mounting responds as one mode with participation 1") {
 
 TEST_CASE("A sampling rate of its own keeps its samples and no frequency above half of it") {
     for (const int count : {60, 45}) {
-        std::vector<double> signal;
-        for (int i = 0; i < count; ++i) {
-            signal.push_back(static_cast<double>(i * i % 23) - 9.0);
-        }
+        std::vector<double> signal =
+            test::tabulated(count, [&](int i) { return static_cast<double>(i * i % 23) - 9.0; });
         for (const int own : {1, 7, 8, 15, 22, 30, 44}) {
             INFO(count << " " << own);
             const double rate = kSampling_Hz * own / count;

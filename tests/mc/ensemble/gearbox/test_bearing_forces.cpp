@@ -8,6 +8,7 @@
 #include "tests/mc/liang_signals.hpp"
 #include "tests/mc/study_file.hpp"
 #include "tests/numbers.hpp"
+#include "tests/signals/butterworth.hpp"
 
 namespace gearpod::test_bearing_forces {
 
@@ -49,14 +50,9 @@ TwoSignals signals_of(const mc::Scene& scene, const mc::GearboxTile& tile) {
     return {all.sensor, all.additional.front().sensor};
 }
 
-// Butterworth filter of order 4 of the study.
+// Filter of the study.
 Complex low_pass(double f_Hz) {
-    const double r = f_Hz / kLowPass_Hz;
-    Complex all = 1.0;
-    for (const double angle : {kPi / 8.0, 3.0 * kPi / 8.0}) {
-        all /= Complex(1.0 - r * r, 2.0 * std::cos(angle) * r);
-    }
-    return all;
+    return butterworth(f_Hz / kLowPass_Hz);
 }
 
 // Acceleration of a damped oscillator of unit mass under a unit force.
@@ -248,11 +244,7 @@ TEST_CASE("Gearboxes coupled by an elastic shaft have forces in bearings, too") 
             "sensor.housing_modes=[{frequency_Hz=70, damping=0.03, "
             "participation=0.8}, {frequency_Hz=90, damping=0.02, "
             "participation=0.5, nodal_diameters=2}]");
-        double sum = 0.0;
-        for (std::size_t i = 0; i < with.size(); ++i) {
-            sum += (with[i] - without[i]) * (with[i] - without[i]);
-        }
-        return std::sqrt(sum / static_cast<double>(with.size()));
+        return rms_of(difference(with, without));
     };
     const double alone = rms("");
     CHECK(alone > 0.0);

@@ -8,6 +8,7 @@
 #include "mc/study/study.hpp"
 #include "tests/mc/ensemble/gearbox/small_runs.hpp"
 #include "tests/mc/study_file.hpp"
+#include "tests/signals/butterworth.hpp"
 
 namespace gearpod::test_own_chain {
 
@@ -37,12 +38,7 @@ Complex component(const std::vector<double>& signal, std::size_t harmonic) {
 
 // Rms of the noise in a column.
 double noise_rms(const Columns& columns, const std::string& sensor) {
-    const std::vector<double>&clean = columns.at(sensor), &noisy = columns.at(sensor + "_noise_1");
-    double sum = 0.0;
-    for (std::size_t i = 0; i < clean.size(); ++i) {
-        sum += (noisy[i] - clean[i]) * (noisy[i] - clean[i]);
-    }
-    return std::sqrt(sum / static_cast<double>(clean.size()));
+    return rms_of(difference(columns.at(sensor + "_noise_1"), columns.at(sensor)));
 }
 
 // The sensor does not measure the gearbox.
@@ -56,16 +52,9 @@ const std::string kChain =
 // Response of a mounting of 70 Hz with a damping ratio of 0.05 after a low-pass of 50 Hz in place
 // of 120 Hz, delayed by 4 ms.
 Complex chain_at(double f_Hz) {
-    const auto low_pass = [&](double corner_Hz) {
-        Complex product = 1.0;
-        for (const double eighths : {5.0, 7.0, 9.0, 11.0}) {
-            product *= Complex(0.0, f_Hz / corner_Hz) - std::polar(1.0, eighths * kPi / 8.0);
-        }
-        return 1.0 / product;
-    };
     const double r = f_Hz / 70.0;
     const Complex mounting = 1.0 + r * r / Complex(1.0 - r * r, 0.1 * r);
-    return low_pass(50.0) / low_pass(kLowPass_Hz) * mounting *
+    return butterworth(f_Hz / 50.0) / butterworth(f_Hz / kLowPass_Hz) * mounting *
            std::polar(1.0, -2.0 * kPi * f_Hz * 0.004);
 }
 
@@ -73,10 +62,7 @@ Complex chain_at(double f_Hz) {
 void check_spectra(const Columns& columns) {
     const std::vector<double>&first = columns.at("sensor"), &own = columns.at("sensor_side");
     const double step_Hz = 1.0 / (columns.at("time")[1] * static_cast<double>(first.size()));
-    double largest = 0.0;
-    for (const double value : first) {
-        largest = std::max(largest, std::abs(value));
-    }
+    const double largest = largest_magnitude(first);
     REQUIRE(largest > 0.0);
     for (std::size_t k = 0; k < first.size() / 2; k += 65) {
         INFO(k);
@@ -141,12 +127,11 @@ TEST_CASE("Noise by density passes the low-pass of each sensor") {
           Approx(3.0 * 0.01 * std::sqrt(kBandwidth * 40.0)).epsilon(0.07));
     // The samples are those of a sensor with that low-pass: half a period of 40 Hz apart, 3.5
     // samples, they are anticorrelated; white noise is not.
-    const std::vector<double>&clean = columns.at("sensor_side"),
-          &noisy = columns.at("sensor_side_noise_1");
+    const auto noise = difference(columns.at("sensor_side_noise_1"), columns.at("sensor_side"));
     double lag = 0.0, all = 0.0;
-    for (std::size_t i = 0; i + 1 < clean.size(); ++i) {
-        lag += (noisy[i] - clean[i]) * (noisy[i + 1] - clean[i + 1]);
-        all += (noisy[i] - clean[i]) * (noisy[i] - clean[i]);
+    for (std::size_t i = 0; i + 1 < noise.size(); ++i) {
+        lag += noise[i] * noise[i + 1];
+        all += noise[i] * noise[i];
     }
     CHECK(lag / all > 0.7);
 }
@@ -302,10 +287,7 @@ TEST_CASE("Noise of a sensor lies below half its sampling rate, with the stated 
             signals_of_small(folder, side(fields + ", low_pass_Hz=40, sampling_Hz=100") + options);
         INFO(fields << options);
         CHECK(noise_rms(columns, "sensor_side") == Approx(rms).epsilon(0.08));
-        std::vector<double> noise = columns.at("sensor_side_noise_1");
-        for (std::size_t i = 0; i < noise.size(); ++i) {
-            noise[i] -= columns.at("sensor_side")[i];
-        }
+        const auto noise = difference(columns.at("sensor_side_noise_1"), columns.at("sensor_side"));
         const double step_Hz = 1.0 / (columns.at("time")[1] * static_cast<double>(noise.size()));
         const auto power = [&](double from_Hz, double to_Hz) {
             double sum = 0.0;
