@@ -4,35 +4,37 @@
 #include "mc/study/new/rules.hpp"
 #include "mc/study/study.hpp"
 #include "tests/mc/program.hpp"
-#include "tests/test.hpp"
+#include "tests/mc/study/new/gear_sets.hpp"
 
 namespace gearpod::mc::test_new_planetary {
 
 using namespace gearpod::test;
 
 mc::PlanetaryDatasheet wind_turbine() {
-    mc::PlanetaryDatasheet data;
-    data.sun = 21;
-    data.planet = 39;
-    data.ring = 99;
-    data.module_mm = 12;
+    mc::PlanetaryDatasheet data = teeth(21, 39, 99, 3, 12);
     data.input = "carrier";
     data.torque_N_m = 800e3;
     data.speed_rpm = 18;
     return data;
 }
 
-std::string all_of(const mc::Problems& problems) {
-    return format(problems);
+// Problems of a datasheet, one per line; none if it gives a study.
+std::string problems_of(const mc::PlanetaryDatasheet& data) {
+    const mc::NewStudy made = new_planetary(data, "new planetary");
+    CHECK(made.text.empty() != made.problems.empty());
+    return format(made.problems);
+}
+
+// The study that a datasheet gives.
+mc::Study study_of(const mc::PlanetaryDatasheet& data) {
+    INFO(problems_of(data));
+    const auto reading = mc::read_study_text(new_planetary(data, "new planetary").text, "s.toml");
+    REQUIRE(reading.study);
+    return *reading.study;
 }
 
 TEST_CASE("A study from a datasheet has its gears, their load and bodies of steel") {
-    const mc::NewStudy made = new_planetary(wind_turbine(), "new planetary");
-    INFO(format(made.problems));
-    REQUIRE(made.problems.empty());
-    const auto reading = mc::read_study_text(made.text, "s.toml");
-    REQUIRE(reading.study);
-    const mc::Study& study = *reading.study;
+    const mc::Study study = study_of(wind_turbine());
     CHECK(mc::teeth_of(study, mc::Member::ring) == 99);
     CHECK(study.operation.torque_N_m == 800e3);
     CHECK(*study.operation.carrier_speed_rad_s == Approx(18.0 * M_PI / 30.0));
@@ -44,9 +46,10 @@ TEST_CASE("A study from a datasheet has its gears, their load and bodies of stee
           Approx(7850.0 * M_PI * (outer * outer - inner * inner) * 0.151).epsilon(1e-3));
     CHECK(inner == Approx(0.219 - 1.2 * 0.027).epsilon(1e-3));
     // Every rule of thumb has its source or is marked as chosen.
+    const std::string text = new_planetary(wind_turbine(), "new planetary").text;
     for (const char* word : {"Shigley", "AGMA 2001", "Kraemer", "Kasuba", "ISO 286", "chosen"}) {
         INFO(word);
-        CHECK(contains(made.text, word));
+        CHECK(contains(text, word));
     }
 }
 
@@ -54,43 +57,26 @@ TEST_CASE("Power replaces torque or speed") {
     mc::PlanetaryDatasheet data = wind_turbine();
     data.torque_N_m.reset();
     data.power_kW = 1508;
-    const auto made = new_planetary(data, "new planetary");
-    REQUIRE(made.problems.empty());
-    const auto study = mc::read_study_text(made.text, "s.toml").study;
-    REQUIRE(study);
-    CHECK(study->operation.torque_N_m == Approx(1508e3 / (18.0 * M_PI / 30.0)).epsilon(1e-3));
+    CHECK(study_of(data).operation.torque_N_m ==
+          Approx(1508e3 / (18.0 * M_PI / 30.0)).epsilon(1e-3));
 
     data.torque_N_m = 1.0;
-    CHECK(all_of(new_planetary(data, "c").problems).find("3 of the three are given") !=
-          std::string::npos);
+    CHECK(contains(problems_of(data), "3 of the three are given"));
     data.torque_N_m.reset();
     data.power_kW = -2;
-    CHECK(all_of(new_planetary(data, "c").problems).find("--power") != std::string::npos);
+    CHECK(contains(problems_of(data), "--power"));
 }
 
 // Mesh frequencies: 567 Hz for the stage of a Bell 206B, 656 Hz for SpectraQuest's rig of 28/36/100
 // teeth.
 TEST_CASE("Gears with mesh frequencies above 512 Hz have studies") {
     for (const double speed_rpm : {343.8, 3000.0, 60000.0}) {
-        mc::PlanetaryDatasheet data;
-        data.sun = 27;
-        data.planet = 35;
-        data.ring = 99;
-        data.planets = 4;
-        data.module_mm = 3.175;
-        data.sun_shift = 0.3;
-        data.centre_distance_mm = 100.0125;
-        data.input = "carrier";
-        data.power_kW = 250;
-        data.speed_rpm = speed_rpm;
-        const mc::NewStudy made = new_planetary(data, "new planetary");
-        INFO(speed_rpm << ": " << format(made.problems));
-        REQUIRE(made.problems.empty());
-        const auto study = mc::read_study_text(made.text, "s.toml").study;
-        REQUIRE(study);
-        CHECK(study->sensor.low_pass_Hz == 10000.0);
-        CHECK(study->sensor.encoder_sampling_Hz == study->sensor.sampling_Hz);
-        CHECK(study->sensor.sampling_Hz >= std::max(60000.0, 12 * 99 * speed_rpm / 60));
+        INFO(speed_rpm);
+        const auto bell = working(teeth(27, 35, 99, 4, 3.175), 0.3, 100.0125);
+        const auto sensor = study_of(with_input(bell, "carrier", 250, speed_rpm)).sensor;
+        CHECK(sensor.low_pass_Hz == 10000.0);
+        CHECK(sensor.encoder_sampling_Hz == sensor.sampling_Hz);
+        CHECK(sensor.sampling_Hz >= std::max(60000.0, 12 * 99 * speed_rpm / 60));
     }
 }
 
@@ -102,17 +88,12 @@ TEST_CASE("Tip circles recommended by a message are available as options") {
     data.module_mm = 2;
     data.power_kW = 1;
     data.speed_rpm = 500;
-    const std::string refused = all_of(new_planetary(data, "new planetary").problems);
+    const std::string refused = problems_of(data);
     INFO(refused);
     CHECK(contains(refused, "tip circles given"));
     CHECK(contains(refused, "--ring-tip"));
     data.ring_tip_mm = 141;
-    const mc::NewStudy made = new_planetary(data, "new planetary");
-    INFO(format(made.problems));
-    REQUIRE(made.problems.empty());
-    const auto study = mc::read_study_text(made.text, "s.toml").study;
-    REQUIRE(study);
-    CHECK(1e3 * *study->gearbox.bodies[mc::Member::ring].tip_diameter_m == Approx(141));
+    CHECK(1e3 * *study_of(data).gearbox.bodies[mc::Member::ring].tip_diameter_m == Approx(141));
     // Options of shifts and addenda are passed in the same way.
     data.addendum = 0.9;
     data.sun_shift = 0.1;
@@ -128,7 +109,7 @@ TEST_CASE("Shifts that leave backlash are refused with the matching value") {
     mc::PlanetaryDatasheet data = wind_turbine();
     data.sun_shift = data.planet_shift = 0.1;
     data.ring_shift = -0.4;
-    const std::string refused = all_of(new_planetary(data, "new planetary").problems);
+    const std::string refused = problems_of(data);
     INFO(refused);
     CHECK(refused.find("new planetary: --ring-shift: leaves") == 0);
     CHECK(std::count(refused.begin(), refused.end(), '\n') == 1);
@@ -138,9 +119,7 @@ TEST_CASE("Impossible geometry is refused with the relevant numbers, all at once
     const auto refused = [](const auto& change) {
         mc::PlanetaryDatasheet data = wind_turbine();
         change(data);
-        const auto made = new_planetary(data, "new planetary");
-        CHECK(made.text.empty());
-        return all_of(made.problems);
+        return problems_of(data);
     };
     const auto ring = refused([](auto& data) { data.ring = 98; });
     CHECK(contains(ring, "--ring"));
@@ -214,11 +193,7 @@ TEST_CASE("new refuses inputs that are no gear set and writes nothing") {
 constexpr double kSun = 0.09995, kPlanet = 0.2, kRing = -0.5, kDistance_mm = 557.089;
 
 mc::PlanetaryDatasheet measured(int subset) {
-    mc::PlanetaryDatasheet data;
-    data.sun = 62;
-    data.planet = 17;
-    data.ring = 96;
-    data.module_mm = 14;
+    mc::PlanetaryDatasheet data = teeth(62, 17, 96, 3, 14);
     data.power_kW = 100;
     data.speed_rpm = 152.9;
     const auto given = [&](int bit, double value) {
@@ -232,26 +207,21 @@ mc::PlanetaryDatasheet measured(int subset) {
 }
 
 TEST_CASE("Ring and planet shift give the published centre distance and the sun's shift") {
-    const mc::NewStudy made = new_planetary(measured(2 | 4), "new planetary");
-    INFO(format(made.problems));
-    const auto study = mc::read_study_text(made.text, "s.toml").study;
-    REQUIRE(study);
-    CHECK(1e3 * mc::centre_distance_m(*study) == Approx(kDistance_mm).epsilon(1e-6));
-    CHECK(mc::gear_of(*study, mc::Member::sun).profile_shift == Approx(0.1).margin(1e-3));
-    CHECK(mc::working_angle_rad(*study, mc::MeshKind::ring_planet) ==
+    const mc::Study study = study_of(measured(2 | 4));
+    CHECK(1e3 * mc::centre_distance_m(study) == Approx(kDistance_mm).epsilon(1e-6));
+    CHECK(mc::gear_of(study, mc::Member::sun).profile_shift == Approx(0.1).margin(1e-3));
+    CHECK(mc::working_angle_rad(study, mc::MeshKind::ring_planet) ==
           Approx(21.125 * 3.14159265 / 180).epsilon(1e-4));
 }
 
 TEST_CASE("Every determined combination of shifts and centre distance gives the same set") {
     // Two shifts, or one shift and the distance.
     for (const int subset : {3, 5, 6, 7, 9, 10, 11, 12, 13, 14, 15}) {
-        const mc::NewStudy made = new_planetary(measured(subset), "new planetary");
-        INFO(subset << ": " << format(made.problems));
-        const auto study = mc::read_study_text(made.text, "s.toml").study;
-        REQUIRE(study);
-        CHECK(1e3 * mc::centre_distance_m(*study) == Approx(kDistance_mm).epsilon(1e-4));
-        CHECK(mc::gear_of(*study, mc::Member::sun).profile_shift == Approx(kSun).margin(5e-3));
-        CHECK(mc::gear_of(*study, mc::Member::ring).profile_shift == Approx(kRing).margin(5e-3));
+        INFO(subset);
+        const mc::Study study = study_of(measured(subset));
+        CHECK(1e3 * mc::centre_distance_m(study) == Approx(kDistance_mm).epsilon(1e-4));
+        CHECK(mc::gear_of(study, mc::Member::sun).profile_shift == Approx(kSun).margin(5e-3));
+        CHECK(mc::gear_of(study, mc::Member::ring).profile_shift == Approx(kRing).margin(5e-3));
     }
 }
 
@@ -259,20 +229,19 @@ TEST_CASE("Contradictory shifts and distances are refused with the values") {
     // A distance 4 mm too large opens the sun mesh by 0.22 modules, 8 mm by 0.4 modules.
     mc::PlanetaryDatasheet data = measured(1 | 2 | 8);
     data.centre_distance_mm = kDistance_mm + 8;
-    const std::string open = format(new_planetary(data, "new planetary").problems);
+    const std::string open = problems_of(data);
     INFO(open);
-    CHECK(open.find("--planet-shift: leaves") != std::string::npos);
-    CHECK(open.find("between sun and planets at a centre distance of 565.089 mm") !=
-          std::string::npos);
-    CHECK(open.find("leaves none") != std::string::npos);
+    CHECK(contains(open, "--planet-shift: leaves"));
+    CHECK(contains(open, "between sun and planets at a centre distance of 565.089 mm"));
+    CHECK(contains(open, "leaves none"));
     data.centre_distance_mm = kDistance_mm - 4;
     CHECK(!new_planetary(data, "new planetary").problems.empty());
     // A ring shift that contradicts the other two.
     data = measured(7);
     data.ring_shift = -0.7;
-    const std::string ring = format(new_planetary(data, "new planetary").problems);
+    const std::string ring = problems_of(data);
     INFO(ring);
-    CHECK(ring.find("--ring-shift: leaves") != std::string::npos);
+    CHECK(contains(ring, "--ring-shift: leaves"));
 }
 
 using std::numbers::pi;
