@@ -9,11 +9,7 @@ namespace gearpod::gears::test_corner_contact {
 using std::numbers::pi;
 
 Gear gear(int teeth, bool internal = false, double shift = 0) {
-    Gear g;
-    g.teeth = teeth;
-    g.module_m = 3.175e-3;
-    g.pressure_angle_rad = 20 * pi / 180;
-    g.internal = internal;
+    Gear g{teeth, internal, 3.175e-3, 20 * pi / 180};
     g.profile_shift = shift;
     return g;
 }

@@ -8,21 +8,13 @@ namespace gearpod::gears::test_shift_problems {
 constexpr double kDegree = std::numbers::pi / 180;
 
 Gear gear(int teeth, double shift = 0) {
-    Gear gear;
-    gear.teeth = std::abs(teeth);
-    gear.internal = teeth < 0;
-    gear.module_m = 2e-3;
-    gear.pressure_angle_rad = 20 * kDegree;
+    Gear gear{std::abs(teeth), teeth < 0, 2e-3, 20 * kDegree};
     gear.profile_shift = shift;
     return gear;
 }
 
 bool contains(const std::vector<std::string>& problems, const std::string& text) {
-    for (const auto& problem : problems)
-        if (problem.find(text) != std::string::npos) {
-            return true;
-        }
-    return false;
+    return std::ranges::any_of(problems, [&](const auto& p) { return test::contains(p, text); });
 }
 
 TEST_CASE("the inverse of the involute function inverts it") {

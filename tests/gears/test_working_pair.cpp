@@ -7,12 +7,7 @@ namespace gearpod::gears::test_working_pair {
 constexpr double kDegree = std::numbers::pi / 180;
 
 Gear standard(int teeth, double module_mm, double angle_deg = 20) {
-    Gear gear;
-    gear.teeth = std::abs(teeth);
-    gear.internal = teeth < 0;
-    gear.module_m = 1e-3 * module_mm;
-    gear.pressure_angle_rad = angle_deg * kDegree;
-    return gear;
+    return {std::abs(teeth), teeth < 0, 1e-3 * module_mm, angle_deg * kDegree};
 }
 
 Gear with(Gear gear, double shift, double shortening = 0) {

@@ -152,12 +152,7 @@ namespace gearpod::stiffness::test_iso_6336_stress {
 constexpr double kPaPerMPa = 1e6;
 
 gears::Gear standard_gear(int teeth, bool internal = false) {
-    gears::Gear gear;
-    gear.teeth = teeth;
-    gear.internal = internal;
-    gear.module_m = 3e-3;
-    gear.pressure_angle_rad = 20.0 * std::numbers::pi / 180.0;
-    return gear;
+    return {teeth, internal, 3e-3, 20.0 * std::numbers::pi / 180.0};
 }
 
 // Source: KISSsoft 03/2017, ISO 6336:2006 method B, reports on stages 2 and 3 of the NREL 5 MW

@@ -11,11 +11,7 @@ constexpr double kAngle = 20 * std::numbers::pi / 180;
 const Material kSteel{2.06e11, 0.3, 0.02, true};
 
 gears::Gear gear(int teeth, double shift, double shortening = 0) {
-    gears::Gear gear;
-    gear.teeth = std::abs(teeth);
-    gear.internal = teeth < 0;
-    gear.module_m = 3e-3;
-    gear.pressure_angle_rad = kAngle;
+    gears::Gear gear{std::abs(teeth), teeth < 0, 3e-3, kAngle};
     gear.profile_shift = shift;
     gear.tip_shortening = shortening;
     return gear;
