@@ -1,7 +1,7 @@
 #include "analysis/pod/hit_miss_pod.hpp"
 #include "analysis/pod/pod_bounds.hpp"
 #include "tests/analysis/reference_data.hpp"
-#include "tests/test.hpp"
+#include "tests/numbers.hpp"
 
 namespace gearpod::analysis::test_hit_miss_pod {
 
@@ -14,11 +14,9 @@ HitMissTable targets() {
 
 HitMissTable levels() {
     const auto columns = reference_columns("hit_miss_levels");
-    HitMissTable table;
-    for (std::size_t i = 0; i < columns[0].size(); ++i) {
-        table.push_back({columns[0][i], columns[1][i], columns[2][i]});
-    }
-    return table;
+    return test::tabulated(columns[0].size(), [&](std::size_t i) {
+        return HitMissRow{columns[0][i], columns[1][i], columns[2][i]};
+    });
 }
 
 SizeBounds bounds_of(const HitMissTable& table, const PodForm& form, double pod) {
@@ -42,49 +40,36 @@ TEST_CASE("The hit/miss fit of a published data set has its published numbers") 
 
 TEST_CASE("All four two-parameter fits and their likelihood-ratio bounds agree with R") {
     struct Row {
-        Link link;
-        bool log_size;
-        double intercept, slope, log_likelihood, a50[3], a90[3];
+        PodForm form;
+        double fit[3];  // intercept, slope, log-likelihood
+        double a50[3], a90[3];
     };
     // Reference: reference/reference_R.txt.
-    const Row rows[] = {{Link::logit,
-                         false,
-                         -11.83265106,
-                         45.30678377,
-                         -12.22836983,
+    const Row rows[] = {{{Link::logit, false, 0.0, false},
+                         {-11.83265106, 45.30678377, -12.22836983},
                          {0.2423077193, 0.2611673148, 0.2817961773},
                          {0.2828695266, 0.3096639061, 0.3564541722}},
-                        {Link::logit,
-                         true,
-                         15.93880201,
-                         11.80174944,
-                         -12.19497445,
+                        {{Link::logit, true, 0.0, false},
+                         {15.93880201, 11.80174944, -12.19497445},
                          {0.2401344837, 0.2590988306, 0.2792576532},
                          {0.2826130874, 0.3121199112, 0.3686309806}},
-                        {Link::probit,
-                         false,
-                         -6.846425033,
-                         26.179584309,
-                         -12.10682702,
+                        {{Link::probit, false, 0.0, false},
+                         {-6.846425033, 26.179584309, -12.10682702},
                          {0.2424759723, 0.2615177086, 0.2823000449},
                          {0.2851180641, 0.3104700625, 0.3569871409}},
-                        {Link::probit,
-                         true,
-                         9.179100871,
-                         6.800078543,
-                         -12.08276606,
+                        {{Link::probit, true, 0.0, false},
+                         {9.179100871, 6.800078543, -12.08276606},
                          {0.2400425729, 0.2592785826, 0.2795649038},
                          {0.2847928826, 0.3130505022, 0.3684848610}}};
     const HitMissTable table = targets();
     for (const Row& row : rows) {
-        const PodForm form{row.link, row.log_size, 0.0, false};
-        INFO(form_text(form));
-        const HitMissFit fit = fit_hit_miss(table, form);
-        CHECK(fit.curve.intercept == Approx(row.intercept).epsilon(3e-6));
-        CHECK(fit.curve.slope == Approx(row.slope).epsilon(3e-6));
-        CHECK(fit.log_likelihood == Approx(row.log_likelihood).epsilon(1e-9));
+        INFO(form_text(row.form));
+        const HitMissFit fit = fit_hit_miss(table, row.form);
+        CHECK(fit.curve.intercept == Approx(row.fit[0]).epsilon(3e-6));
+        CHECK(fit.curve.slope == Approx(row.fit[1]).epsilon(3e-6));
+        CHECK(fit.log_likelihood == Approx(row.fit[2]).epsilon(1e-9));
         for (const double pod : {0.5, 0.9}) {
-            const SizeBounds found = bounds_of(table, form, pod);
+            const SizeBounds found = bounds_of(table, row.form, pod);
             const double* expected = pod == 0.5 ? row.a50 : row.a90;
             CHECK(found.lower.size == Approx(expected[0]).epsilon(1e-6));
             CHECK(found.estimate.size == Approx(expected[1]).epsilon(1e-6));
@@ -153,17 +138,13 @@ TEST_CASE("The band of a nearly constant rate matches a search over all curves")
     } cases[] = {{0.0488, {35, 24, 23, 25, 29, 31}}, {0.05198, {21, 28, 20, 30, 26, 26}}};
     const auto& given = cases[GENERATE(0, 1)];
     const double tested[] = {0.0005, 0.001, 0.0015, 0.002, 0.003, 0.00428};
-    HitMissTable table;
-    for (std::size_t i = 0; i < 6; ++i) {
-        table.push_back({tested[i], static_cast<double>(given.hits[i]), 500});
-    }
+    const HitMissTable table = test::tabulated(6, [&](int i) {
+        return HitMissRow{tested[i], static_cast<double>(given.hits[i]), 500};
+    });
     const PodForm form{Link::logit, false, given.floor, false};
     const PodLikelihood likelihood(table, form);
     const auto maximum = likelihood.maximise();
-    std::vector<double> sizes;
-    for (int i = 0; i <= 20; ++i) {
-        sizes.push_back(0.0005 + 0.00378 * i / 20);
-    }
+    const auto sizes = test::tabulated(21, [](int i) { return 0.0005 + 0.00378 * i / 20; });
     const auto band = pod_band(likelihood, maximum, sizes, one_sided_bound(0.95));
     // Parametrizes curves by their logits at the smallest and the largest size.
     const auto pod_at = [&](double first, double last, double size) {
@@ -195,18 +176,14 @@ TEST_CASE("The band includes the floor where the best curve equals it to the las
     // Alarms of 500 gearboxes each: only the largest fault is detectable.
     const double tested[] = {0.0005, 0.001, 0.0015, 0.002, 0.003, 0.00428};
     const double hits[] = {25, 18, 37, 25, 25, 122};
-    HitMissTable table;
-    for (std::size_t i = 0; i < 6; ++i) {
-        table.push_back({tested[i], hits[i], 500});
-    }
+    const HitMissTable table = test::tabulated(6, [&](int i) {
+        return HitMissRow{tested[i], hits[i], 500};
+    });
     const PodForm form{GENERATE(Link::logit, Link::probit), GENERATE(false, true), 3.0 / 61.0,
                        false};
     INFO(link_name(form.link) << (form.log_size ? " of log size" : " of size"));
     const PodLikelihood likelihood(table, form);
-    std::vector<double> sizes;
-    for (int i = 0; i <= 40; ++i) {
-        sizes.push_back(0.0005 + 0.00378 * i / 40);
-    }
+    const auto sizes = test::tabulated(41, [](int i) { return 0.0005 + 0.00378 * i / 40; });
     for (const PodPoint& point :
          pod_band(likelihood, likelihood.maximise(), sizes, one_sided_bound(0.95))) {
         INFO(point.size);
