@@ -17,8 +17,9 @@ using namespace std::chrono_literals;
 
 // Command for three batches of the threshold group and four test gearboxes; the last batch of each
 // group is not full. Snapshots are written continuously.
-std::string run_of(const std::string& out, int instances = 50, int healthy = 35) {
-    return "run " + study("planet-crack-ideal.toml") + " --instances " + std::to_string(instances) +
+std::string run_of(const std::string& out, int instances = 50, int healthy = 35,
+                   const std::string& name = "planet-crack-ideal.toml") {
+    return "run " + study(name) + " --instances " + std::to_string(instances) +
            " --set ensemble.threshold_instances=" + std::to_string(healthy) +
            " --set ensemble.checkpoint_s=0 --out " + out;
 }
@@ -125,10 +126,7 @@ TEST_CASE("Killed two hundred times with a concurrent rival, a run loses nothing
     const Folder folder;
     const std::string out = folder.file("r.h5");
     const auto command = [&](const std::string& file) {
-        return " run " + study("crack-in-sun.toml") +
-               " --instances 300 --set ensemble.threshold_instances=100 --set "
-               "ensemble.checkpoint_s=0 --quiet --resume --out " +
-               file;
+        return " " + run_of(file, 300, 100, "crack-in-sun.toml") + " --quiet --resume";
     };
     require_success(command(folder.file("whole.h5")));
     const auto reference = bits(folder.file("whole.h5"));
@@ -283,10 +281,7 @@ TEST_CASE("Stopped by signals inside of batches and resumed, a run keeps its bit
     const Folder folder;
     const std::string out = folder.file("r.h5");
     const auto command = [&](const std::string& file) {
-        return "run " + study("crack-in-sun.toml") +
-               " --instances 20 --set ensemble.threshold_instances=17 --set "
-               "ensemble.checkpoint_s=0 --quiet --out " +
-               file;
+        return run_of(file, 20, 17, "crack-in-sun.toml") + " --quiet";
     };
     require_success(command(folder.file("whole.h5")));
     int stopped = 0;
