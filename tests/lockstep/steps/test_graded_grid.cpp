@@ -31,18 +31,20 @@ PhaseGrid for_integrator(PhaseGrid grid, Integrator integrator) {
 }
 
 // Checks that every sample occurs once in its stated step, and that the steps cover the mesh period
-// and end on every transition.
-void check_grid(const PhaseGrid& grid, const std::vector<double>& transitions) {
+// and end on every transition. Margins: of phases, and of the lengths that steps share.
+void check_grid(const PhaseGrid& grid, const std::vector<double>& transitions,
+                double phase_margin = 1e-11, double length_margin = 2e-12) {
     double phase = 0.0;
     int sample = 0;
     for (const Step& step : grid.steps) {
-        CHECK(step.phase == Approx(phase).margin(1e-11));
+        CHECK(step.phase == Approx(phase).margin(phase_margin));
         CHECK(step.length > 0.0);
         CHECK(grid.lengths[static_cast<std::size_t>(step.kind)] ==
-              Approx(step.length).margin(2e-12));
+              Approx(step.length).margin(length_margin));
         if (step.sample >= 0) {
             CHECK(step.sample == sample++);
-            CHECK(step.phase == Approx(double(step.sample) / grid.samples).margin(2e-12));
+            CHECK(step.phase == Approx(double(step.sample) / grid.samples)
+                                    .margin(std::min(phase_margin, length_margin)));
         }
         for (int n = 0; n < step.inside; ++n) {
             CHECK(step.first_inside + n == sample);
@@ -59,8 +61,21 @@ void check_grid(const PhaseGrid& grid, const std::vector<double>& transitions) {
         for (const Step& step : grid.steps) {
             nearest = std::min(nearest, std::abs(step.phase - t));
         }
-        CHECK(nearest < 2e-12);
+        CHECK(nearest < length_margin);
     }
+}
+
+TEST_CASE("The phase grid covers a mesh period with a node on every sample and transition") {
+    const std::vector<double> transitions{0.75, 0.0, 0.123456789, 0.6022, 0.123456789 + 1e-15};
+    const PhaseGrid grid = make_phase_grid(7, 100, transitions);
+    CHECK(grid.samples == 7);
+    check_grid(grid, transitions, 1e-14, 1e-12);
+    for (const Step& step : grid.steps) {
+        CHECK(step.length <= 1.0 / 100 + 1e-14);
+        CHECK(step.inside == 0);
+    }
+    CHECK_THROWS_AS(make_phase_grid(0, 100, {}), std::invalid_argument);
+    CHECK_THROWS_AS(make_phase_grid(5, 0, {}), std::invalid_argument);
 }
 
 Pilot liang_pilot(Integrator integrator) {

@@ -1,5 +1,5 @@
 #include "signals/path/transmission_path.hpp"
-#include "tests/test.hpp"
+#include "tests/numbers.hpp"
 
 namespace gearpod::signals::test_path_and_filter {
 
@@ -15,33 +15,44 @@ TEST_CASE("The farthest planet keeps the weight that Liang states for each path 
     CHECK(farthest(-0.1) == Approx(0.03).margin(0.001));
 }
 
-TEST_CASE("The path grid holds the angles of every sample of a carrier turn") {
-    const SpanLayout layout{31, 81, 81};
-    const int planets = 4;
-    const int phases = 12;
-    const PathGrid grid(path_window("hann"), planets, phases, layout);
-    REQUIRE(grid.positions() == 81);
-    const double pi = std::numbers::pi;
+// Checks a grid of the Hann window at every sample of a carrier turn of `meshes` mesh periods, for
+// planets at these angles.
+void check_angles(const PathGrid& grid, int meshes, int phases, CarrierSense sense,
+                  const std::vector<double>& planets) {
+    const double pi = std::numbers::pi, h = 2.0 * pi / meshes;
+    const int count = static_cast<int>(planets.size());
+    REQUIRE(grid.planets() == count);
     double worst = 0.0;
     for (int p = 0; p < phases; ++p) {
-        for (int c = 0; c < 81; ++c) {
-            const double theta = 2.0 * pi * (c + p / 12.0) / 81.0;
-            const int place = p * 81 + c;
+        for (int c = 0; c < meshes; ++c) {
+            const double turned = h * (c + double(p) / phases);
+            const double theta = sense == CarrierSense::positive ? turned : -turned;
+            const int place = p * meshes + c;
             worst = std::max({worst, std::abs(grid.sine()[place] - std::sin(theta)),
                               std::abs(grid.cosine()[place] - std::cos(theta))});
-            for (int n = 0; n < planets; ++n) {
-                // Compared through a cosine, which does not depend on the side of the wrap.
-                const double angle = theta + 2.0 * pi * n / planets;
-                const int steps = (c - grid.centre()[p * planets + n] + 81 + 40) % 81 - 40;
-                const double from_sensor =
-                    2.0 * pi / 81.0 * (steps + grid.fraction()[p * planets + n]);
+            for (int n = 0; n < count; ++n) {
+                const double angle = theta + planets[n];
+                const int half = meshes / 2;
+                const int steps =
+                    (c - grid.centre()[p * count + n] + meshes + half) % meshes - half;
+                const double from_sensor = h * (steps + grid.fraction()[p * count + n]);
+                // Compared through a cosine, which does not depend on the side of the wrap. Weight
+                // g depends on x - pi by its square: its sign does not matter.
                 worst = std::max(
                     {worst, std::abs(std::cos(from_sensor) + std::cos(angle)),
-                     std::abs(grid.window()[place * planets + n] - (0.5 - 0.5 * std::cos(angle)))});
+                     std::abs(grid.window()[place * count + n] - (0.5 - 0.5 * std::cos(angle)))});
+                CHECK(std::abs(from_sensor) <= pi + 1e-12);
             }
         }
     }
     CHECK(worst < 1e-13);
+}
+
+TEST_CASE("The path grid holds the angles of every sample of a carrier turn") {
+    const PathGrid grid(path_window("hann"), 4, 12, {31, 81, 81});
+    REQUIRE(grid.positions() == 81);
+    const double quarter = std::numbers::pi / 2.0;
+    check_angles(grid, 81, 12, CarrierSense::positive, {0.0, quarter, 2 * quarter, 3 * quarter});
 }
 
 TEST_CASE("With the carrier fixed the planets keep their positions") {
@@ -57,35 +68,12 @@ TEST_CASE("With the carrier fixed the planets keep their positions") {
 
 TEST_CASE("The path grid holds the angles of planets at given positions, for both directions") {
     // Planets of 16/26/68 at positions 0, 25 and 51 of 84.
-    const SpanLayout layout{26, 68, 68};
     const gears::PlanetPositions planets{{0, 25, 51}, 84};
-    const double pi = std::numbers::pi;
-    const int phases = 6;
+    const auto angles =
+        test::tabulated(3, [&](int n) { return gears::planet_angle(planets, PlanetId{n}); });
     for (const auto sense : {CarrierSense::positive, CarrierSense::negative}) {
-        const PathGrid grid(path_window("hann"), planets, phases, layout, sense);
-        REQUIRE(grid.planets() == 3);
-        double worst = 0.0;
-        for (int p = 0; p < phases; ++p) {
-            for (int c = 0; c < 68; ++c) {
-                const double turned = 2.0 * pi * (c + p / 6.0) / 68.0;
-                const double theta = sense == CarrierSense::positive ? turned : -turned;
-                const int place = p * 68 + c;
-                worst = std::max({worst, std::abs(grid.sine()[place] - std::sin(theta)),
-                                  std::abs(grid.cosine()[place] - std::cos(theta))});
-                for (int n = 0; n < 3; ++n) {
-                    const double angle = theta + gears::planet_angle(planets, PlanetId{n});
-                    const int steps = (c - grid.centre()[p * 3 + n] + 68 + 34) % 68 - 34;
-                    const double h = 2.0 * pi / 68.0;
-                    const double from_sensor = h * (steps + grid.fraction()[p * 3 + n]);
-                    // Weight g depends on x - pi by its square: its sign does not matter.
-                    worst = std::max(
-                        {worst, std::abs(std::cos(from_sensor) + std::cos(angle)),
-                         std::abs(grid.window()[place * 3 + n] - (0.5 - 0.5 * std::cos(angle)))});
-                    CHECK(std::abs(from_sensor) <= pi + 1e-12);
-                }
-            }
-        }
-        CHECK(worst < 1e-13);
+        const PathGrid grid(path_window("hann"), planets, 6, {26, 68, 68}, sense);
+        check_angles(grid, 68, 6, sense, angles);
     }
 }
 
