@@ -19,6 +19,26 @@ inline mc::GearboxTile run_one(const mc::Scene& scene, bool with_motion = false,
                                                 with_motion ? scene.record().recorded_meshes : 0}});
 }
 
+// Displacements of some degrees of freedom over so many mesh periods, in m: [degree][sample].
+inline std::vector<std::vector<double>> motion_of(const mc::Scene& scene, std::uint64_t number,
+                                                  std::size_t meshes,
+                                                  const std::vector<int>& degrees) {
+    const auto tile = run_one(scene, true, number).integration;
+    REQUIRE(tile.status[0] == lockstep::LaneStatus::ok);
+    const int freedoms = dynamics::degrees_of_freedom(scene.solve().integration().layout);
+    std::vector<std::vector<double>> motions(degrees.size());
+    for (std::size_t k = 0; k < meshes; ++k) {
+        const auto id = static_cast<std::size_t>(tile.content[k % tile.content.size()]);
+        const auto& motion = tile.records[id].motion;
+        for (std::size_t i = 0; i < motion.size(); i += static_cast<std::size_t>(freedoms)) {
+            for (std::size_t d = 0; d < degrees.size(); ++d) {
+                motions[d].push_back(motion[i + static_cast<std::size_t>(degrees[d])]);
+            }
+        }
+    }
+    return motions;
+}
+
 // Sensor signal over the first `meshes` mesh periods, in m/s^2.
 inline std::vector<double> sensor_signal(const mc::Scene& scene, int meshes,
                                          std::uint64_t number = 0) {
@@ -34,11 +54,9 @@ inline std::vector<double> lines(const std::vector<double>& signal) {
     std::vector<std::complex<double>> in(signal.begin(), signal.end()), out(signal.size());
     kissfft<double> fft(signal.size(), false);
     fft.transform(in.data(), out.data());
-    std::vector<double> amplitudes;
-    for (std::size_t i = 0; i < out.size() / 2; ++i) {
-        amplitudes.push_back(2.0 * std::abs(out[i]) / static_cast<double>(out.size()));
-    }
-    return amplitudes;
+    return test::tabulated(out.size() / 2, [&](std::size_t i) {
+        return 2.0 * std::abs(out[i]) / static_cast<double>(out.size());
+    });
 }
 
 // Spectral lines of that sensor signal; line i lies at i f_m / meshes.

@@ -1,6 +1,6 @@
 // Checks the shipped studies of Liang's figures (2016) against the statements of their headings.
 #include "tests/mc/liang_signals.hpp"
-#include "tests/test.hpp"
+#include "tests/numbers.hpp"
 
 namespace gearpod::test_liang_studies {
 
@@ -31,30 +31,15 @@ struct SunMotion {
 };
 
 SunMotion sun_motion(const mc::Scene& scene, std::uint64_t number = 0) {
-    const auto tile = run_one(scene, true, number);
-    REQUIRE(tile.integration.status[0] == lockstep::LaneStatus::ok);
-    const std::size_t freedoms = 9 + 3 * 4;
-    SunMotion sun;
-    sun.samples = scene.record().samples;
-    for (std::size_t k = 0; k < 19; ++k) {
-        const auto id =
-            static_cast<std::size_t>(tile.integration.content[k % tile.integration.content.size()]);
-        const auto& motion = tile.integration.records[id].motion;
-        for (std::size_t i = 0; i < motion.size(); i += freedoms) {
-            sun.x.push_back(motion[i + 6]);
-            sun.y.push_back(motion[i + 7]);
-        }
-    }
-    return sun;
+    const auto motion = motion_of(scene, number, 19, {6, 7});
+    return {motion[0], motion[1], scene.record().samples};
 }
 
 // Root mean square of the rate of change over that of the values, a measure of frequency.
 double quickness(const std::vector<double>& values) {
-    std::vector<double> steps;
-    for (std::size_t i = 0; i < values.size(); ++i) {
-        steps.push_back(values[(i + 1) % values.size()] - values[i]);
-    }
-    return rms_of(steps) / rms_of(values);
+    std::vector<double> next = values;
+    std::ranges::rotate(next, next.begin() + 1);
+    return rms_of(difference(next, values)) / rms_of(values);
 }
 
 TEST_CASE(
@@ -103,11 +88,9 @@ TEST_CASE(
     const SunMotion healthy = sun_motion(scene, 0);
     const auto rise = [&](std::uint64_t number) {
         const SunMotion sun = sun_motion(scene, number);
-        std::vector<double> distance;
-        for (std::size_t i = 0; i < sun.x.size(); ++i) {
-            distance.push_back(std::hypot(sun.x[i] - healthy.x[i], sun.y[i] - healthy.y[i]));
-        }
-        return distance;
+        return test::tabulated(sun.x.size(), [&](std::size_t i) {
+            return std::hypot(sun.x[i] - healthy.x[i], sun.y[i] - healthy.y[i]);
+        });
     };
     const auto small = rise(1), large = rise(2);
     // The four largest peaks, one in each quarter of the turn, are 4.75 meshes apart.

@@ -20,24 +20,11 @@ struct Motions {
 };
 
 Motions motions(const mc::Scene& scene, int number) {
-    const auto tile = run_one(scene, true, static_cast<std::uint64_t>(number));
-    REQUIRE(tile.integration.status[0] == lockstep::LaneStatus::ok);
     const auto& layout = std::get<dynamics::PlanetaryLayout>(scene.solve().integration().layout);
-    const auto freedoms = static_cast<std::size_t>(layout.degrees_of_freedom());
-    const auto sun = static_cast<std::size_t>(layout.rotation_index(dynamics::sun));
-    const auto planet4 = static_cast<std::size_t>(layout.rotation_index(dynamics::planet + 3));
-    Motions result;
-    result.samples = scene.record().samples;
-    for (std::size_t k = 0; k < kMeshes; ++k) {
-        const auto id =
-            static_cast<std::size_t>(tile.integration.content[k % tile.integration.content.size()]);
-        const auto& motion = tile.integration.records[id].motion;
-        for (std::size_t i = 0; i < motion.size(); i += freedoms) {
-            result.sun.push_back(motion[i + sun]);
-            result.planet4.push_back(motion[i + planet4]);
-        }
-    }
-    return result;
+    const auto motion = motion_of(
+        scene, static_cast<std::uint64_t>(number), kMeshes,
+        {layout.rotation_index(dynamics::sun), layout.rotation_index(dynamics::planet + 3)});
+    return {motion[0], motion[1], scene.record().samples};
 }
 
 // Response of planet 4 in case 5.
