@@ -12,6 +12,14 @@ namespace printed {
 
 inline constexpr double kPi = std::numbers::pi;
 
+// Checks each part of a compliance to a fraction of it.
+inline void check_equal(const gearpod::stiffness::ToothCompliance& computed,
+                        const gearpod::stiffness::ToothCompliance& expected, double share = 1e-9) {
+    CHECK(computed.bending == Approx(expected.bending).epsilon(share));
+    CHECK(computed.shear == Approx(expected.shear).epsilon(share));
+    CHECK(computed.axial == Approx(expected.axial).epsilon(share).margin(1e-30));
+}
+
 template <typename F>
 double integral(F&& f, double from, double to) {
     boost::math::quadrature::tanh_sinh<double> rule(15);

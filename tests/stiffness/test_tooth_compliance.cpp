@@ -1,10 +1,11 @@
 #include "stiffness/teeth/tooth_compliance.hpp"
+#include "tests/numbers.hpp"
 #include "tests/stiffness/gear_pairs.hpp"
 #include "tests/stiffness/printed_forms.hpp"
-#include "tests/test.hpp"
 
 namespace gearpod::stiffness::test_tooth_compliance {
 
+using printed::check_equal;
 using namespace test_pairs;
 
 printed::Tooth printed_tooth(int teeth, bool is_internal = false) {
@@ -17,18 +18,10 @@ printed::Tooth printed_tooth(int teeth, bool is_internal = false) {
             is_internal};
 }
 
-void check_equal(const ToothCompliance& computed, const ToothCompliance& expected) {
-    CHECK(computed.bending == Approx(expected.bending).epsilon(1e-9));
-    CHECK(computed.shear == Approx(expected.shear).epsilon(1e-9));
-    CHECK(computed.axial == Approx(expected.axial).epsilon(1e-9).margin(1e-30));
-}
-
 // Contact angles from the lower part of the tooth to its tip.
 std::vector<double> contact_angles(const gears::MeshGeometry& mesh, int which) {
-    std::vector<double> angles;
-    for (int i = 0; i <= 6; ++i)
-        angles.push_back(mesh.contact_angle(which, mesh.contact_ratio() * i / 6));
-    return angles;
+    return test::tabulated(
+        7, [&](int i) { return mesh.contact_angle(which, mesh.contact_ratio() * i / 6); });
 }
 
 TEST_CASE(
