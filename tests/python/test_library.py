@@ -48,11 +48,8 @@ class Library(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
         cls.folder = tempfile.TemporaryDirectory()
+        cls.addClassCleanup(cls.folder.cleanup)
         cls.study = gearpod.Study(STUDY)
-
-    @classmethod
-    def tearDownClass(cls):
-        cls.folder.cleanup()
 
     def path(self, name):
         return pathlib.Path(self.folder.name, name)

@@ -33,12 +33,9 @@ class Package(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
         cls.folder = tempfile.TemporaryDirectory()
+        cls.addClassCleanup(cls.folder.cleanup)
         cls.results = gearpod.run(STUDY, set=SMALL, instances=140, progress=False,
                                   out=pathlib.Path(cls.folder.name, "r.h5"))
-
-    @classmethod
-    def tearDownClass(cls):
-        cls.folder.cleanup()
 
     def test_values_match_the_file(self):
         results = self.results

@@ -33,6 +33,7 @@ class Published(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
         cls.folder = tempfile.TemporaryDirectory()
+        cls.addClassCleanup(cls.folder.cleanup)
         done = subprocess.run(
             [sys.executable, "-m", "gearpod.published", "--out", cls.folder.name],
             capture_output=True, text=True, check=False,
@@ -42,10 +43,6 @@ class Published(unittest.TestCase):
         cls.output = done.stdout
         with open(pathlib.Path(cls.folder.name, "published.csv"), encoding="utf-8") as file:
             cls.rows = list(csv.DictReader(file))
-
-    @classmethod
-    def tearDownClass(cls):
-        cls.folder.cleanup()
 
     def test_one_command_plots_all(self):
         for figure in published.figures():

@@ -52,6 +52,7 @@ class InBrowser(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
         cls.folder = tempfile.TemporaryDirectory()
+        cls.addClassCleanup(cls.folder.cleanup)
         cls.pages = {}
         for name, study in STUDIES.items():
             results = os.path.join(cls.folder.name, name + ".h5")
@@ -83,11 +84,7 @@ class InBrowser(unittest.TestCase):
         options.set_capability("goog:loggingPrefs", {"browser": "ALL"})
         cls.browser = webdriver.Chrome(service=Service(shutil.which("chromedriver")),
                                        options=options)
-
-    @classmethod
-    def tearDownClass(cls):
-        cls.browser.quit()
-        cls.folder.cleanup()
+        cls.addClassCleanup(cls.browser.quit)
 
     def open(self, name, screen, dark=False):
         self.show_on(screen, dark)

@@ -214,13 +214,10 @@ class Program(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
         cls.folder = tempfile.TemporaryDirectory()
+        cls.addClassCleanup(cls.folder.cleanup)
         cls.results = os.path.join(cls.folder.name, "r.h5")
         cls.gearpod("run", SOURCES / "studies" / "published" / "park-fig-13.toml", "--quiet", "--out",
                     cls.results)
-
-    @classmethod
-    def tearDownClass(cls):
-        cls.folder.cleanup()
 
     @classmethod
     def gearpod(cls, *arguments, **environment):
