@@ -37,8 +37,7 @@ AssumptionRows assumption_rows(const Planner& planner) {
     }
     const Numerics& numerics = planner.facts().numerics;
     const TilePlan tile = planner.tile(numerics);
-    const std::vector<GearboxId> ids =
-        paired_gearboxes(*tile.sampler, planner.ensemble(numerics), pairs);
+    const std::vector<GearboxId> ids = paired_gearboxes(tile, planner.ensemble(numerics), pairs);
     AssumptionRows all = changed_rows(tile.draw().rows, ids);
     for (const AssumptionVariant& variant : variants) {
         try {

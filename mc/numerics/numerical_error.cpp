@@ -173,21 +173,29 @@ std::optional<SolverSetting> finer_setting(const Planner& planner, const Numeric
     return std::nullopt;
 }
 
-std::vector<GearboxId> paired_gearboxes(const Sampler& sampler, const EnsemblePlan& ensemble,
+std::vector<GearboxId> paired_gearboxes(const TilePlan& tile, const EnsemblePlan& ensemble,
                                         int pairs) {
+    const std::uint64_t together = tile.record.same_positions;
+    const auto wanted = static_cast<std::size_t>(std::max(0, pairs));
     std::vector<std::pair<double, GearboxId>> faulty;
     for (std::int64_t i = 0; pairs > 0 && i < ensemble.test_gearboxes; ++i) {
         const GearboxId id{Group::test, static_cast<std::uint64_t>(i)};
-        const double size = sampler.draw(id).inputs.fault_size;
+        if (together > 1 && id.index % together == 0 && faulty.size() >= wanted) {
+            break;
+        }
+        const double size = tile.sampler->draw(id).inputs.fault_size;
         if (size > 0.0) {
             faulty.emplace_back(size, id);
         }
     }
     std::ranges::stable_sort(faulty, {}, &std::pair<double, GearboxId>::first);
     std::vector<GearboxId> spread;
-    const std::size_t count = std::min(static_cast<std::size_t>(pairs), faulty.size());
+    const std::size_t count = std::min(wanted, faulty.size());
     for (std::size_t i = 0; i < count; ++i) {
         spread.push_back(faulty[(2 * i + 1) * faulty.size() / (2 * count)].second);
+    }
+    if (together > 1) {
+        std::ranges::sort(spread, {}, &GearboxId::index);
     }
     for (std::int64_t i = 0; i < std::min<std::int64_t>(pairs, ensemble.threshold_gearboxes); ++i) {
         spread.push_back({Group::threshold, static_cast<std::uint64_t>(i)});
@@ -223,13 +231,16 @@ std::optional<NumericalError> find_numerical_error(const Planner& planner, const
     const TilePlan plan = planner.tile(numerics);
     const EnsemblePlan ensemble = planner.ensemble(numerics);
     const int pairs = numerics.paired_gearboxes;
-    std::vector<GearboxId> ids = paired_gearboxes(*plan.sampler, ensemble, pairs);
+    std::vector<GearboxId> ids = paired_gearboxes(plan, ensemble, pairs);
     const auto faulty =
         static_cast<std::size_t>(std::ranges::count(ids, Group::test, &GearboxId::group));
     std::size_t test_count = faulty;
     if (faulty == 0) {  // no pairs, or no gearbox with a fault
-        const auto stride = static_cast<std::uint64_t>(std::max<std::int64_t>(
-            1, ensemble.test_gearboxes / static_cast<std::int64_t>(kVerified)));
+        const auto stride =
+            plan.record.same_positions > 1
+                ? std::uint64_t{1}
+                : static_cast<std::uint64_t>(std::max<std::int64_t>(
+                      1, ensemble.test_gearboxes / static_cast<std::int64_t>(kVerified)));
         const std::vector<GearboxId> tested = pilot_gearboxes(stride / 2, stride);
         ids.insert(ids.begin(), tested.begin(), tested.end());
         test_count = tested.size();

@@ -31,8 +31,10 @@ struct FineRows {
 };
 
 // Gearboxes of numerics.paired_gearboxes: faulty ones of the test group spread over its sizes, then
-// as many healthy ones, the first of the threshold group.
-std::vector<GearboxId> paired_gearboxes(const Sampler& sampler, const EnsemblePlan& ensemble,
+// as many healthy ones, the first of the threshold group. Where gearboxes share the positions of
+// their records, faulty ones are neighbours, so that one tile integrates them: alone, each would
+// cost as much as a whole tile.
+std::vector<GearboxId> paired_gearboxes(const TilePlan& tile, const EnsemblePlan& ensemble,
                                         int pairs);
 
 // The rows of these gearboxes, still without values, and the values of the features of computed

@@ -85,7 +85,7 @@ class ScatterChoice {
         shape_ = ensemble.shape;
         const auto fine = std::make_shared<FineRows>(FineRows{unscaled_, ids_, {}});
         const int count = pairs ? unscaled_.paired_gearboxes : 0;
-        for (const GearboxId& id : paired_gearboxes(*tile.sampler, ensemble, count)) {
+        for (const GearboxId& id : paired_gearboxes(tile, ensemble, count)) {
             if (id.group == Group::test || id.index >= kHealthyPilots) {
                 fine->ids.push_back(id);
             }

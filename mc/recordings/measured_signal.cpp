@@ -159,7 +159,7 @@ class SignalReader : SignalsReader {
     // sensor's frequency range. One with more than the study's grid passes the study's low-pass
     // first, as the vibration does before the study's sensor is sampled.
     void check_rate(MeasuredSignal& measured) {
-        constexpr double kFewestSamples = 2.0;  // per mesh period
+        constexpr double kFewestPerMesh = 2.0;  // per mesh period
         constexpr double kRateTolerance = 1.02;
         const double per_mesh =
             static_cast<double>(phase_.size() - 1) / (phase_.back() - phase_.front());
@@ -167,7 +167,7 @@ class SignalReader : SignalsReader {
         const double study_Hz = per_mesh * record_.mesh_frequency_Hz;
         const double low_pass = plan_.features.low_pass_Hz;
         const std::string samples = fmt::format("{:.6g} samples per mesh period", per_mesh);
-        if (!te_.empty() && per_mesh < kFewestSamples) {
+        if (!te_.empty() && per_mesh < kFewestPerMesh) {
             reject(samples +
                    " do not resolve the mesh frequency of the transmission error; check "
                    "the speed and the sampling rate");

@@ -125,10 +125,10 @@ double divide_level(TrainDatasheet& train, const std::vector<NewStudy>& studies,
     double own = 0.0, others = 0.0;
     for (std::size_t i = 0; i < studies.size(); ++i) {
         double& part = i == train.monitored ? own : others;
-        // Two turns of the carrier are at least three of a planet, the shortest record.
+        // 1.5 turns of the carrier are at least three of a planet, the shortest record.
         const bool planetary = std::holds_alternative<PlanetaryDatasheet>(train.stages[i]);
         part =
-            std::hypot(part, level_of(studies[i].text, planetary ? "sensor.record_turns=2" : ""));
+            std::hypot(part, level_of(studies[i].text, planetary ? "sensor.record_turns=1.5" : ""));
     }
     if (!(own < level)) {
         problems.push_back(

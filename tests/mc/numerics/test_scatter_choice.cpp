@@ -95,7 +95,7 @@ TEST_CASE("Pairs have all sizes, also where their number divides that of the gea
     Study study = test::shipped_study("planet-crack.toml", {"ensemble.instances=384"});
     const Scene scene(study);
     std::map<double, int> count;
-    for (const GearboxId& id : paired_gearboxes(scene.sampler(), scene.ensemble(), 15)) {
+    for (const GearboxId& id : paired_gearboxes(scene.tile(), scene.ensemble(), 15)) {
         ++count[scene.sampler().draw(id).inputs.fault_size];
     }
     CHECK(count.size() == 6);  // healthy ones, and five sizes
