@@ -27,8 +27,8 @@ struct NewOptions {
     std::string rexs;                 // model file; empty: the datasheet's values are options
     std::vector<std::string> stages;  // of a train; one: id of the model's
     std::string load_case;            // of the model
-    TrainDatasheet train;             // what only a train has
-    int monitored = 1;
+    int monitored = 1;                // stage of a train, from 1
+    std::optional<double> level_m_s2, band_Hz;
     std::string out = "-";  // "-": standard output
     bool force = false;     // overwrite a file
 };
@@ -54,6 +54,9 @@ const std::set<std::string> kWithModel{
 // Options of a train; its --stage have all others.
 const std::set<std::string> kOfTrain{"--stage", "--monitor", "--torque",  "--speed", "--power",
                                      "--level", "--band",    "--quality", "--out",   "--force"};
+// Options of a train of a model, whose loads are the model's.
+const std::set<std::string> kOfModelTrain{"--rexs", "--stage",   "--load-case", "--level",
+                                          "--band", "--quality", "--out",       "--force"};
 // Options that a single planetary gearbox does not have.
 const std::set<std::string> kNotOfPlanetary{"--stage", "--load-case", "--monitor", "--level",
                                             "--band"};
@@ -61,7 +64,7 @@ const std::set<std::string> kNotOfPlanetary{"--stage", "--load-case", "--monitor
 // Rejects missing options of a datasheet, and options that do not belong to its kind.
 void check_new_options(const CLI::App& command, const NewOptions& options) {
     const bool model = !options.rexs.empty(), train = options.kind == "train";
-    if (model && !options.kind.empty()) {
+    if (model && !train && !options.kind.empty()) {
         throw CLI::ValidationError("kind", "the model's stage states the kind; leave out \"" +
                                                options.kind + "\" or --rexs");
     }
@@ -71,12 +74,13 @@ void check_new_options(const CLI::App& command, const NewOptions& options) {
     }
     for (const CLI::Option* option : command.parse_order()) {
         const std::string name = option->get_name();
-        if (model && !kWithModel.contains(name)) {
+        if (model && option->nonpositional() &&
+            !(train ? kOfModelTrain : kWithModel).contains(name)) {
             throw CLI::ValidationError(name,
                                        "the model states this; leave it out, and change the "
                                        "model or the written study");
         }
-        if (train && option->nonpositional() && !kOfTrain.contains(name)) {
+        if (train && !model && option->nonpositional() && !kOfTrain.contains(name)) {
             throw CLI::ValidationError(name, "belongs to one stage; write it in its --stage");
         }
         if (!model && !train && kNotOfPlanetary.contains(name)) {
@@ -85,15 +89,15 @@ void check_new_options(const CLI::App& command, const NewOptions& options) {
                                        "(--rexs)");
         }
     }
-    if (model) {
-        if (options.stages.size() > 1) {
-            throw CLI::ValidationError("--stage", "choose one stage of the model");
-        }
-        return;
+    if (model && options.stages.size() > 1) {
+        throw CLI::ValidationError("--stage", "choose one stage of the model");
     }
+    using Names = std::vector<const char*>;
+    const Names needed = train   ? (model ? Names{"--out"} : Names{"--stage", "--out"})
+                         : model ? Names{}
+                                 : Names{"--sun", "--planet", "--module"};
     std::string missing;
-    for (const char* name :
-         train ? std::vector{"--stage", "--out"} : std::vector{"--sun", "--planet", "--module"}) {
+    for (const char* name : needed) {
         if (command.count(name) == 0) {
             missing += (missing.empty() ? "" : ", ") + std::string(name);
         }
@@ -101,7 +105,7 @@ void check_new_options(const CLI::App& command, const NewOptions& options) {
     if (!missing.empty()) {
         throw CLI::ValidationError("new " + options.kind + ": missing: " + missing);
     }
-    if (train && options.train.level_m_s2 && !options.train.low_pass_Hz) {
+    if (train && options.level_m_s2 && !options.band_Hz) {
         throw CLI::ValidationError("--level", "needs --band, the upper end of its band");
     }
 }
@@ -154,18 +158,19 @@ double healthy_level(const std::string& text, const std::string& record) {
     return std::sqrt(squares / samples);
 }
 
-NewTrain made_train(const NewOptions& options) {
-    TrainDatasheet train = options.train;
+NewTrain made_train(const CLI::App& command, const NewOptions& options) {
     NewTrain made;
-    for (std::size_t i = 0; i < options.stages.size(); ++i) {
-        train.stages.push_back(
-            read_train_stage(options.stages[i], fmt::format("--stage {}", i + 1), made.problems));
+    TrainDatasheet train =
+        options.rexs.empty() ? TrainDatasheet{}
+                             : train_from_rexs(options.rexs, model_options(command, options), made);
+    for (std::size_t i = 0; options.rexs.empty() && i < options.stages.size(); ++i) {
+        train.stages.push_back(read_train_stage(options.stages[i], i + 1, made.problems));
     }
-    if (train.stages.size() < 2) {
+    if (train.stages.size() < 2 && made.problems.empty()) {
         made.problems.push_back({"new train", 0, "--stage", "a train has at least two stages",
                                  "give each in an option of its own, or use new planetary"});
     }
-    if (options.monitored < 1 || options.monitored > static_cast<int>(train.stages.size())) {
+    if (options.monitored < 1 || options.monitored > std::ssize(train.stages)) {
         made.problems.push_back({"new train", 0, "--monitor",
                                  fmt::format("there is no stage {}", options.monitored),
                                  "give the number of a stage, from 1"});
@@ -179,26 +184,29 @@ NewTrain made_train(const NewOptions& options) {
     train.load.power_kW = given.power_kW;
     train.load.quality = given.quality;
     train.monitored = static_cast<std::size_t>(options.monitored - 1);
+    train.low_pass_Hz = options.band_Hz;
+    train.level_m_s2 = options.level_m_s2;
     train.file = options.out;
-    return new_train(train, options.command, healthy_level);
+    NewTrain written = new_train(std::move(train), options.command, healthy_level);
+    written.notices = std::move(made.notices);
+    return written;
 }
 
-// Studies with their files, of which the first is the one to run.
-NewTrain made_studies(const CLI::App& command, const NewOptions& options, Problems& notices) {
+// Studies with their files.
+NewTrain made_studies(const CLI::App& command, const NewOptions& options) {
     if (options.kind == "train") {
-        return made_train(options);
+        return made_train(command, options);
     }
     NewStudy made =
         options.rexs.empty()
             ? new_planetary(options.planetary, options.command)
             : new_from_rexs(options.rexs, model_options(command, options), options.command);
-    notices = std::move(made.notices);
-    return {{{options.out, std::move(made.text)}}, std::move(made.problems)};
+    return {
+        {{options.out, std::move(made.text)}}, std::move(made.problems), std::move(made.notices)};
 }
 
 int new_command(const CLI::App& command, const NewOptions& options) {
-    Problems notices;
-    const NewTrain made = made_studies(command, options, notices);
+    const NewTrain made = made_studies(command, options);
     print_problems(made.problems);
     bool good = made.problems.empty();
     for (const auto& [path, text] : made.studies) {
@@ -216,7 +224,7 @@ int new_command(const CLI::App& command, const NewOptions& options) {
     if (!good) {
         return kBadInput;
     }
-    print_problems(notices);
+    print_problems(made.notices);
     for (const auto& [path, text] : made.studies) {
         warn_of_load(text, path);
     }
@@ -292,11 +300,11 @@ void add_new(CLI::App& app, int& code) {
         ->allow_extra_args(false);
     add_number(*command, "--monitor", options->monitored,
                "number of the train's stage with the fault and the sensor (default: 1)");
-    add_number(*command, "--level", options->train.level_m_s2,
+    add_number(*command, "--level", options->level_m_s2,
                "measured vibration of the whole train, m/s^2 rms below --band; scales the other "
                "stages and the background",
                above(0.0, "m/s^2"));
-    add_number(*command, "--band", options->train.low_pass_Hz,
+    add_number(*command, "--band", options->band_Hz,
                "upper end of the sensor's band, Hz (default: 20 times the monitored stage's mesh "
                "frequency)",
                above(0.0, "Hz"));

@@ -184,6 +184,24 @@ class Rexs(unittest.TestCase):
         model.set(11, "helix_angle_reference_diameter", "deg", 30)
         self.refused(model, "--stage", "1", expect="opposite hands")
 
+    def test_stages_that_shafts_connect_become_the_studies_of_a_train(self):
+        model, out = two_pairs(), self.folder / "t.toml"
+        model.set(10, SHIFTS, "none", 0.581)
+        model.set(11, SHIFTS, "none", 0.5131)
+        done = run("new", "train", "--rexs", self.file(model), "--stage", 2, "--out", out)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        study = tomllib.loads(out.read_text())
+        self.assertEqual(study["title"], "Gear pair 20/76, stage 2 of model.rexs: crack of a pinion tooth")
+        self.assertEqual(study["sensor"]["stages"], [{"name": "stage-2", "study": "t-stage-2.toml", "shaft": "pinion",
+                                                      "stage_shaft": "gear", "gain": 1}])
+        other = tomllib.loads((self.folder / "t-stage-2.toml").read_text())
+        self.assertEqual(other["gearbox"]["gear"]["teeth"], 67)
+        self.assertEqual(other["operation"]["torque_N_m"], 4.7)
+        self.assertEqual(run("check", out).returncode, 0)
+        self.assertEqual(run("new", "train", "--rexs", self.file(model), "--out", self.folder / "u.toml").returncode, 2)
+        done = run("new", "train", "--rexs", self.file(planetary()), "--out", self.folder / "u.toml")
+        self.assertIn("no shaft connects the stage with another", done.stderr)
+
     def test_loads_that_a_model_lacks_are_required_as_options(self):
         model = planetary()
         model.attributes[50].clear()

@@ -585,7 +585,7 @@ class Load:
     problems."""
 
     def __init__(self, model, stages, stage):
-        self.speed, self.torque, self.notes, self.links = None, None, [], collections.defaultdict(list)
+        self.speed, self.torque, self.notes, self.links, self.coupled = None, None, [], collections.defaultdict(list), []
         self.connect_shafts(model, stages)
         gear_data = model.related("stage_gear_data", "gear", stage.second, "stage_gear_data")
         self.second_drives = stage.kind == "cylindrical" and any(model.flag(data, "is_driving_gear") for data in gear_data)
@@ -613,7 +613,8 @@ class Load:
                 connected += [(*shafts, first / whole) for shafts in itertools.product(*stage.ends()) if whole]
         for between, *shafts in model.parts("side", "assembly", "inner_part", "outer_part"):
             if between and between.type.endswith("coupling") and model.flag(between, "is_engaged") is not False:
-                connected += [(*shafts, 1.0)] if all(shaft and shaft.type == "shaft" for shaft in shafts) else []
+                self.coupled += [shafts] if all(shaft and shaft.type == "shaft" for shaft in shafts) else []
+        connected += [(*shafts, 1.0) for shafts in self.coupled]
         for a, b, ratio in connected:
             if a is not b and ratio > 0.0:
                 self.links[a].append((b, ratio))
@@ -694,6 +695,25 @@ class Load:
         return given
 
 
+def neighbours_of(model, stages, chosen):
+    """Stages that shafts or engaged couplings connect with the chosen one, from it outwards: id, id of the nearer stage
+    at the common shaft, and the members at its ends there and here."""
+    ends, coupled = {}, []
+    for stage in (stage for stage in stages if not stage.obstacle):
+        load = Load(model, stages, stage)
+        coupled = [*map(set, load.coupled)]
+        names = ("sun", "carrier") if stage.planets else ("gear", "pinion") if load.second_drives else ("pinion", "gear")
+        ends[stage] = [*zip(names, map(set, stage.ends()))]
+    found, seen = [], [chosen]
+    for here in seen:  # grows
+        for there, (name, shafts), (other, others) in itertools.product(ends, ends[here], [*itertools.chain(*ends.values())]):
+            if (there not in seen and (other, others) in ends[there] and
+                    (shafts & others or any(pair & shafts and pair & others for pair in coupled))):
+                found.append((there.component.id, here.component.id, name, other))
+                seen.append(there)
+    return found
+
+
 def reply_to(model):
     """Datasheet of the chosen stage, with notes and names for messages. Raises Unusable if the model has problems."""
     model.apply_load_case(model.options.get("load_case", ""))
@@ -708,7 +728,8 @@ def reply_to(model):
     names = {f"gearbox.{key}": f"{stage.component.label}: {attribute}" for key, (attribute, _) in OF_STAGE.items()} | \
         {f"gearbox.{member}.{key}": f"{gear.component.label}: {attribute}" for member, gear in members.items()
          for key, attribute in OF_GEAR.items()} | {"operation.pinion_speed_rpm": "--speed"}
-    return {"kind": stage.kind, "names": names, "values": {name: value for name, value in values.items() if value is not None},
+    return {"kind": stage.kind, "id": stage.component.id,
+            "neighbours": neighbours_of(model, stages, stage) if model.options.get("train") else [], "names": names, "values": {name: value for name, value in values.items() if value is not None},
             "notes": [head] + model.notes + ["N" + line for line in rest],
             "notices": model.notices + [(0, "", line, "") for line in model.notes + ["n" + line for line in rest]]}
 

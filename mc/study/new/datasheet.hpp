@@ -112,18 +112,36 @@ NewStudy new_pair(const PairDatasheet& data, const std::string& command,
 // model lacks and what the study does not take. Contradictions within the model are problems, with
 // both values. `options`: stage, load_case, input, planets and values of StageDatasheet that are
 // given in addition; loads replace the model's.
-NewStudy new_from_rexs(const std::string& path, nlohmann::json options, const std::string& command);
+NewStudy new_from_rexs(const std::string& path, const nlohmann::json& options,
+                       const std::string& command);
 
-// Stage of a train of gears.
-using TrainStage = std::variant<PlanetaryDatasheet, PairDatasheet>;
+// Stage of a train of gears, with the names of its values for messages.
+struct TrainStage {
+    std::variant<PlanetaryDatasheet, PairDatasheet> gears;
+    DatasheetSource source;
+
+    StageDatasheet& data();
+};
+
+// Makes the study of one stage.
+NewStudy new_stage(const TrainStage& stage, const std::string& command);
 
 // Reads a stage: "21/39/99 module=12 helix=8" (sun, planet and ring; the carrier drives unless
-// input=sun follows) or "95/25 module=11" (driving and driven gear). Adds problems of the `option`.
-TrainStage read_train_stage(const std::string& text, const std::string& option, Problems& problems);
+// input=sun follows) or "95/25 module=11" (driving and driven gear). `number`: its --stage, from 1.
+TrainStage read_train_stage(const std::string& text, std::size_t number, Problems& problems);
+
+// Shaft between two stages, with the members at its ends.
+struct TrainShaft {
+    std::size_t nearer = 0, stage = 0;  // `nearer` is or leads to the monitored stage
+    std::string shaft, stage_shaft;
+};
 
 struct TrainDatasheet {
-    std::vector<TrainStage> stages;     // in the order of the power flow
-    StageDatasheet load;                // torque, speed or power of the first stage; tooth quality
+    std::vector<TrainStage> stages;
+    // From the monitored stage outwards. Empty: the stages follow each other in the order of the
+    // power flow, and `load` is that of the first.
+    std::vector<TrainShaft> shafts;
+    StageDatasheet load;                // torque, speed or power; tooth quality of all stages
     std::size_t monitored = 0;          // stage with the fault and the sensor
     std::optional<double> low_pass_Hz;  // default: 20 times the monitored stage's mesh frequency
     std::optional<double> level_m_s2;   // measured rms below low_pass_Hz
@@ -133,8 +151,12 @@ struct TrainDatasheet {
 // Studies of a train with their files; none if there are problems.
 struct NewTrain {
     std::vector<std::pair<std::string, std::string>> studies;
-    Problems problems;
+    Problems problems, notices = {};
 };
+
+// The stage of a model that `options` choose, as in new_from_rexs(), with all stages that shafts
+// connect with it. Adds the problems and notices of all.
+TrainDatasheet train_from_rexs(const std::string& path, nlohmann::json options, NewTrain& made);
 
 // Rms of the vibration of healthy gearboxes of a study, without noise, m/s^2. `record`: override
 // that shortens the record; may be empty.

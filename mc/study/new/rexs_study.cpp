@@ -1,6 +1,9 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <filesystem>
+#include <iterator>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <tuple>
@@ -90,11 +93,16 @@ PlanetaryDatasheet planetary_datasheet(const nlohmann::json& reply) {
     return data;
 }
 
-}  // namespace
+// A stage of a model; `neighbours` as rexs.py lists them.
+struct RexsStage {
+    TrainStage stage;
+    Problems problems, notices;
+    nlohmann::json neighbours;
+};
 
-NewStudy new_from_rexs(const std::string& path, nlohmann::json options,
-                       const std::string& command) {
-    options["name"] = std::filesystem::path(path).filename().string();
+RexsStage read_stage(const std::string& path, nlohmann::json options) {
+    const std::string name = std::filesystem::path(path).filename().string();
+    options["name"] = name;
     nlohmann::json reply;
     try {
         // -I: ignore the modules of the user and of the working directory; -B: write no files.
@@ -107,24 +115,76 @@ NewStudy new_from_rexs(const std::string& path, nlohmann::json options,
         }
         reply = nlohmann::json::parse(output.text);
     } catch (const PythonError& error) {
-        return {"", {{path, 0, "", error.what(), ""}}};
+        return {{}, {{path, 0, "", error.what(), ""}}, {}, {}};
     }
-    NewStudy made{"", problems_in(reply.at("problems"), path)};
+    RexsStage read{{}, problems_in(reply.at("problems"), path), {}, {}};
+    if (!read.problems.empty()) {
+        return read;
+    }
+    DatasheetSource& source = read.stage.source;
+    source = planetary_options();
+    source.file = path;
+    for (const auto& [key, value] : reply.at("names").items()) {
+        source.keys[key] = value;
+    }
+    source.meshing_remedy =
+        "correct the model's tip diameters, shifts or centre distance, or give --addendum";
+    if (reply.at("kind") == "planetary") {
+        read.stage.gears = planetary_datasheet(reply);
+    } else {
+        read.stage.gears = pair_datasheet(reply);
+    }
+    read.notices = problems_in(reply.at("notices"), path);
+    read.neighbours = reply.at("neighbours");
+    if (!read.neighbours.empty()) {
+        read.stage.data().around.place =
+            fmt::format("stage {} of {}", reply.at("id").get<std::string>(), name);
+    }
+    return read;
+}
+
+}  // namespace
+
+NewStudy new_from_rexs(const std::string& path, const nlohmann::json& options,
+                       const std::string& command) {
+    RexsStage read = read_stage(path, options);
+    NewStudy made{"", std::move(read.problems)};
     if (made.problems.empty()) {
-        DatasheetSource source = planetary_options();
-        source.file = path;
-        for (const auto& [key, name] : reply.at("names").items()) {
-            source.keys[key] = name;
-        }
-        source.meshing_remedy =
-            "correct the model's tip diameters, shifts or centre distance, or give --addendum";
-        made = reply.at("kind") == "planetary"
-                   ? new_planetary(planetary_datasheet(reply), command, source)
-                   : new_pair(pair_datasheet(reply), command, source);
-        made.notices = made.problems.empty() ? problems_in(reply.at("notices"), path) : Problems{};
+        made = new_stage(read.stage, command);
+        made.notices = made.problems.empty() ? std::move(read.notices) : Problems{};
     }
     sort_problems(made.problems);
     return made;
+}
+
+TrainDatasheet train_from_rexs(const std::string& path, nlohmann::json options, NewTrain& made) {
+    TrainDatasheet train;
+    std::map<std::string, std::size_t> numbers;
+    const auto add = [&] {
+        RexsStage read = read_stage(path, options);
+        std::ranges::move(read.problems, std::back_inserter(made.problems));
+        std::ranges::move(read.notices, std::back_inserter(made.notices));
+        train.stages.push_back(std::move(read.stage));
+        return read.neighbours;
+    };
+    options["train"] = true;
+    const nlohmann::json neighbours = add();
+    if (made.problems.empty() && neighbours.empty()) {
+        made.problems.push_back({path, 0, "",
+                                 "no shaft connects the stage with another that can be simulated",
+                                 "leave out \"train\""});
+    }
+    options = {{"load_case", options.value("load_case", "")}, {"train", true}};
+    for (const nlohmann::json& next : neighbours) {
+        const auto [id, nearer, shaft, stage_shaft] =
+            next.get<std::tuple<std::string, std::string, std::string, std::string>>();
+        numbers[id] = train.stages.size();
+        train.shafts.push_back({numbers[nearer], numbers[id], shaft, stage_shaft});
+        options["stage"] = id;
+        add();
+    }
+    sort_problems(made.problems);
+    return train;
 }
 
 }  // namespace gearpod::mc

@@ -20,10 +20,6 @@ namespace {
 
 constexpr const char* kCommand = "new train";
 
-StageDatasheet& common(TrainStage& stage) {
-    return std::visit([](auto& data) -> StageDatasheet& { return data; }, stage);
-}
-
 int ring_teeth(const PlanetaryDatasheet& data) {
     return data.ring.value_or(data.sun + 2 * data.planet);
 }
@@ -36,39 +32,31 @@ struct PowerFlow {
     double meshes_per_turn;        // of the input
 };
 PowerFlow power_flow(const TrainStage& stage) {
-    if (const auto* pair = std::get_if<PairDatasheet>(&stage)) {
+    if (const auto* pair = std::get_if<PairDatasheet>(&stage.gears)) {
         return {"pinion", "gear", 1.0 * pair->pinion / pair->gear, 1.0 * pair->pinion};
     }
-    const auto& data = std::get<PlanetaryDatasheet>(stage);
+    const auto& data = std::get<PlanetaryDatasheet>(stage.gears);
     const double ring = ring_teeth(data), sun_per_carrier = 1.0 + ring / data.sun;
     return data.input == "carrier"
                ? PowerFlow{"carrier", "sun", sun_per_carrier, ring}
                : PowerFlow{"sun", "carrier", 1.0 / sun_per_carrier, ring / sun_per_carrier};
 }
 
-// Names of a stage's values in problems.
-DatasheetSource source_of(std::size_t stage) {
+// Names of the values of a --stage in problems.
+DatasheetSource source_of(std::size_t number) {
     DatasheetSource source = planetary_options();
     source.file = kCommand;
     for (auto& [key, name] : source.keys) {
         if (name != "--quality" && name != "--torque") {
-            name = fmt::format("{} in --stage {}", name.substr(2), stage + 1);
+            name = fmt::format("{} in --stage {}", name.substr(2), number);
         }
     }
     for (const char* gear : {"sun", "planet", "ring", "pinion", "gear"}) {
         source.keys[fmt::format("gearbox.{}.teeth", gear)] =
-            fmt::format("teeth in --stage {}", stage + 1);
+            fmt::format("teeth in --stage {}", number);
     }
     source.meshing_remedy = "correct its teeth, or give addendum= in the stage";
     return source;
-}
-
-NewStudy make(const TrainStage& stage, const std::string& command, std::size_t number) {
-    const DatasheetSource source = source_of(number);
-    if (const auto* pair = std::get_if<PairDatasheet>(&stage)) {
-        return new_pair(*pair, command, source);
-    }
-    return new_planetary(std::get<PlanetaryDatasheet>(stage), command, source);
 }
 
 // Name of a stage's study: that of the monitored one with the stage's number.
@@ -82,23 +70,35 @@ std::string stage_file(const std::string& monitored, std::size_t stage) {
 std::string stages_line(const TrainDatasheet& train, double gain,
                         const std::function<std::string(std::size_t)>& study) {
     std::string text = "stages = [\n";
-    const auto add = [&](std::size_t stage, std::size_t neighbour, bool follows) {
-        const PowerFlow here = power_flow(train.stages[stage]),
-                        there = power_flow(train.stages[neighbour]);
+    for (const auto& [nearer, stage, shaft, stage_shaft] : train.shafts) {
         text += fmt::format(
             "    {{ name = \"stage-{}\", {}, {}shaft = \"{}\", stage_shaft = \"{}\", gain = {:.4g} "
             "}},\n",
-            neighbour + 1, study(neighbour),
-            stage == train.monitored ? "" : fmt::format("of = \"stage-{}\", ", stage + 1),
-            follows ? here.output : here.input, follows ? there.input : there.output, gain);
-    };
-    for (std::size_t stage = train.monitored; stage + 1 < train.stages.size(); ++stage) {
-        add(stage, stage + 1, true);
-    }
-    for (std::size_t stage = train.monitored; stage > 0; --stage) {
-        add(stage, stage - 1, false);
+            stage + 1, study(stage),
+            nearer == train.monitored ? "" : fmt::format("of = \"stage-{}\", ", nearer + 1), shaft,
+            stage_shaft, gain);
     }
     return text + "]\n";
+}
+
+// Speeds, torques and shafts of stages that follow each other.
+void follow_power(TrainDatasheet& train, InputLoad load) {
+    const std::size_t count = train.stages.size();
+    std::vector<PowerFlow> flows;
+    for (std::size_t i = 0; i < count; ++i) {
+        StageDatasheet& data = train.stages[i].data();
+        flows.push_back(power_flow(train.stages[i]));
+        std::tie(data.torque_N_m, data.speed_rpm) = std::tuple{load.torque_N_m, load.speed_rpm};
+        data.around.place = fmt::format("stage {} of {}", i + 1, count);
+        load = {load.torque_N_m / flows[i].output_turns_per_turn,
+                load.speed_rpm * flows[i].output_turns_per_turn};
+    }
+    for (std::size_t i = train.monitored; i + 1 < count; ++i) {
+        train.shafts.push_back({i, i + 1, flows[i].output, flows[i + 1].input});
+    }
+    for (std::size_t i = train.monitored; i > 0; --i) {
+        train.shafts.push_back({i, i - 1, flows[i].input, flows[i - 1].output});
+    }
 }
 
 // Shares of a measured level: what the monitored stage does not produce, the other stages produce
@@ -120,13 +120,13 @@ Rest rest_of(double level, double own, double others, double bandwidth_Hz) {
 // gain of the other stages.
 double divide_level(TrainDatasheet& train, const std::vector<NewStudy>& studies,
                     const StageLevel& level_of, Problems& problems) {
-    StageDatasheet& monitored = common(train.stages[train.monitored]);
+    StageDatasheet& monitored = train.stages[train.monitored].data();
     const double level = *train.level_m_s2, low_pass_Hz = *monitored.around.low_pass_Hz;
     double own = 0.0, others = 0.0;
     for (std::size_t i = 0; i < studies.size(); ++i) {
         double& part = i == train.monitored ? own : others;
         // 1.5 turns of the carrier are at least three of a planet, the shortest record.
-        const bool planetary = std::holds_alternative<PlanetaryDatasheet>(train.stages[i]);
+        const bool planetary = std::holds_alternative<PlanetaryDatasheet>(train.stages[i].gears);
         part =
             std::hypot(part, level_of(studies[i].text, planetary ? "sensor.record_turns=1.5" : ""));
     }
@@ -153,10 +153,20 @@ double divide_level(TrainDatasheet& train, const std::vector<NewStudy>& studies,
 
 }  // namespace
 
-TrainStage read_train_stage(const std::string& text, const std::string& option,
-                            Problems& problems) {
+StageDatasheet& TrainStage::data() {
+    return std::visit([](auto& data) -> StageDatasheet& { return data; }, gears);
+}
+
+NewStudy new_stage(const TrainStage& stage, const std::string& command) {
+    if (const auto* pair = std::get_if<PairDatasheet>(&stage.gears)) {
+        return new_pair(*pair, command, stage.source);
+    }
+    return new_planetary(std::get<PlanetaryDatasheet>(stage.gears), command, stage.source);
+}
+
+TrainStage read_train_stage(const std::string& text, std::size_t number, Problems& problems) {
     const auto reject = [&](const std::string& what, const std::string& remedy) {
-        problems.push_back({kCommand, 0, option, what, remedy});
+        problems.push_back({kCommand, 0, fmt::format("--stage {}", number), what, remedy});
     };
     std::istringstream words(text);
     std::string word;
@@ -166,7 +176,7 @@ TrainStage read_train_stage(const std::string& text, const std::string& option,
     for (std::string part; std::getline(numbers, part, '/');) {
         teeth.push_back(parsed_number<int>(part).value_or(0));
     }
-    TrainStage stage;
+    TrainStage stage{{}, source_of(number)};
     if ((teeth.size() != 2 && teeth.size() != 3) || std::ranges::min(teeth) < 1) {
         reject("\"" + word + "\" are no numbers of teeth",
                "write sun/planet/ring, or driving/driven gear of a pair");
@@ -174,15 +184,15 @@ TrainStage read_train_stage(const std::string& text, const std::string& option,
     }
     PlanetaryDatasheet* planetary = nullptr;
     if (teeth.size() == 2) {
-        PairDatasheet& pair = stage.emplace<PairDatasheet>();
+        PairDatasheet& pair = stage.gears.emplace<PairDatasheet>();
         std::tie(pair.pinion, pair.gear) = std::tuple{teeth[0], teeth[1]};
     } else {
-        planetary = &stage.emplace<PlanetaryDatasheet>();
+        planetary = &stage.gears.emplace<PlanetaryDatasheet>();
         std::tie(planetary->sun, planetary->planet, planetary->ring) =
             std::tuple{teeth[0], teeth[1], teeth[2]};
         planetary->input = "carrier";
     }
-    StageDatasheet& data = common(stage);
+    StageDatasheet& data = stage.data();
     const std::map<std::string, std::function<void(double)>> values{
         {"module", [&](double value) { data.module_mm = value; }},
         {"helix", [&](double value) { data.helix_deg = value; }},
@@ -221,35 +231,28 @@ TrainStage read_train_stage(const std::string& text, const std::string& option,
 NewTrain new_train(TrainDatasheet train, const std::string& command, const StageLevel& level_of) {
     NewTrain made;
     Problems& problems = made.problems;
-    problems = load_problems(train.load, {kCommand, {}, ""}, "first stage's input");
-    InputLoad load = problems.empty() ? load_of(train.load) : InputLoad{1.0, 1.0};
-    const std::size_t count = train.stages.size();
-    for (std::size_t i = 0; i < count; ++i) {
-        StageDatasheet& data = common(train.stages[i]);
-        const PowerFlow flow = power_flow(train.stages[i]);
-        std::tie(data.torque_N_m, data.speed_rpm) = std::tuple{load.torque_N_m, load.speed_rpm};
-        data.quality = data.quality ? data.quality : train.load.quality;
-        data.around.place = fmt::format("stage {} of {}", i + 1, count);
-        if (i == train.monitored) {
-            const double meshes_Hz = flow.meshes_per_turn * load.speed_rpm / 60.0;
-            if (!train.low_pass_Hz) {
-                train.low_pass_Hz = new_sensor(data, meshes_Hz).rates.low_pass;
-            } else if (!(*train.low_pass_Hz > meshes_Hz) && problems.empty()) {
-                problems.push_back({kCommand, 0, "--band",
-                                    fmt::format("{:g} Hz is below the monitored stage's mesh "
-                                                "frequency, {:.4g} Hz",
-                                                *train.low_pass_Hz, meshes_Hz),
-                                    "give the upper end of a wider band"});
-            }
-        }
-        load = {load.torque_N_m / flow.output_turns_per_turn,
-                load.speed_rpm * flow.output_turns_per_turn};
+    if (train.shafts.empty()) {
+        problems = load_problems(train.load, {kCommand, {}, ""}, "first stage's input");
+        follow_power(train, problems.empty() ? load_of(train.load) : InputLoad{1.0, 1.0});
+    }
+    TrainStage& stage = train.stages[train.monitored];
+    const double meshes_Hz =
+        power_flow(stage).meshes_per_turn * load_of(stage.data()).speed_rpm / 60.0;
+    if (!train.low_pass_Hz) {
+        train.low_pass_Hz = new_sensor(stage.data(), meshes_Hz).rates.low_pass;
+    } else if (!(*train.low_pass_Hz > meshes_Hz) && problems.empty()) {
+        problems.push_back(
+            {kCommand, 0, "--band",
+             fmt::format("{:g} Hz is below the monitored stage's mesh frequency, {:.4g} Hz",
+                         *train.low_pass_Hz, meshes_Hz),
+             "give the upper end of a wider band"});
     }
     std::vector<NewStudy> studies;
-    for (std::size_t i = 0; i < count; ++i) {
-        common(train.stages[i]).around.low_pass_Hz = train.low_pass_Hz;
-        studies.push_back(make(train.stages[i], command, i));
-        std::ranges::move(studies[i].problems, std::back_inserter(problems));
+    for (TrainStage& next : train.stages) {
+        next.data().quality = next.data().quality ? next.data().quality : train.load.quality;
+        next.data().around.low_pass_Hz = train.low_pass_Hz;
+        studies.push_back(new_stage(next, command));
+        std::ranges::move(studies.back().problems, std::back_inserter(problems));
     }
     if (!problems.empty()) {
         return made;
@@ -263,10 +266,10 @@ NewTrain new_train(TrainDatasheet train, const std::string& command, const Stage
     const auto with_file = [&](std::size_t i) {
         return "study = " + quoted_text(stage_file(train.file, i));
     };
-    std::string& stages = common(train.stages[train.monitored]).around.stages;
+    std::string& stages = stage.data().around.stages;
     stages = stages_line(train, gain, with_text);
     NewStudy& monitored = studies[train.monitored];
-    monitored = make(train.stages[train.monitored], command, train.monitored);
+    monitored = new_stage(stage, command);
     if (!monitored.problems.empty()) {
         problems = monitored.problems;
         return made;
@@ -274,7 +277,7 @@ NewTrain new_train(TrainDatasheet train, const std::string& command, const Stage
     monitored.text.replace(monitored.text.find(stages), stages.size(),
                            stages_line(train, gain, with_file));
     const std::filesystem::path folder = std::filesystem::path(train.file).parent_path();
-    for (std::size_t i = 0; i < count; ++i) {
+    for (std::size_t i = 0; i < studies.size(); ++i) {
         made.studies.emplace_back(
             i == train.monitored ? train.file : (folder / stage_file(train.file, i)).string(),
             std::move(studies[i].text));

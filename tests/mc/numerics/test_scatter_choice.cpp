@@ -104,6 +104,24 @@ TEST_CASE("Pairs have all sizes, also where their number divides that of the gea
     }
 }
 
+TEST_CASE("Faulty gearboxes of pairs share the tiles of short records") {
+    const Scene scene(test::shipped_study("planet-crack.toml",
+                                          {"ensemble.instances=384", "sensor.record_turns=1.2"}));
+    const std::uint64_t together = scene.tile().record.same_positions;
+    REQUIRE(together == 8);
+    std::set<std::uint64_t> tiles;
+    std::set<double> sizes;
+    const std::vector<GearboxId> ids = paired_gearboxes(scene.tile(), scene.ensemble(), 15);
+    CHECK(ids.size() == 30);
+    for (const GearboxId& id : std::span(ids).first(15)) {
+        tiles.insert(id.index / together);
+        sizes.insert(scene.sampler().draw(id).inputs.fault_size);
+    }
+    CHECK(tiles.size() <= 3);
+    CHECK(sizes.size() == 5);
+    CHECK(std::ranges::is_sorted(std::span(ids).first(15), {}, &GearboxId::index));
+}
+
 TEST_CASE("Pairs of a run with mass scaling are healthy and faulty gearboxes in equal numbers") {
     Study study = test::shipped_study(
         "planet-crack-ideal.toml",

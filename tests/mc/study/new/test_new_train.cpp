@@ -18,7 +18,7 @@ mc::TrainDatasheet train(const std::vector<std::string>& stages) {
     mc::TrainDatasheet train;
     mc::Problems problems;
     for (const std::string& stage : stages) {
-        train.stages.push_back(mc::read_train_stage(stage, "--stage", problems));
+        train.stages.push_back(mc::read_train_stage(stage, train.stages.size() + 1, problems));
     }
     INFO(format(problems));
     REQUIRE(problems.empty());
@@ -123,7 +123,7 @@ TEST_CASE("Bad stages of a train are refused with every reason") {
     for (const char* stage : {"21/39", "21 module=2", "21/x module=2", "0/3 module=2",
                               "21/39/99 module=2 planets=9 face=3 helix=x",
                               "9/8 module=2 input=sun", "8/7 module=2 quality"}) {
-        read_train_stage(stage, "--stage", problems);
+        read_train_stage(stage, 1, problems);
     }
     CHECK(problems.size() == 9);
     mc::TrainDatasheet turbine = train({"21/39/99 module=12", "95/3 module=11"});
