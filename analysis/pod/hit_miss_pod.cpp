@@ -9,6 +9,7 @@
 #include <stdexcept>
 
 #include "analysis/detection/threshold.hpp"
+#include "machine/contracts.hpp"
 #include "machine/no_value.hpp"
 
 namespace gearpod::analysis {
@@ -43,9 +44,12 @@ std::string outcome_refusal(const HitMissTable& table,
 bool separated(const HitMissTable& table) {
     const auto missed = [](const HitMissRow& row) { return row.hits < row.tests; };
     const auto found = [](const HitMissRow& row) { return row.hits > 0.0; };
-    const auto first = [&](const auto& is) { return std::ranges::find_if(table, is)->size; };
-    const auto last = [&](const auto& is) {
-        return std::find_if(table.rbegin(), table.rend(), is)->size;
+    EXPECTS(std::ranges::any_of(table, found) && std::ranges::any_of(table, missed));
+    const auto first = [&](const auto& outcome) {
+        return std::ranges::find_if(table, outcome)->size;
+    };
+    const auto last = [&](const auto& outcome) {
+        return std::find_if(table.rbegin(), table.rend(), outcome)->size;
     };
     return first(found) >= last(missed) || first(missed) >= last(found);
 }

@@ -51,7 +51,7 @@ void warn_of_load(const std::string& text, const std::string& path) {
 const std::set<std::string> kWithModel{
     "--rexs",  "--stage",   "--load-case", "--planets",    "--input", "--torque", "--speed",
     "--power", "--quality", "--addendum",  "--face-width", "--out",   "--force"};
-// Options of a train; its --stage have all others.
+// Options of a train. Other values belong to a --stage or to a written study.
 const std::set<std::string> kOfTrain{"--stage", "--monitor", "--torque",  "--speed", "--power",
                                      "--level", "--band",    "--quality", "--out",   "--force"};
 // Options of a train of a model, whose loads are the model's.
@@ -76,17 +76,20 @@ void check_new_options(const CLI::App& command, const NewOptions& options) {
         const std::string name = option->get_name();
         if (model && option->nonpositional() &&
             !(train ? kOfModelTrain : kWithModel).contains(name)) {
-            throw CLI::ValidationError(name,
-                                       "the model states this; leave it out, and change the "
-                                       "model or the written study");
+            throw CLI::ValidationError(
+                name, train ? "new train takes this from the model for all stages; leave it out, "
+                              "and change the model or the written studies"
+                            : "the model states this; leave it out, and change the model or the "
+                              "written study");
         }
         if (train && !model && option->nonpositional() && !kOfTrain.contains(name)) {
-            throw CLI::ValidationError(name, "belongs to one stage; write it in its --stage");
+            throw CLI::ValidationError(
+                name,
+                "belongs to one stage; write it in its --stage, or change the "
+                "stage's written study");
         }
         if (!model && !train && kNotOfPlanetary.contains(name)) {
-            throw CLI::ValidationError(name,
-                                       "belongs to `new train`, or chooses a part of a model "
-                                       "(--rexs)");
+            throw CLI::ValidationError(name, "belongs to `new train` or a model (--rexs)");
         }
     }
     if (model && options.stages.size() > 1) {
@@ -104,6 +107,10 @@ void check_new_options(const CLI::App& command, const NewOptions& options) {
     }
     if (!missing.empty()) {
         throw CLI::ValidationError("new " + options.kind + ": missing: " + missing);
+    }
+    if (train && options.out == "-") {
+        throw CLI::ValidationError("--out",
+                                   "name a file; the other stages' studies lie next to it");
     }
     if (train && options.level_m_s2 && !options.band_Hz) {
         throw CLI::ValidationError("--level", "needs --band, the upper end of its band");
@@ -187,6 +194,15 @@ NewTrain made_train(const CLI::App& command, const NewOptions& options) {
     train.low_pass_Hz = options.band_Hz;
     train.level_m_s2 = options.level_m_s2;
     train.file = options.out;
+    for (const std::string& file : train_files(train)) {
+        if (!options.force && std::filesystem::exists(file)) {
+            made.problems.push_back(
+                {file, 0, "--out", "exists already", "choose another file, or give --force"});
+        }
+    }
+    if (!made.problems.empty()) {
+        return made;
+    }
     NewTrain written = new_train(std::move(train), options.command, healthy_level);
     written.notices = std::move(made.notices);
     return written;
@@ -306,7 +322,7 @@ void add_new(CLI::App& app, int& code) {
                above(0.0, "m/s^2"));
     add_number(*command, "--band", options->band_Hz,
                "upper end of the sensor's band, Hz (default: 20 times the monitored stage's mesh "
-               "frequency)",
+               "frequency, 10 kHz at most)",
                above(0.0, "Hz"));
     command->add_option("--load-case", options->load_case,
                         "id of the model's load case; needed if it has several");
@@ -321,7 +337,8 @@ void add_new(CLI::App& app, int& code) {
             if (option->nonpositional() && !option->check_lname("out") &&
                 !option->check_lname("force")) {
                 const std::string& value = option->results().at(seen[option]++);
-                const char* const quote = value.find(' ') == std::string::npos ? "" : "\"";
+                const char* const quote =
+                    value.find_first_of(" \t\n") == std::string::npos ? "" : "\"";
                 options->command +=
                     fmt::format(" {} {}{}{}", option->get_name(), quote, value, quote);
             }

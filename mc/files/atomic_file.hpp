@@ -1,6 +1,7 @@
 // Files that are either absent, old or complete. They are written to a temporary file in the same
 // folder, flushed to the disk and renamed. Symbolic links are kept, and the file they refer to is
-// written. An existing device, pipe or socket is an error and is not replaced.
+// written. An existing device, pipe or socket is an error and is not replaced. Also descriptors
+// that close themselves, and messages with their length for a socket.
 #pragma once
 
 #include <sys/types.h>

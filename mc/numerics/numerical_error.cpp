@@ -236,12 +236,13 @@ std::optional<NumericalError> find_numerical_error(const Planner& planner, const
         static_cast<std::size_t>(std::ranges::count(ids, Group::test, &GearboxId::group));
     std::size_t test_count = faulty;
     if (faulty == 0) {  // no pairs, or no gearbox with a fault
-        const auto stride =
-            plan.record.same_positions > 1
-                ? std::uint64_t{1}
-                : static_cast<std::uint64_t>(std::max<std::int64_t>(
-                      1, ensemble.test_gearboxes / static_cast<std::int64_t>(kVerified)));
-        const std::vector<GearboxId> tested = pilot_gearboxes(stride / 2, stride);
+        // None that the pilot of a tolerance has, if there are enough.
+        const bool neighbours = plan.record.same_positions > 1;
+        const auto apart = static_cast<std::uint64_t>(
+            std::max<std::int64_t>(1, ensemble.test_gearboxes / kVerified));
+        const std::uint64_t stride = neighbours ? 1 : apart;
+        const std::uint64_t first = !neighbours ? stride / 2 : apart > 1 ? kVerified : 0;
+        const std::vector<GearboxId> tested = pilot_gearboxes(first, stride);
         ids.insert(ids.begin(), tested.begin(), tested.end());
         test_count = tested.size();
     }

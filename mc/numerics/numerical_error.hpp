@@ -42,7 +42,8 @@ std::vector<GearboxId> paired_gearboxes(const TilePlan& tile, const EnsemblePlan
 AssumptionRows changed_rows(const RowOrder& order, std::span<const GearboxId> ids);
 std::vector<double> feature_values(const RowShape& shape, const BatchRows& rows);
 
-// Integrates eight test gearboxes, spread over the ensemble, as the run did and again with
+// Integrates eight test gearboxes, spread over the ensemble (neighbours where gearboxes share the
+// positions of their records), as the run did and again with
 // finer_setting(); with numerics.paired_gearboxes that many, and as many healthy ones. For
 // methods of order 2 and above, the difference is the error of the run's own steps to within a
 // sixteenth. Empty unless the study has a tolerance, numerics.verify or numerics.paired_gearboxes

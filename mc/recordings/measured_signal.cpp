@@ -159,7 +159,7 @@ class SignalReader : SignalsReader {
     // sensor's frequency range. One with more than the study's grid passes the study's low-pass
     // first, as the vibration does before the study's sensor is sampled.
     void check_rate(MeasuredSignal& measured) {
-        constexpr double kFewestPerMesh = 2.0;  // per mesh period
+        constexpr double kFewestPerMesh = 2.0;  // samples
         constexpr double kRateTolerance = 1.02;
         const double per_mesh =
             static_cast<double>(phase_.size() - 1) / (phase_.back() - phase_.front());

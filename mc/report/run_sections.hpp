@@ -1,4 +1,5 @@
-// Sections of the report of a run, each with the values behind it.
+// Sections of the report of a run or of recordings, each with the values behind it: one source file
+// for each family of sections.
 #pragma once
 
 #include <array>

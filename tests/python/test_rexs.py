@@ -192,9 +192,9 @@ class Rexs(unittest.TestCase):
         self.assertEqual(done.returncode, 0, done.stderr)
         study = tomllib.loads(out.read_text())
         self.assertEqual(study["title"], "Gear pair 20/76, stage 2 of model.rexs: crack of a pinion tooth")
-        self.assertEqual(study["sensor"]["stages"], [{"name": "stage-2", "study": "t-stage-2.toml", "shaft": "pinion",
+        self.assertEqual(study["sensor"]["stages"], [{"name": "stage-1", "study": "t-stage-1.toml", "shaft": "pinion",
                                                       "stage_shaft": "gear", "gain": 1}])
-        other = tomllib.loads((self.folder / "t-stage-2.toml").read_text())
+        other = tomllib.loads((self.folder / "t-stage-1.toml").read_text())
         self.assertEqual(other["gearbox"]["gear"]["teeth"], 67)
         self.assertEqual(other["operation"]["torque_N_m"], 4.7)
         self.assertEqual(run("check", out).returncode, 0)

@@ -706,11 +706,12 @@ def neighbours_of(model, stages, chosen):
         ends[stage] = [*zip(names, map(set, stage.ends()))]
     found, seen = [], [chosen]
     for here in seen:  # grows
-        for there, (name, shafts), (other, others) in itertools.product(ends, ends[here], [*itertools.chain(*ends.values())]):
-            if (there not in seen and (other, others) in ends[there] and
-                    (shafts & others or any(pair & shafts and pair & others for pair in coupled))):
-                found.append((there.component.id, here.component.id, name, other))
-                seen.append(there)
+        for there in ends:
+            for (name, shafts), (other, others) in itertools.product(ends[here], ends[there]):
+                joined = shafts & others or any(pair & shafts and pair & others for pair in coupled)
+                if joined and there not in seen:
+                    found.append((there.component.id, here.component.id, name, other))
+                    seen.append(there)
     return found
 
 

@@ -28,7 +28,6 @@ void append_utf8(std::string& text, std::uint32_t code);
 std::string lower_case(std::string_view text);
 
 // The text without the blanks around it.
-
 inline std::string_view without_outer_blanks(std::string_view text) {
     constexpr std::string_view kBlank = " \t\r\n";
     const std::size_t first = text.find_first_not_of(kBlank);

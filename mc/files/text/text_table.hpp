@@ -1,4 +1,5 @@
-// Reads tables of text: plain CSV, and other forms that Python converts to it.
+// Reads tables of text: plain CSV, and other forms that Python converts to it. Fields of a line of
+// CSV, the numbers in them, and names of columns.
 #pragma once
 
 #include <fstream>

@@ -1,6 +1,6 @@
 // Points of a sweep: one study for each combination of the values of some keys. Summaries of the
-// results of `run` and of `lives` over them; docs/reference/report-json.md lists the keys of their
-// JSON.
+// results of `run` and of `lives` over them, and the comparison of two results files, with the same
+// gearboxes or without; docs/reference/report-json.md lists the keys of their JSON.
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>

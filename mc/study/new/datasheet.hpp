@@ -19,8 +19,9 @@ struct Surroundings {
     std::string place;                  // "stage 1 of 3"; empty: nothing is known of other stages
     std::string stages;                 // value of sensor.stages; may be empty
     std::optional<double> low_pass_Hz;  // of the sensor; follows from the mesh frequency if absent
-    // One-sided density of the machine's noise, m/s^2/sqrt(Hz), from a measured level.
+    // One-sided density of the machine's noise, m/s^2/sqrt(Hz), beside a measured level.
     std::optional<double> density;
+    bool measured = false;  // the density is the rest of the level, not chosen
 };
 
 // Values in the usual units. Missing ones follow from rules of thumb or the geometry.
@@ -119,6 +120,7 @@ NewStudy new_from_rexs(const std::string& path, const nlohmann::json& options,
 struct TrainStage {
     std::variant<PlanetaryDatasheet, PairDatasheet> gears;
     DatasheetSource source;
+    std::string name;  // "stage-2"
 
     StageDatasheet& data();
 };
@@ -143,7 +145,7 @@ struct TrainDatasheet {
     std::vector<TrainShaft> shafts;
     StageDatasheet load;                // torque, speed or power; tooth quality of all stages
     std::size_t monitored = 0;          // stage with the fault and the sensor
-    std::optional<double> low_pass_Hz;  // default: 20 times the monitored stage's mesh frequency
+    std::optional<double> low_pass_Hz;  // default: as for a single stage
     std::optional<double> level_m_s2;   // measured rms below low_pass_Hz
     std::string file;                   // of the monitored stage's study
 };
@@ -157,6 +159,9 @@ struct NewTrain {
 // The stage of a model that `options` choose, as in new_from_rexs(), with all stages that shafts
 // connect with it. Adds the problems and notices of all.
 TrainDatasheet train_from_rexs(const std::string& path, nlohmann::json options, NewTrain& made);
+
+// Files of the studies of a train, by stage.
+std::vector<std::string> train_files(const TrainDatasheet& train);
 
 // Rms of the vibration of healthy gearboxes of a study, without noise, m/s^2. `record`: override
 // that shortens the record; may be empty.

@@ -136,9 +136,10 @@ RexsStage read_stage(const std::string& path, nlohmann::json options) {
     }
     read.notices = problems_in(reply.at("notices"), path);
     read.neighbours = reply.at("neighbours");
+    const std::string id = reply.at("id");
+    read.stage.name = "stage-" + id;
     if (!read.neighbours.empty()) {
-        read.stage.data().around.place =
-            fmt::format("stage {} of {}", reply.at("id").get<std::string>(), name);
+        read.stage.data().around.place = fmt::format("stage {} of {}", id, name);
     }
     return read;
 }
@@ -174,7 +175,9 @@ TrainDatasheet train_from_rexs(const std::string& path, nlohmann::json options, 
                                  "no shaft connects the stage with another that can be simulated",
                                  "leave out \"train\""});
     }
-    options = {{"load_case", options.value("load_case", "")}, {"train", true}};
+    for (const char* of_one : {"torque_N_m", "speed_rpm", "power_kW", "input", "planets"}) {
+        options.erase(of_one);
+    }
     for (const nlohmann::json& next : neighbours) {
         const auto [id, nearer, shaft, stage_shaft] =
             next.get<std::tuple<std::string, std::string, std::string, std::string>>();

@@ -114,7 +114,7 @@ NewSensor new_sensor(const StageDatasheet& data, double mesh_frequency_Hz) {
     const double sampling = std::max(kPerLowPass * low_pass, kFewestPerMesh * mesh_frequency_Hz);
     const double density = data.around.density.value_or(kChosenDensity);
     std::vector<double> levels{kLowNoise / density, kMems / density, 1.0};
-    if (!data.around.density) {
+    if (!data.around.measured) {
         levels.push_back(4.0);
     }
     return {mesh_frequency_Hz,
@@ -156,8 +156,8 @@ std::string sensor_section(const StageDatasheet& data, const NewSensor& sensor,
                 "6 times the low-pass, at least 12 per mesh period") +
            place +
            line(noise.key, noise.value,
-                data.around.density ? "the rest of the measured level"
-                                    : "background of the machine; measure or calibrate it") +
+                data.around.measured ? "the rest of the measured level"
+                                     : "background of the machine; measure or calibrate it") +
            line("encoder_sampling_Hz", rates.sampling, "same as the sensor") +
            line("encoder_noise_arcsec", 1.0, "a good encoder (chosen)") +
            line("noise_levels", fmt::format("[{}]", fmt::join(levels, ", ")),
@@ -199,7 +199,7 @@ std::string output_sections(const StageDatasheet& data, const Background& noise)
     if (!data.quality) {
         chosen.push_back("\"gearbox.tooth_quality\"");
     }
-    if (!data.around.density) {
+    if (!data.around.measured) {
         chosen.push_back(fmt::format("\"sensor.{}\"", noise.key));
     }
     const long needed = kDepths * analysis::tests_to_show(analysis::kReliablePd, 0.95);

@@ -59,12 +59,6 @@ DatasheetSource source_of(std::size_t number) {
     return source;
 }
 
-// Name of a stage's study: that of the monitored one with the stage's number.
-std::string stage_file(const std::string& monitored, std::size_t stage) {
-    const std::filesystem::path path(monitored);
-    return fmt::format("{}-stage-{}{}", path.stem().string(), stage + 1, path.extension().string());
-}
-
 // Elements of sensor.stages, from the monitored stage outwards. `study`: key and value that name
 // the study of a stage.
 std::string stages_line(const TrainDatasheet& train, double gain,
@@ -72,11 +66,12 @@ std::string stages_line(const TrainDatasheet& train, double gain,
     std::string text = "stages = [\n";
     for (const auto& [nearer, stage, shaft, stage_shaft] : train.shafts) {
         text += fmt::format(
-            "    {{ name = \"stage-{}\", {}, {}shaft = \"{}\", stage_shaft = \"{}\", gain = {:.4g} "
+            "    {{ name = \"{}\", {}, {}shaft = \"{}\", stage_shaft = \"{}\", gain = {:.4g} "
             "}},\n",
-            stage + 1, study(stage),
-            nearer == train.monitored ? "" : fmt::format("of = \"stage-{}\", ", nearer + 1), shaft,
-            stage_shaft, gain);
+            train.stages[stage].name, study(stage),
+            nearer == train.monitored ? ""
+                                      : fmt::format("of = \"{}\", ", train.stages[nearer].name),
+            shaft, stage_shaft, gain);
     }
     return text + "]\n";
 }
@@ -101,19 +96,21 @@ void follow_power(TrainDatasheet& train, InputLoad load) {
     }
 }
 
-// Shares of a measured level: what the monitored stage does not produce, the other stages produce
-// with a gain of at most 1, and the background the rest. It is never below the chosen density
-// unless that alone exceeds the level.
+// What a measured level leaves beside the monitored stage: the other stages produce it with one
+// gain of at most 1, and the background the rest. Where the others alone would exceed it, the
+// background has the chosen density, or half of the mean square if that is less.
 struct Rest {
     double gain = 1.0;
     double background_m_s2 = 0.0;
+    bool measured = true;
 };
-Rest rest_of(double level, double own, double others, double bandwidth_Hz) {
-    const double rest = level * level - own * own,
-                 chosen = kChosenDensity * kChosenDensity * bandwidth_Hz,
-                 background = std::max(rest - others * others, std::min(chosen, 0.5 * rest));
-    return {others > 0.0 ? std::min(1.0, std::sqrt((rest - background)) / others) : 1.0,
-            std::sqrt(background)};
+Rest rest_of(double level, double monitored, double others, double bandwidth_Hz) {
+    const double square = level * level - monitored * monitored,
+                 chosen = std::min(kChosenDensity * kChosenDensity * bandwidth_Hz, 0.5 * square);
+    if (square - others * others >= chosen) {
+        return {1.0, std::sqrt(square - others * others), true};
+    }
+    return {std::sqrt(square - chosen) / others, std::sqrt(chosen), false};
 }
 
 // Divides a measured level among the monitored stage, the others and the background. Returns the
@@ -122,32 +119,33 @@ double divide_level(TrainDatasheet& train, const std::vector<NewStudy>& studies,
                     const StageLevel& level_of, Problems& problems) {
     StageDatasheet& monitored = train.stages[train.monitored].data();
     const double level = *train.level_m_s2, low_pass_Hz = *monitored.around.low_pass_Hz;
-    double own = 0.0, others = 0.0;
+    double alone = 0.0, others = 0.0;
     for (std::size_t i = 0; i < studies.size(); ++i) {
-        double& part = i == train.monitored ? own : others;
+        double& part = i == train.monitored ? alone : others;
         // 1.5 turns of the carrier are at least three of a planet, the shortest record.
         const bool planetary = std::holds_alternative<PlanetaryDatasheet>(train.stages[i].gears);
         part =
             std::hypot(part, level_of(studies[i].text, planetary ? "sensor.record_turns=1.5" : ""));
     }
-    if (!(own < level)) {
+    if (!(alone < level)) {
         problems.push_back(
             {kCommand, 0, "--level",
              fmt::format("{:.3g} m/s^2 is less than the monitored stage alone has below {:g} Hz, "
                          "{:.3g} m/s^2",
-                         level, low_pass_Hz, own),
+                         level, low_pass_Hz, alone),
              "compare the band, the load and the tooth quality of the measurement, or set "
              "sensor.gain in a study without --level"});
         return 1.0;
     }
     const double bandwidth_Hz = signals::low_pass_noise_bandwidth_Hz(low_pass_Hz);
-    const Rest rest = rest_of(level, own, others, bandwidth_Hz);
+    const Rest rest = rest_of(level, alone, others, bandwidth_Hz);
     monitored.around.density = rest.background_m_s2 / std::sqrt(bandwidth_Hz);
+    monitored.around.measured = rest.measured;
     monitored.notes.push_back(fmt::format(
         "Measured level: {:g} m/s^2 rms below {:g} Hz. Healthy gearboxes of this stage alone have "
         "{:.3g} m/s^2, the other stages together {:.3g} at their own sensors, here times the gain "
         "{:.3g}. The background is the rest, {:.3g} m/s^2.",
-        level, low_pass_Hz, own, others, rest.gain, rest.background_m_s2));
+        level, low_pass_Hz, alone, others, rest.gain, rest.background_m_s2));
     return rest.gain;
 }
 
@@ -176,9 +174,9 @@ TrainStage read_train_stage(const std::string& text, std::size_t number, Problem
     for (std::string part; std::getline(numbers, part, '/');) {
         teeth.push_back(parsed_number<int>(part).value_or(0));
     }
-    TrainStage stage{{}, source_of(number)};
+    TrainStage stage{{}, source_of(number), fmt::format("stage-{}", number)};
     if ((teeth.size() != 2 && teeth.size() != 3) || std::ranges::min(teeth) < 1) {
-        reject("\"" + word + "\" are no numbers of teeth",
+        reject("\"" + word + "\" is not a list of tooth numbers",
                "write sun/planet/ring, or driving/driven gear of a pair");
         return stage;
     }
@@ -223,9 +221,20 @@ TrainStage read_train_stage(const std::string& text, std::size_t number, Problem
         }
     }
     if (!(data.module_mm > 0.0)) {
-        reject("has no module above 0", "add module= with the normal module in mm");
+        reject("module= is missing or not above 0", "add the normal module in mm");
     }
     return stage;
+}
+
+std::vector<std::string> train_files(const TrainDatasheet& train) {
+    const std::filesystem::path path(train.file);
+    std::vector<std::string> files;
+    for (std::size_t i = 0; i < train.stages.size(); ++i) {
+        const std::string name = fmt::format("{}-{}{}", path.stem().string(), train.stages[i].name,
+                                             path.extension().string());
+        files.push_back(i == train.monitored ? train.file : (path.parent_path() / name).string());
+    }
+    return files;
 }
 
 NewTrain new_train(TrainDatasheet train, const std::string& command, const StageLevel& level_of) {
@@ -234,6 +243,16 @@ NewTrain new_train(TrainDatasheet train, const std::string& command, const Stage
     if (train.shafts.empty()) {
         problems = load_problems(train.load, {kCommand, {}, ""}, "first stage's input");
         follow_power(train, problems.empty() ? load_of(train.load) : InputLoad{1.0, 1.0});
+    }
+    for (const TrainShaft& shaft : train.shafts) {
+        const bool drives = power_flow(train.stages[shaft.nearer]).output == shaft.shaft;
+        if (drives != (power_flow(train.stages[shaft.stage]).input == shaft.stage_shaft)) {
+            problems.push_back({train.stages[shaft.stage].source.file, 0, "",
+                                "the power flow branches or joins at a shaft between two stages, "
+                                "and the torque of each branch is not known",
+                                "write the stages' studies one by one, and list them in "
+                                "sensor.stages"});
+        }
     }
     TrainStage& stage = train.stages[train.monitored];
     const double meshes_Hz =
@@ -261,10 +280,11 @@ NewTrain new_train(TrainDatasheet train, const std::string& command, const Stage
     if (!problems.empty()) {
         return made;
     }
+    const std::vector<std::string> files = train_files(train);
     // The study is checked with the texts of the other stages, and written with their files.
     const auto with_text = [&](std::size_t i) { return "text = " + quoted_text(studies[i].text); };
     const auto with_file = [&](std::size_t i) {
-        return "study = " + quoted_text(stage_file(train.file, i));
+        return "study = " + quoted_text(std::filesystem::path(files[i]).filename().string());
     };
     std::string& stages = stage.data().around.stages;
     stages = stages_line(train, gain, with_text);
@@ -276,11 +296,8 @@ NewTrain new_train(TrainDatasheet train, const std::string& command, const Stage
     }
     monitored.text.replace(monitored.text.find(stages), stages.size(),
                            stages_line(train, gain, with_file));
-    const std::filesystem::path folder = std::filesystem::path(train.file).parent_path();
     for (std::size_t i = 0; i < studies.size(); ++i) {
-        made.studies.emplace_back(
-            i == train.monitored ? train.file : (folder / stage_file(train.file, i)).string(),
-            std::move(studies[i].text));
+        made.studies.emplace_back(files[i], std::move(studies[i].text));
     }
     return made;
 }

@@ -80,7 +80,8 @@ struct ToothCompliance {
 ToothCompliance tooth_compliance(const ToothProfile& profile, const Material& material,
                                  double contact_angle, const Crack& crack = {});
 
-// The same of a healthy tooth of gear `which` at the positions of its engagement. `tolerance`:
+// Compliance of a healthy tooth of gear `which` as a beam, over the positions of its engagement.
+// `tolerance`:
 // error relative to the largest value; 0: the smallest possible.
 ChebyshevSeries healthy_beam(const gears::MeshGeometry& geometry, const Material& material,
                              const ToothProfile& profile, double tolerance, int which);

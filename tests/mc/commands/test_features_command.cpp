@@ -225,7 +225,7 @@ TEST_CASE("A feature without a value is reported with its reason, and no number 
 }
 
 TEST_CASE("A recording's speed is accepted only where it is plausible") {
-    const auto [folder, file] = TemporaryFile("x.csv");
+    const TemporaryFile csv("x.csv");
     const auto recorded = [&](const std::function<double(int)>& rpm) {
         CsvColumns columns(3);
         for (int i = 0; i < 3000; ++i) {
@@ -233,8 +233,8 @@ TEST_CASE("A recording's speed is accepted only where it is plausible") {
             columns[1].push_back(1e-5 * std::sin(0.3 * i));
             columns[2].push_back(rpm(i));
         }
-        write_csv(file, "time,te,speed_rpm", columns);
-        return shell(within_memory(1000000) + std::string(GEARPOD_PROGRAM) + " features " + file +
+        write_csv(csv.path, "time,te,speed_rpm", columns);
+        return shell(within_memory(1000000) + std::string(GEARPOD_PROGRAM) + " features " + csv.path +
                      " --study " + kSmallStudy);
     };
     require_success(recorded([](int) { return 20.0; }));

@@ -376,6 +376,7 @@ TEST_CASE("stiffer meshes need more steps of explicit methods to be stable", "[a
         Planner(study).steps(study.numerics));
     const std::size_t own = map.factors.size() / 2;
     REQUIRE(map.factors[own] == Approx(1.0));
+    REQUIRE(!map.curves.empty());
     for (const StabilityCurve& curve : map.curves) {
         INFO(curve.integrator);
         CHECK(curve.steps.back() >= curve.steps[own]);
