@@ -144,7 +144,7 @@ double divide_level(TrainDatasheet& train, const std::vector<NewStudy>& studies,
     monitored.notes.push_back(fmt::format(
         "Measured level: {:g} m/s^2 rms below {:g} Hz. Healthy gearboxes of this stage alone have "
         "{:.3g} m/s^2, the other stages together {:.3g} at their own sensors, here times the gain "
-        "{:.3g}. The background is the rest, {:.3g} m/s^2.",
+        "{:.3g}. The background has {:.3g} m/s^2.",
         level, low_pass_Hz, alone, others, rest.gain, rest.background_m_s2));
     return rest.gain;
 }
