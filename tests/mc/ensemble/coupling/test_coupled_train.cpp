@@ -165,10 +165,6 @@ TEST_CASE("Rows of coupled gearboxes keep their bits over threads, parts and mer
     const std::string path = stage_file(folder, "stage.toml");
     check_equal_bits_over_parts(kOptions + stages(path, ", role=\"other_fault\"" + shaft(2e4)) +
                                 "--set 'features.use=[\"fm4\",\"change_sensor_rms\"]' ");
-    const std::string ends =
-        "study=\"" + path + "\", shaft=\"carrier\", stage_shaft=\"sun\"" + shaft(2e3);
-    check_equal_bits_over_parts(kOptions + "--set 'sensor.stages=[{name=\"a\", " + ends +
-                                "}, {name=\"b\", of=\"a\", " + ends + "}]' ");
 }
 
 TEST_CASE("The fault of a coupled stage raises gear alarms of its own", "[coupled-train]") {
