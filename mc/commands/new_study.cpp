@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <map>
 #include <nlohmann/json.hpp>
+#include <numeric>
 #include <set>
 #include <string>
 #include <tuple>
@@ -155,11 +156,9 @@ double healthy_level(const std::string& text, const std::string& record) {
     double squares = 0.0, samples = 0.0;
     for (long row = 1; row <= kGearboxes; ++row) {
         const Simulation simulation = simulate_row(study.plans().tile, study.plans().ensemble, row);
-        const auto sensor =
+        const std::vector<double>& sensor =
             std::ranges::find(simulation.columns, "sensor", &SignalColumn::name)->values;
-        for (const double sample : sensor) {
-            squares += sample * sample;
-        }
+        squares = std::inner_product(sensor.begin(), sensor.end(), sensor.begin(), squares);
         samples += static_cast<double>(sensor.size());
     }
     return std::sqrt(squares / samples);
@@ -185,11 +184,7 @@ NewTrain made_train(const CLI::App& command, const NewOptions& options) {
     if (!made.problems.empty()) {
         return made;
     }
-    const PlanetaryDatasheet& given = options.planetary;
-    train.load.torque_N_m = given.torque_N_m;
-    train.load.speed_rpm = given.speed_rpm;
-    train.load.power_kW = given.power_kW;
-    train.load.quality = given.quality;
+    train.load = options.planetary;
     train.monitored = static_cast<std::size_t>(options.monitored - 1);
     train.low_pass_Hz = options.band_Hz;
     train.level_m_s2 = options.level_m_s2;

@@ -74,7 +74,7 @@ struct SensorNoiseInputs {
 struct NoiseModel {
     double quantisation_m_s2 = 0.0;
     double low_pass_Hz = 0.0;
-    // Of the background at level 1, after the low-pass; empty without one.
+    // Background at level 1, after the low-pass; empty without one.
     std::optional<double> background_rms_m_s2;
 };
 NoiseModel noise_model(const Study& study);

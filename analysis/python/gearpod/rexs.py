@@ -701,7 +701,7 @@ def neighbours_of(model, stages, chosen):
     ends, coupled = {}, []
     for stage in (stage for stage in stages if not stage.obstacle):
         load = Load(model, stages, stage)
-        coupled = [*map(set, load.coupled)]
+        coupled = [*map(set, load.coupled)]  # the same for each
         names = ("sun", "carrier") if stage.planets else ("gear", "pinion") if load.second_drives else ("pinion", "gear")
         ends[stage] = [*zip(names, map(set, stage.ends()))]
     found, seen = [], [chosen]
@@ -730,7 +730,8 @@ def reply_to(model):
         {f"gearbox.{member}.{key}": f"{gear.component.label}: {attribute}" for member, gear in members.items()
          for key, attribute in OF_GEAR.items()} | {"operation.pinion_speed_rpm": "--speed"}
     return {"kind": stage.kind, "id": stage.component.id,
-            "neighbours": neighbours_of(model, stages, stage) if model.options.get("train") else [], "names": names, "values": {name: value for name, value in values.items() if value is not None},
+            "neighbours": neighbours_of(model, stages, stage) if model.options.get("train") else [],
+            "names": names, "values": {name: value for name, value in values.items() if value is not None},
             "notes": [head] + model.notes + ["N" + line for line in rest],
             "notices": model.notices + [(0, "", line, "") for line in model.notes + ["n" + line for line in rest]]}
 

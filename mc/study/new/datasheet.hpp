@@ -62,6 +62,9 @@ struct PlanetaryDatasheet : StageDatasheet {
     std::string input = "sun";  // or "carrier"
 };
 
+// Tooth number of the ring, given or that of standard gears. The numbers need not be possible.
+int ring_teeth(const PlanetaryDatasheet& data);
+
 // Problems of a datasheet, in the terms of its source: options of the command line, or attributes
 // of a model.
 

@@ -173,12 +173,6 @@ std::string planetary_text(const NominalGears& g, const DerivedGearbox& d, const
            random(d, load, sensor.background) + output_sections(data, sensor.background);
 }
 
-// Tooth number of the ring for standard gears. The tooth numbers are not checked yet.
-int default_ring_teeth(const PlanetaryDatasheet& data) {
-    constexpr std::int64_t kMost = 1 << 30;
-    return static_cast<int>(std::clamp(data.sun + 2 * std::int64_t{data.planet}, -kMost, kMost));
-}
-
 // Minimal study with the teeth only. Reading it checks the teeth.
 std::string minimal_study(const NominalGears& gears) {
     const auto [general, members] = gearbox_teeth(gears);
@@ -231,10 +225,15 @@ DerivedGearbox derive(const Study& study, const PlanetaryDatasheet& data, const 
 
 }  // namespace
 
+int ring_teeth(const PlanetaryDatasheet& data) {
+    constexpr std::int64_t kMost = 1 << 30;
+    return data.ring.value_or(
+        static_cast<int>(std::clamp(data.sun + 2 * std::int64_t{data.planet}, -kMost, kMost)));
+}
+
 NewStudy new_planetary(const PlanetaryDatasheet& data, const std::string& command,
                        const DatasheetSource& source) {
-    const NominalGears gears{data, data.ring ? *data.ring : default_ring_teeth(data),
-                             face_width_mm(data)};
+    const NominalGears gears{data, ring_teeth(data), face_width_mm(data)};
     return checked_study(data, source, data.input, minimal_study(gears),
                          [&](const Study& teeth, const InputLoad& load) {
                              return planetary_text(gears, derive(teeth, data, load), load, command);

@@ -98,11 +98,11 @@ struct RexsStage {
     TrainStage stage;
     Problems problems, notices;
     nlohmann::json neighbours;
+    std::string id;
 };
 
 RexsStage read_stage(const std::string& path, nlohmann::json options) {
-    const std::string name = std::filesystem::path(path).filename().string();
-    options["name"] = name;
+    options["name"] = std::filesystem::path(path).filename().string();
     nlohmann::json reply;
     try {
         // -I: ignore the modules of the user and of the working directory; -B: write no files.
@@ -115,9 +115,9 @@ RexsStage read_stage(const std::string& path, nlohmann::json options) {
         }
         reply = nlohmann::json::parse(output.text);
     } catch (const PythonError& error) {
-        return {{}, {{path, 0, "", error.what(), ""}}, {}, {}};
+        return {{}, {{path, 0, "", error.what(), ""}}, {}, {}, {}};
     }
-    RexsStage read{{}, problems_in(reply.at("problems"), path), {}, {}};
+    RexsStage read{{}, problems_in(reply.at("problems"), path), {}, {}, {}};
     if (!read.problems.empty()) {
         return read;
     }
@@ -136,11 +136,7 @@ RexsStage read_stage(const std::string& path, nlohmann::json options) {
     }
     read.notices = problems_in(reply.at("notices"), path);
     read.neighbours = reply.at("neighbours");
-    const std::string id = reply.at("id");
-    read.stage.name = "stage-" + id;
-    if (!read.neighbours.empty()) {
-        read.stage.data().around.place = fmt::format("stage {} of {}", id, name);
-    }
+    read.id = reply.at("id");
     return read;
 }
 
@@ -165,6 +161,9 @@ TrainDatasheet train_from_rexs(const std::string& path, nlohmann::json options, 
         RexsStage read = read_stage(path, options);
         std::ranges::move(read.problems, std::back_inserter(made.problems));
         std::ranges::move(read.notices, std::back_inserter(made.notices));
+        read.stage.name = "stage-" + read.id;
+        read.stage.data().around.place =
+            fmt::format("stage {} of {}", read.id, std::filesystem::path(path).filename().string());
         train.stages.push_back(std::move(read.stage));
         return read.neighbours;
     };
@@ -175,9 +174,7 @@ TrainDatasheet train_from_rexs(const std::string& path, nlohmann::json options, 
                                  "no shaft connects the stage with another that can be simulated",
                                  "leave out \"train\""});
     }
-    for (const char* of_one : {"torque_N_m", "speed_rpm", "power_kW", "input", "planets"}) {
-        options.erase(of_one);
-    }
+    options.erase("train");  // the neighbours of these are known
     for (const nlohmann::json& next : neighbours) {
         const auto [id, nearer, shaft, stage_shaft] =
             next.get<std::tuple<std::string, std::string, std::string, std::string>>();

@@ -9,8 +9,10 @@
 #include <sstream>
 #include <tuple>
 
+#include "gears/planetary.hpp"
 #include "mc/files/input/document.hpp"
 #include "mc/files/input/number_text.hpp"
+#include "mc/study/gears.hpp"
 #include "mc/study/new/datasheet.hpp"
 #include "mc/study/new/study_text.hpp"
 #include "signals/noise/coloured_noise.hpp"
@@ -20,26 +22,23 @@ namespace {
 
 constexpr const char* kCommand = "new train";
 
-int ring_teeth(const PlanetaryDatasheet& data) {
-    return data.ring.value_or(data.sun + 2 * data.planet);
-}
-
-// Speeds, torques and shafts of a stage. The ring of a planetary one is fixed (Willis' equation).
-struct PowerFlow {
-    const char* input;
-    const char* output;            // members
-    double output_turns_per_turn;  // of the input
-    double meshes_per_turn;        // of the input
+// Speeds and shafts of a stage. The ring of a planetary one is fixed.
+struct StageFlow {
+    std::string input, output;                      // members
+    double output_turns_per_turn, meshes_per_turn;  // of the input
 };
-PowerFlow power_flow(const TrainStage& stage) {
+StageFlow flow_of(const TrainStage& stage) {
     if (const auto* pair = std::get_if<PairDatasheet>(&stage.gears)) {
         return {"pinion", "gear", 1.0 * pair->pinion / pair->gear, 1.0 * pair->pinion};
     }
     const auto& data = std::get<PlanetaryDatasheet>(stage.gears);
-    const double ring = ring_teeth(data), sun_per_carrier = 1.0 + ring / data.sun;
-    return data.input == "carrier"
-               ? PowerFlow{"carrier", "sun", sun_per_carrier, ring}
-               : PowerFlow{"sun", "carrier", 1.0 / sun_per_carrier, ring / sun_per_carrier};
+    const gears::PowerFlow flow{Member::ring,
+                                data.input == "carrier" ? Member::carrier : Member::sun};
+    const gears::PlanetaryTrain train{data.sun, data.planet, ring_teeth(data), data.planets};
+    const gears::Speeds speeds = gears::train_speeds(train, flow.fixed, flow.input, 1.0);
+    const Member output = gears::output_member(flow);
+    return {data.input, std::string(member_name(output)), gears::speed_of(speeds, output),
+            gears::mesh_frequency(train, speeds)};
 }
 
 // Names of the values of a --stage in problems.
@@ -79,10 +78,10 @@ std::string stages_line(const TrainDatasheet& train, double gain,
 // Speeds, torques and shafts of stages that follow each other.
 void follow_power(TrainDatasheet& train, InputLoad load) {
     const std::size_t count = train.stages.size();
-    std::vector<PowerFlow> flows;
+    std::vector<StageFlow> flows;
     for (std::size_t i = 0; i < count; ++i) {
         StageDatasheet& data = train.stages[i].data();
-        flows.push_back(power_flow(train.stages[i]));
+        flows.push_back(flow_of(train.stages[i]));
         std::tie(data.torque_N_m, data.speed_rpm) = std::tuple{load.torque_N_m, load.speed_rpm};
         data.around.place = fmt::format("stage {} of {}", i + 1, count);
         load = {load.torque_N_m / flows[i].output_turns_per_turn,
@@ -96,8 +95,8 @@ void follow_power(TrainDatasheet& train, InputLoad load) {
     }
 }
 
-// What a measured level leaves beside the monitored stage: the other stages produce it with one
-// gain of at most 1, and the background the rest. Where the others alone would exceed it, the
+// The parts of a measured level beside the monitored stage: the other stages have one gain of at
+// most 1, and the background is the rest. Where the others alone would exceed it, the
 // background has the chosen density, or half of the mean square if that is less.
 struct Rest {
     double gain = 1.0;
@@ -245,8 +244,8 @@ NewTrain new_train(TrainDatasheet train, const std::string& command, const Stage
         follow_power(train, problems.empty() ? load_of(train.load) : InputLoad{1.0, 1.0});
     }
     for (const TrainShaft& shaft : train.shafts) {
-        const bool drives = power_flow(train.stages[shaft.nearer]).output == shaft.shaft;
-        if (drives != (power_flow(train.stages[shaft.stage]).input == shaft.stage_shaft)) {
+        const bool drives = flow_of(train.stages[shaft.nearer]).output == shaft.shaft;
+        if (drives != (flow_of(train.stages[shaft.stage]).input == shaft.stage_shaft)) {
             problems.push_back({train.stages[shaft.stage].source.file, 0, "",
                                 "the power flow branches or joins at a shaft between two stages, "
                                 "and the torque of each branch is not known",
@@ -256,7 +255,7 @@ NewTrain new_train(TrainDatasheet train, const std::string& command, const Stage
     }
     TrainStage& stage = train.stages[train.monitored];
     const double meshes_Hz =
-        power_flow(stage).meshes_per_turn * load_of(stage.data()).speed_rpm / 60.0;
+        flow_of(stage).meshes_per_turn * load_of(stage.data()).speed_rpm / 60.0;
     if (!train.low_pass_Hz) {
         train.low_pass_Hz = new_sensor(stage.data(), meshes_Hz).rates.low_pass;
     } else if (!(*train.low_pass_Hz > meshes_Hz) && problems.empty()) {
