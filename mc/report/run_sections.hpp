@@ -123,8 +123,7 @@ AssumptionLimits assumption_limits(const Results& frame, const RowSource& rows,
 // sensors alone differ most. Only features of the acceleration count.
 struct SensorDetection {
     double noise_level = 1.0;
-    std::string name;  // "first", the name of an additional one, "mean of all", "largest of all",
-                       // "learned sum of all"
+    std::string name;  // "first", the name of an additional one, "mean of all", "largest of all"
     std::optional<analysis::SmallestFault> smallest;
     std::string feature;  // of the smallest fault, or else the best ranked one
     // Change from the first sensor with its own feature, in the same gearboxes; empty for the

@@ -7,7 +7,6 @@
 #include "analysis/report/wording.hpp"
 #include "analysis/statistics/distributions.hpp"
 #include "analysis/statistics/interval.hpp"
-#include "analysis/statistics/learned_sum.hpp"
 #include "analysis/statistics/rank_statistics.hpp"
 #include "features/feature.hpp"
 #include "features/statistics/signal_statistics.hpp"
@@ -107,41 +106,6 @@ std::vector<double> deviations(const Results& results, const FeatureResult& feat
     return all;
 }
 
-// Gives the features of all sensors in one value, which is positive towards the alarm.
-void set_joint(std::vector<double> values, FeatureResult& feature) {
-    feature.values = std::move(values);
-    feature.unit = "1";
-    feature.alarm = analysis::Alarm::high;
-}
-
-// All sensors in one value: the sum of their deviations with learned weights. A feature without
-// weights has no values. Empty if no feature has weights, because there are too few gearboxes.
-std::optional<OneSensor> learned_sensors(const std::vector<OneSensor>& sensors) {
-    OneSensor all{"learned sum of all", sensors.front().results};
-    analysis::LearningSample sample;
-    std::size_t number[2] = {0, 0};
-    for (std::size_t row = 0; row < all.results.group.size(); ++row) {
-        const bool is_test = all.results.group[row] != static_cast<int>(Group::threshold);
-        const auto records =
-            static_cast<std::size_t>(is_test ? 1 : all.results.request.threshold_records);
-        const std::size_t gearbox = number[is_test ? 1 : 0]++ / records;
-        sample.half.push_back(analysis::in_second_half(gearbox) ? 1 : 0);
-        sample.faulty.push_back(is_test && all.results.parameters[0].values[row] > 0.0);
-    }
-    bool any = false;
-    for (std::size_t f = 0; f < all.results.features.size(); ++f) {
-        sample.values.clear();
-        for (const OneSensor& sensor : sensors) {
-            sample.values.push_back(deviations(sensor.results, sensor.results.features[f]));
-        }
-        auto sums = analysis::learned_sum(sample);
-        any = any || sums;
-        set_joint(sums ? *std::move(sums) : std::vector<double>(sample.half.size(), kNan),
-                  all.results.features[f]);
-    }
-    return any ? std::optional(std::move(all)) : std::nullopt;
-}
-
 // All sensors in one value: their mean deviation or the largest.
 OneSensor all_sensors(const std::vector<OneSensor>& sensors, bool largest) {
     OneSensor all{largest ? "largest of all" : "mean of all", sensors.front().results};
@@ -159,7 +123,9 @@ OneSensor all_sensors(const std::vector<OneSensor>& sensors, bool largest) {
                                        : joint[row] + own[row] / n;
             }
         }
-        set_joint(std::move(joint), feature);
+        feature.values = std::move(joint);
+        feature.unit = "1";
+        feature.alarm = analysis::Alarm::high;  // positive towards the alarm
     }
     return all;
 }
@@ -324,9 +290,6 @@ std::vector<SensorDetection> sensor_detections(const Results& frame, const RowSo
     const std::vector<OneSensor> alone = sensors;
     sensors.push_back(all_sensors(alone, false));
     sensors.push_back(all_sensors(alone, true));
-    if (auto learned = learned_sensors(alone)) {
-        sensors.push_back(*std::move(learned));
-    }
     std::vector<SensorDetection> found;
     for (OneSensor& sensor : sensors) {
         found.push_back(detection_of(sensor));
@@ -364,14 +327,10 @@ analysis::Section sensors_section(const Results& frame,
         fmt::format(
             "Each sensor alone, and all together, at noise x {}, with features of the "
             "acceleration. Values of all sensors are the mean and the largest of their "
-            "deviations from healthy gearboxes{}. The noise of the sensors is independent. Changes "
-            "are those from the first sensor, "
-            "in the same gearboxes, each with its own best feature; a dash where one of both has "
-            "no curve.",
-            noise,
-            sensors.back().name.starts_with("learned")
-                ? ", and their sum with weights that are learned in the other half of the gearboxes"
-                : ""));
+            "deviations from healthy gearboxes. The noise of the sensors is independent. Changes "
+            "are those from the first sensor, in the same gearboxes, each with its own best "
+            "feature; a dash where one of both has no curve.",
+            noise));
     analysis::Table table{
         "sensors",
         fmt::format("Smallest fault found with 90 % probability at {} "
