@@ -23,10 +23,10 @@ namespace {
 
 std::string location_of(const Study& study) {
     const Fault& fault = study.fault;
-    return !fault.side ? fmt::format("the {}", member_name(*fault.member))
-                       : fmt::format("planet {}, {} side{}", fault.planet,
-                                     choice_text(study, "fault", "side"),
-                                     *fault.side == FaultSide::both ? "s" : "");
+    return fault.member != Member::planet ? fmt::format("the {}", member_name(*fault.member))
+                                          : fmt::format("planet {}, {} side{}", fault.planet,
+                                                        choice_text(study, "fault", "side"),
+                                                        fault.side == FaultSide::both ? "s" : "");
 }
 
 // Stiffness levels as given in the study, along the teeth's normal.
@@ -184,7 +184,7 @@ lockstep::FaultPattern make_pattern(const Study& study, const lockstep::PairSet&
         case Member::ring:
             return lockstep::ring_fault_pattern(pairs, planet_positions(study), teeth);
         case Member::planet:
-            return lockstep::planet_fault_pattern(pairs, PlanetId{f.planet - 1}, *f.side, teeth);
+            return lockstep::planet_fault_pattern(pairs, PlanetId{f.planet - 1}, f.side, teeth);
         case Member::pinion:
         case Member::gear:
             return lockstep::shaft_fault_pattern(pairs, teeth);

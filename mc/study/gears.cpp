@@ -350,7 +350,7 @@ double overlap_ratio(const Study& study) {
 std::vector<FaultPlace> fault_places(const Fault& fault) {
     switch (fault.member.value()) {
         case Member::planet:
-            return places_on_planet(fault.side.value());
+            return places_on_planet(fault.side);
         case Member::ring:
             return {{1, 2}};
         case Member::gear:

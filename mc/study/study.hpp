@@ -399,10 +399,10 @@ class FaultShapes {
 
 // Fault of a study. Parameters of a kind are defined in its own file (mc/study/faults).
 struct Fault {
-    const FaultKind* kind = nullptr;  // one of all_faults(); null without a fault
-    std::optional<Member> member;     // one of the gearbox's toothed members
-    std::optional<FaultSide> side;    // only for a planet tooth
-    int planet = 1;                   // 1..planets
+    const FaultKind* kind = nullptr;   // one of all_faults(); null without a fault
+    std::optional<Member> member;      // one of the gearbox's toothed members
+    FaultSide side = FaultSide::ring;  // of a planet tooth
+    int planet = 1;                    // 1..planets
     FaultShapes shapes;
 
     bool operator==(const Fault&) const = default;

@@ -119,10 +119,11 @@ std::string operation(const NominalGears& g, const InputLoad& load) {
 }
 
 constexpr const char* kFault =
-    "\n[fault]                                     # another gear, side or kind: gearpod describe "
-    "--keys fault\n"
-    "kind = \"crack\"\nmember = \"planet\"\nside = \"ring\"\nplanet = 1\ndepth_mm = 0\n"
-    "angle_deg = 45\n";
+    "\n[fault]                                     # other kinds: gearpod describe --keys fault\n"
+    "kind = \"crack\"\n"
+    "member = \"planet\"                           # on its ring side (fault.side); or \"sun\", "
+    "\"ring\"\n"
+    "depth_mm = 0\nangle_deg = 45\n";
 
 std::string random(const DerivedGearbox& d, const InputLoad& load, const Background& noise) {
     std::string text =
@@ -166,7 +167,7 @@ std::string planetary_text(const NominalGears& g, const DerivedGearbox& d, const
                            data.planet, g.ring_teeth, data.planets),
                command,
                fmt::format("Planetary gearbox {}/{}/{}", data.sun, data.planet, g.ring_teeth),
-               "crack of a planet tooth on the ring side") +
+               "crack of a tooth") +
            general + accuracy(g, d) + support + members.text() + operation(g, load) +
            effects_section("hamming") + kFault +
            sensor_section(data, sensor, line("path_exponent", 0.1, "Liang (2016), section 5.1")) +

@@ -30,26 +30,24 @@ std::string is_kind(const FaultKind& kind) {
     return "fault.kind is \"" + std::string(kind.name()) + "\"";
 }
 
-bool planet_fault(const Study& s) {
-    return s.fault.kind != nullptr && s.fault.member == Member::planet;
-}
-
 Presence faulty_member(const Study& s) {
     return s.fault.kind == nullptr
                ? may(s)
                : Presence{Need::required, is_kind(*s.fault.kind), {"fault.kind"}};
 }
 
-Presence planet_number(const Study& s) {
-    return s.fault.kind == nullptr || planet_fault(s)
+Presence of_planet(const Study& s) {
+    return s.fault.kind == nullptr || s.fault.member == Member::planet
                ? may(s)
                : Presence{Need::forbidden, "only for fault.member = \"planet\"", {"fault.member"}};
 }
 
+// A planet's fault on one flank has a default; others may act in both meshes.
 Presence planet_side(const Study& s) {
-    return planet_fault(s)
-               ? Presence{Need::required, "fault.member is \"planet\"", {"fault.member"}}
-               : planet_number(s);
+    return s.fault.kind != nullptr && s.fault.member == Member::planet &&
+                   !s.fault.kind->on_one_flank()
+               ? Presence{Need::required, is_kind(*s.fault.kind), {"fault.kind"}}
+               : of_planet(s);
 }
 
 std::optional<Need> need_of(const FaultKind& kind, std::string_view name) {
@@ -83,8 +81,8 @@ Presence of_kinds(const Study& s, std::string_view name) {
 const Key kFaultKeys[] = {
     {"fault", "kind", listed<&Fault::kind, all_faults>(kind_names()), kNone, kAny, always, kShared, "kind of fault"},
     {"fault", "member", choice<&Fault::member>(kToothed), kNone, kAny, faulty_member, kShared, "gear with the faulty tooth"},
-    {"fault", "side", choice<&Fault::side>(kSides), kNone, kAny, planet_side, kShared, "mesh in which a planet's fault acts"},
-    {"fault", "planet", integer<&Fault::planet>, kNone, closed_range(1, 8), planet_number, kShared, "number of the faulty planet"},
+    {"fault", "side", choice<&Fault::side>(kSides), kNone, kAny, planet_side, kShared, "mesh in which a planet's fault acts; by default that with the ring for faults on one flank"},
+    {"fault", "planet", integer<&Fault::planet>, kNone, closed_range(1, 8), of_planet, kShared, "number of the faulty planet"},
 };
 // clang-format on
 

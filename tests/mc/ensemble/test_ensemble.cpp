@@ -105,7 +105,6 @@ TEST_CASE("Reused mesh periods and full integration agree to 1e-6 in every noise
          "operation.carrier_speed_rpm=45"});
     mc::Study sun = planet;
     sun.fault.member = mc::Member::sun;
-    sun.fault.side.reset();
     sun.random.clear();
     mc::set_fault_size(sun, 2.34e-3);
     for (mc::Study study : {planet, sun}) {

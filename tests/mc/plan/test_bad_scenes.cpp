@@ -75,7 +75,7 @@ const std::pair<const std::string&, std::vector<BadSettings>> kBadScenes[] = {
          // Faults that are impossible for the gearbox, the tooth or the profile.
          {"random.fault.reduction = { distribution = \"levels\", values = [0, 1.1] }",
           "reduction must be between 0 and 1"},
-         {"fault.side =", "missing (fault.member is \"planet\")"},
+         {"fault.side =", "missing (fault.kind is \"reduction\")"},
          // Profiles and effects that exclude one another.
          {"fault.side =\nrandom.fault.reduction =\nfault.member = \"sun\"\nfault.depth_mm = "
           "1\nfault.kind = \"crack\"",

@@ -13,9 +13,6 @@ mc::Study with_crack(mc::Member member, double depth_m,
     mc::Study study = shipped_study("published/liang-fig-5-8.toml", overrides);
     study.random.clear();
     study.fault.member = member;
-    if (member != mc::Member::planet) {
-        study.fault.side.reset();
-    }
     mc::set_fault_size(study, depth_m);
     return study;
 }
@@ -141,7 +138,6 @@ TEST_CASE("With the sun fixed the carrier's turn also repeats after each planet"
     CHECK(largest_off_multiples_of_4(lines) < kNothing * largest);
 
     study.fault.member = mc::Member::sun;
-    study.fault.side.reset();
     mc::set_fault_size(study, 3.9e-3);
     const auto cracked = spectrum(mc::Scene(study), 19 * 19);
     CHECK(largest_off_multiples_of_4(cracked) <

@@ -77,7 +77,6 @@ const BadSettings kBadSettings[] = {
     {"operation.torque_N_m =", "missing; add torque_N_m"},
     {"operation.carrier_speed_rpm =", "no speed is given", "operation"},
     {"gearbox.mesh_damping_ratio =", "missing (belongs to effects.mesh_damping = \"ratio\")"},
-    {"fault.side =", "missing (fault.member is \"planet\")"},
     {"random.fault.depth_mm =", "missing (fault.kind is \"crack\")", "fault.depth_mm"},
     // Keys that exclude one another.
     {"operation.sun_speed_rpm = 46.7", "conflicts with operation.sun_speed_rpm",

@@ -61,6 +61,7 @@ TEST_CASE("Overrides replace values of the file and may omit quotes around strin
          "random.gearbox.planet.bearing_stiffness_N_m.cv = 0.5", "detection.confidence = 0.9"});
     CHECK(study.ensemble.seed == 12);
     CHECK(study.fault.side == FaultSide::sun);
+    CHECK(test::shipped_study("wind-turbine-train.toml").fault.side == FaultSide::ring);
     CHECK(study.effects.motion == Motion::torsional);
     CHECK(study.find_random("fault.depth_mm")->distribution.in_unit_of_file().levels() ==
           std::vector<double>{0.0, 2.0, 4.0});
