@@ -40,7 +40,7 @@ struct DescribeOptions {
     bool full = false;  // print all settings, loads, effects and costs, not only the first screen
     int ranks = 0;      // also forecast a run with this many MPI ranks; 0: do not
     // Processor seconds of each thread for the forecast; then it falls back on step counts.
-    double seconds = 10.0;
+    double seconds = 30.0;
 };
 
 // Prints the lengths of graded time steps and where the short ones lie.
@@ -167,8 +167,8 @@ double processor_s() {
            PythonWorker::waited_s();
 }
 
-// Share of the processor seconds after which no effect is measured.
-constexpr double kEffectsShare = 0.5;
+// Share of the processor seconds for measuring effects, and of that after which no effect begins.
+constexpr double kEffectsShare = 1.0 / 3.0, kLastEffect = 0.5;
 
 // Stops a description that takes more processor time. Other programs do not shorten it.
 class Deadline final : public machine::CancellationSource {
@@ -181,12 +181,10 @@ class Deadline final : public machine::CancellationSource {
     const double end_s_;
 };
 
-void print_omitted(const char* what, const DescribeOptions& options) {
+void print_omitted(const char* what, double seconds, const char* unit) {
     print_heading("not computed");
-    print_paragraph(
-        fmt::format("{}: it needs more than {:g} s of processor time of each thread; "
-                    "raise --seconds",
-                    what, options.seconds));
+    print_paragraph(fmt::format(
+        "{}: it needs more than {:g} s of processor time{}; raise --seconds", what, seconds, unit));
 }
 
 void print_description(const Planner& planner, const Numerics& numerics) {
@@ -320,7 +318,7 @@ int describe_study(const DescribeOptions& options) {
         if (!chosen) {
             print_description(planner, without_tolerance(planner.facts().numerics));
         }
-        print_omitted(missing, options);
+        print_omitted(missing, options.seconds, " of each thread");
         const double now_bytes = peak_memory_bytes();
         memory.computed_bytes = now_bytes > before_bytes ? now_bytes : 0.0;
         print_fallback(chosen.value_or(planner), chosen.has_value(), setup_s, options.ranks,
@@ -328,13 +326,14 @@ int describe_study(const DescribeOptions& options) {
         return kDone;
     }
     std::fflush(stdout);
+    const double budget_s = kEffectsShare * options.seconds;
     try {
-        const Deadline deadline(options.seconds);
+        const Deadline deadline(budget_s);
         const RecordPlan record = chosen->tile(chosen->facts().numerics).record;
         print_effect_changes(planner, record.span, record.mesh_frequency_Hz,
-                             kEffectsShare * options.seconds);
+                             kLastEffect * budget_s);
     } catch (const machine::Cancelled&) {
-        print_omitted("measuring what further effects change", options);
+        print_omitted("measuring what further effects change", budget_s, "");
     } catch (const SceneError& error) {
         print_heading("what the effects change");
         print_entry("not measured", error.key() + ": " + error.what());
@@ -358,7 +357,7 @@ void add_describe(CLI::App& app, int& code) {
     auto* command = app.add_subcommand(
         "describe",
         "print what a study simulates and omits, and the estimated time and memory of a run; "
-        "computes for a few seconds and writes nothing");
+        "computes for up to --seconds and writes nothing");
     add_study(*command, options->study)->required(false);
     command->add_flag(
         "--keys", options->keys,
@@ -371,7 +370,7 @@ void add_describe(CLI::App& app, int& code) {
                from_to(1, 1e6));
     add_number(
         *command, "--seconds", options->seconds,
-        "processor seconds of each thread for the description, 10 by default; if they do not "
+        "processor seconds of each thread for the description, 30 by default; if they do not "
         "suffice, the forecast is from the number of time steps alone",
         from_to(0.1, 1e5));
     command->callback([options, &code] {

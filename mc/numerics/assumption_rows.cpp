@@ -30,7 +30,7 @@ AssumptionPairs assumption_pairs(const Planner& planner) {
     return all;
 }
 
-AssumptionRows assumption_rows(const Planner& planner) {
+AssumptionRows assumption_rows(const Planner& planner, const std::function<void(long)>& computed) {
     const auto [variants, pairs] = assumption_pairs(planner);
     if (variants.empty()) {
         return {};
@@ -48,8 +48,9 @@ AssumptionRows assumption_rows(const Planner& planner) {
                  feature_values(ensemble.shape,
                                 rows_of_gearboxes(changed.tile(numerics), ensemble, ids))});
         } catch (const SceneError&) {
-            continue;  // beyond the range of the key, such as a grade above 12
+            // Beyond the range of the key, such as a grade above 12.
         }
+        computed(static_cast<long>(ids.size()));
     }
     return all;
 }

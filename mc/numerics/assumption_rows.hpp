@@ -1,6 +1,8 @@
 // Computes some gearboxes of a run again with its assumptions changed.
 #pragma once
 
+#include <functional>
+
 #include "mc/plan/planner.hpp"
 #include "mc/results/results_file.hpp"
 
@@ -16,7 +18,9 @@ struct AssumptionPairs {
 };
 AssumptionPairs assumption_pairs(const Planner& planner);
 
-// Their rows, of gearboxes that the run has as well, with the same random numbers.
-AssumptionRows assumption_rows(const Planner& planner);
+// Their rows, of gearboxes that the run has as well, with the same random numbers. `computed` is
+// called with the number of gearboxes after each variant.
+AssumptionRows assumption_rows(
+    const Planner& planner, const std::function<void(long)>& computed = [](long) {});
 
 }  // namespace gearpod::mc

@@ -358,22 +358,11 @@ RunCost measure_run_cost(const TilePlan& whole, const EnsemblePlan& ensemble,
     const TilePlan part = whole.recording_at_most(result.recorded);
     const TileMeshes measured{part.solve->test_record_meshes, part.solve->integrated_meshes};
     result.memory.before = peak_memory_bytes();
-    if (mesh_s * measured.integrated > std::max(kLongestTile_s, budget_s)) {
-        result.integration_only = true;
-        for (GroupCost& group : result.cost) {
-            group.integrated.whole.integration = group.reused.whole.integration =
-                mesh_s * all.integrated;
-        }
-        result.memory.peak = peak_memory_bytes();
-        result.memory.held = resident_memory_bytes();
-        result.memory.records = result.threads * result.motion_bytes;
-    } else {
-        measure(part, ensemble, batches, budget_s, result);
-        result.memory.records = result.threads * (result.motion_bytes - motion_bytes(part));
-        for (GroupCost& group : result.cost) {
-            complete(group.integrated, measured, all);
-            complete(group.reused, measured, all);
-        }
+    measure(part, ensemble, batches, budget_s, result);
+    result.memory.records = result.threads * (result.motion_bytes - motion_bytes(part));
+    for (GroupCost& group : result.cost) {
+        complete(group.integrated, measured, all);
+        complete(group.reused, measured, all);
     }
     result.integrations = count_integrations(*whole.sampler, solve, batches, result.motion_bytes);
     return result;

@@ -61,14 +61,9 @@ struct RunCost {
     double motion_bytes = 0.0;
     IntegrationCounts integrations;
     MemoryUse memory;
-    // True if even a tile with the fewest mesh periods takes too long. Then only one healthy mesh
-    // period is computed, and `cost` contains only the time integration extrapolated from it.
-    bool integration_only = false;
 };
 
 inline constexpr int kFewestMeshes = 8;
-// Longest tile that is computed, in seconds, estimated from the time of one mesh period.
-inline constexpr double kLongestTile_s = 5.0;
 
 // Computes tiles from the whole ensemble on all threads: two per thread (unless there are fewer or
 // they are slow), and more until `budget_s` seconds are over. If every mesh period is integrated

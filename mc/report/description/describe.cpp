@@ -223,10 +223,6 @@ IntegrationCounts integrations_of_ranks(const RunCost& cost, const BatchPlan& pl
 constexpr double kBudget_s = 1.0;
 
 std::string measured_text(const RunCost& calibration) {
-    if (calibration.integration_only) {
-        return "the time of one mesh period and the number of mesh periods that the damping "
-               "requires, because a batch of gearboxes takes too long";
-    }
     std::string text =
         fmt::format("{} gearboxes in {:.1f} s",
                     std::ranges::count(calibration.gearboxes, 0U, &GearboxId::repeat),

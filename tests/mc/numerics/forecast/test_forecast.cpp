@@ -154,10 +154,8 @@ TEST_CASE("Every shipped study is measured with at most one tile per thread if t
                          verification_s(Planner(study), calibration, false), 0.0);
         ++studies;
         CHECK(calibration.to_record == scene.record().signal_meshes);
-        if (!calibration.integration_only) {
-            CHECK(!calibration.gearboxes.empty());
-            CHECK(calibration.gearboxes.size() <= static_cast<std::size_t>(study.numerics.lanes));
-        }
+        CHECK(!calibration.gearboxes.empty());
+        CHECK(calibration.gearboxes.size() <= static_cast<std::size_t>(study.numerics.lanes));
         const bool shortened =
             study.numerics.horizon != Horizon::periodic && !study.effects.quasi_static();
         CHECK(calibration.recorded ==
