@@ -99,15 +99,17 @@ struct Meetings {
 std::vector<Meetings> meetings_in(const Study& study, int meshes) {
     const Member faulty = study.fault.member.value_or(
         study.gearbox.kind == GearboxKind::planetary ? Member::planet : Member::pinion);
-    const bool sun_side = !study.fault.side || *study.fault.side != FaultSide::ring,
-               ring_side = !study.fault.side || *study.fault.side != FaultSide::sun;
+    const FaultSide side = study.fault.kind != nullptr && faulty == Member::planet
+                               ? study.fault.side
+                               : FaultSide::both;
     std::vector<Meetings> all;
     for (const MeshMembers& mesh : meshes_of(study.gearbox.kind)) {
         if (mesh.member_1 != faulty && mesh.member_2 != faulty) {
             continue;
         }
         const Member mate = mesh.member_1 == faulty ? mesh.member_2 : mesh.member_1;
-        if ((mate == Member::sun && !sun_side) || (mate == Member::ring && !ring_side)) {
+        if ((mate == Member::sun && side == FaultSide::ring) ||
+            (mate == Member::ring && side == FaultSide::sun)) {
             continue;
         }
         const int teeth = *teeth_of(study, faulty), mates = *teeth_of(study, mate);
@@ -254,9 +256,9 @@ std::string shown_teeth_text(const RecordPlan& plan, const FeaturePlan& features
         hidden.empty() ? "" : fmt::format("; too short for {}", fmt::join(hidden, ", ")));
 }
 
-std::string record_conditions(const Study& study) {
+RecordFacts record_facts(const Study& study) {
     if (!has_gears(study)) {
-        return "";
+        return {};
     }
     const auto drivetrain = make_drivetrain(study);
     const signals::SpanLayout span = drivetrain->span();
@@ -270,7 +272,8 @@ std::string record_conditions(const Study& study) {
                                     meetings.met, meetings.all, member_name(meetings.mate),
                                     100.0 * meetings.met / meetings.all));
     }
-    std::string text = fmt::format(
+    RecordFacts facts;
+    facts.conditions = fmt::format(
         "A record lasts {:.3g} s{}, in which {} tooth meets {}.", meshes / mesh_Hz,
         length.given() ? " and begins at a random tooth position" +
                              shared_text(shares_windows(study) ? kTileLanes : 1)
@@ -278,9 +281,17 @@ std::string record_conditions(const Study& study) {
         study.fault.kind != nullptr && !study.fault.kind->wears_flanks() ? "the faulty" : "a",
         fmt::join(mates, " and "));
     if (const std::optional<double> interval_h = record_interval_h(study)) {
-        text += fmt::format(" There are {:g} h between two records.", *interval_h);
+        facts.conditions += fmt::format(" There are {:g} h between two records.", *interval_h);
     }
-    return text;
+    if (turns < span.ring_teeth) {
+        facts.longer = fmt::format(
+            "take longer records: these have {} turns of the {} in {:.3g} s, those without "
+            "sensor.{} "
+            "{} turns in {:.3g} s",
+            turns, study.gearbox.kind == GearboxKind::planetary ? "planet" : "pinion",
+            meshes / mesh_Hz, length.key(), span.ring_teeth, span.meshes() / mesh_Hz);
+    }
+    return facts;
 }
 
 }  // namespace gearpod::mc

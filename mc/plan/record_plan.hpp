@@ -98,7 +98,11 @@ std::string record_length_text(const RecordPlan& plan);
 // Gears of a planetary stage whose single teeth records of given length show, and those that need
 // longer ones; otherwise empty.
 std::string shown_teeth_text(const RecordPlan& plan, const FeaturePlan& features);
-// Length of a record, and the teeth that meet in it, in words; "" without gears.
-std::string record_conditions(const Study& study);
+// Records in words; "" without gears.
+struct RecordFacts {
+    std::string conditions;  // their length, and the teeth that meet in one
+    std::string longer;      // next step if they are shorter than by default, otherwise ""
+};
+RecordFacts record_facts(const Study& study);
 
 }  // namespace gearpod::mc

@@ -100,7 +100,7 @@ std::optional<RunFacts> run_facts(const std::string& study_text, const std::stri
                     .fault = fault,
                     .other_fault = other_fault.empty() ? "another fault" : other_fault,
                     .conditions = assumptions(*study, false, fault.phrase()),
-                    .record = record_conditions(*study),
+                    .record = record_facts(*study),
                     .false_alarms = false_alarm_target_text(*study),
                     .noise = noise_unit_text(*study),
                     .untested = has_gears(*study) && !has_tooth_errors(*study)

@@ -9,6 +9,7 @@
 #include "analysis/detection/detection_table.hpp"
 #include "mc/plan/ensemble_plan.hpp"
 #include "mc/plan/gearbox_streams.hpp"
+#include "mc/plan/record_plan.hpp"
 #include "mc/plan/scene_stiffness.hpp"
 #include "mc/study/study.hpp"
 
@@ -27,9 +28,9 @@ struct RunFacts {
     EnsemblePlan ensemble;
     RowOrder rows;
     FaultPlan fault;
-    std::string other_fault;   // in words; "another fault" without one
-    std::string conditions;    // see assumptions()
-    std::string record;        // see record_conditions()
+    std::string other_fault;  // in words; "another fault" without one
+    std::string conditions;   // see assumptions()
+    RecordFacts record;
     std::string false_alarms;  // see false_alarm_target_text()
     std::string noise;         // "Noise x 1 is 0.02 m/s^2 rms at the sensor"
     std::string untested;      // next step that removes an idealization, or ""

@@ -1,6 +1,6 @@
 #include "mc/report/run_report.hpp"
 
-#include <fmt/core.h>
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
@@ -113,35 +113,34 @@ std::string other_fault_of(const analysis::Findings& findings, const Results& fr
 // Computing time with the shares of its parts.
 analysis::Section time_section(const Results& frame) {
     constexpr std::string_view kThreads = "_thread_s";
-    constexpr std::size_t kMostShown = 2;
     double all = 0.0;
     std::map<std::string, double> values;
-    std::vector<std::pair<double, std::string>> parts;
+    std::pair<double, std::string> most;
     for (const Timing& timing : frame.timing) {
         values[timing.name] = timing.seconds;
         if (timing.name.ends_with(kThreads)) {
             all += timing.seconds;
-            parts.emplace_back(timing.seconds,
-                               timing.name.substr(0, timing.name.size() - kThreads.size()));
-        }
-    }
-    std::ranges::sort(parts, std::greater());
-    std::vector<std::string> shares;
-    for (const auto& [seconds, part] : parts) {
-        if (shares.size() < kMostShown) {
-            shares.push_back(fmt::format("{} {:.0f} %", part, 100.0 * seconds / all));
+            most = std::max(most, {timing.seconds,
+                                   timing.name.substr(0, timing.name.size() - kThreads.size())});
         }
     }
     analysis::Section section{"time", "", {}};
     const std::string threads = frame.provenance_value("threads"),
                       ranks = frame.provenance_value("ranks");
-    section.state("time",
-                  all > 0.0 ? fmt::format("Time: {:.1f} s with {} thread{}{} ({}).",
-                                          values["ensemble_s"], threads, threads == "1" ? "" : "s",
-                                          ranks == "1" ? "" : " in " + ranks + " ranks",
-                                          analysis::joined(shares))
-                            : "",
-                  analysis::Shown::screen);
+    // Files of earlier versions do not have the time after the gearboxes.
+    const std::string before =
+        values.contains("evaluation_s")
+            ? fmt::format("{:.1f} s before this report; ",
+                          values["setup_s"] + values["ensemble_s"] + values["evaluation_s"])
+            : "";
+    section.state(
+        "time",
+        all > 0.0 ? fmt::format("Time: {}gearboxes {:.1f} s ({} thread{}{}, {} {:.0f} %).", before,
+                                values["ensemble_s"], threads, threads == "1" ? "" : "s",
+                                ranks == "1" ? "" : " in " + ranks + " ranks", most.second,
+                                100.0 * most.first / all)
+                  : "",
+        analysis::Shown::screen);
     const double superposed = values["superposed_records"],
                  full = values["superposition_fallback_records"];
     section.state("time.superposed",
@@ -162,11 +161,11 @@ void fill_report(const Results& frame, const RowSource& rows,
     for (const FeatureResult& feature : frame.features) {
         units.push_back(feature.unit);
     }
-    const analysis::Findings findings({frame.detection, reliability ? &*reliability : nullptr,
-                                       frame.request, subject_of(frame), fault.words,
-                                       reference_level(frame.noise_levels), units,
-                                       [&fault](double size) { return fault.share.text(size); },
-                                       run.facts ? run.facts->untested : ""});
+    const analysis::Findings findings(
+        {frame.detection, reliability ? &*reliability : nullptr, frame.request, subject_of(frame),
+         fault.words, reference_level(frame.noise_levels), units,
+         [&fault](double size) { return fault.share.text(size); },
+         run.facts ? run.facts->untested : "", run.facts ? run.facts->record.longer : ""});
     if (!findings.detection.empty() && findings.levels() > 0) {
         run.best_feature = findings.name(findings.best(findings.reference));
     }
@@ -175,7 +174,7 @@ void fill_report(const Results& frame, const RowSource& rows,
     analysis::Section answer = analysis::headline_section(
         findings, run.facts ? run.facts->conditions : "", run.facts ? run.facts->noise : "",
         facts_text(findings, run.failures.counts, run.facts));
-    answer.state("record", run.facts ? run.facts->record : "");
+    answer.state("record", run.facts ? run.facts->record.conditions : "");
     if (run.monitoring) {
         report.add(monitoring_answer(*run.monitoring));
     }
@@ -327,7 +326,7 @@ nlohmann::json report_json(const Results& frame, const RowSource& rows,
     const auto measured =
         facts ? std::nullopt : measuring_facts(frame.provenance_value("measured_by_study"));
     json["title"] = facts ? facts->ensemble.title : measured ? measured->title : "";
-    json["assumptions"] = facts ? facts->conditions + " " + facts->record : "";
+    json["assumptions"] = facts ? facts->conditions + " " + facts->record.conditions : "";
     json["fault"] = facts && facts->fault.given() ? Json(facts->fault.words) : Json(nullptr);
     json["detection"] = analysis::detection_json(frame.detection, frame.request, subject_of(frame));
     json["reliability"] =

@@ -360,7 +360,7 @@ std::string condition_title(const Findings& findings, const ConditionDetection& 
 
 Table noise_table(const Findings& findings) {
     constexpr std::size_t kMostSizes = 7, kMostLevels = 4;
-    const std::size_t best = findings.best(findings.reference);
+    const std::size_t shown = findings.tabled_level(), best = findings.best(shown);
     const bool noise = findings.subject == Subject::gearboxes, sized = has_sizes(findings.request);
     const auto& cells = findings.detection[best].levels.front().cells;
     std::vector<std::size_t> faulty;
@@ -378,7 +378,8 @@ Table noise_table(const Findings& findings) {
     const std::vector<std::size_t> levels =
         spread(findings.levels(), kMostLevels, findings.reference);
     table.title = fmt::format(
-        "Alarms of {} in % with {} interval{}{}", findings.name(best), findings.percent(),
+        "Alarms of {} in % with {} interval{}{}{}", findings.name(best), findings.percent(),
+        best == findings.best(findings.reference) ? "" : ", best at " + findings.noise(shown),
         sizes > kMostSizes ? fmt::format("; {} of {} sizes", kMostSizes, sizes) : "",
         findings.levels() > kMostLevels
             ? fmt::format("; {} of {} noise levels", kMostLevels, findings.levels())

@@ -179,39 +179,6 @@ void add_notes(Section& section, const Findings& findings) {
                   Shown::screen);
 }
 
-// How the smallest fault found depends on noise.
-std::string noise_limit(const Findings& findings) {
-    const std::size_t reference = findings.reference, last = findings.levels() - 1;
-    const auto size = [&](std::size_t n) {
-        return with_unit(findings.smallest[n]->size, findings.request.size);
-    };
-    const auto& here = findings.smallest[reference];
-    std::vector<std::string> texts;
-    if (reference > 0 && findings.smallest[0]) {
-        const std::string low =
-            findings.request.noise_levels[0] == 0.0 ? "without noise" : "at " + findings.noise(0);
-        if (!here || findings.smallest[0]->size < 0.9 * here->size) {
-            texts.push_back(
-                fmt::format("{} the smallest fault found would be {}{}", low, size(0),
-                            findings.smallest[0]->from_curve ? "" : " (a tested size)"));
-        } else {
-            texts.push_back(
-                fmt::format("{} the smallest fault found is no smaller ({})", low, size(0)));
-        }
-    }
-    if (last > reference) {
-        const std::string at_noise = "at " + findings.noise(last);
-        if (!findings.smallest[last]) {
-            texts.push_back(at_noise + (without_threshold(findings.detection, last)
-                                            ? " there is no threshold"
-                                            : " no tested size is found"));
-        } else if (here && findings.smallest[last]->size > 1.1 * here->size) {
-            texts.push_back(fmt::format("{} the smallest fault found is {}", at_noise, size(last)));
-        }
-    }
-    return texts.empty() ? "" : "Noise: " + joined(texts) + ".";
-}
-
 std::string sample_limit(const Findings& findings, const SmallestFault& found) {
     constexpr const char* kTested = "one of the tested sizes, not a size between them";
     if (findings.reliability == nullptr) {
@@ -272,6 +239,46 @@ std::string best_text(const Findings& findings, std::size_t f, std::size_t level
                        sized ? "those of " + range_text(cell.size, findings.request.size)
                              : "the faulty " + plural(findings.subject),
                        sized && most < needed ? "; " + few : "");
+}
+
+// How the smallest fault found depends on noise.
+std::string noise_limit(const Findings& findings) {
+    const std::size_t reference = findings.reference, last = findings.levels() - 1;
+    const auto size = [&](std::size_t n) {
+        return with_unit(findings.smallest[n]->size, findings.request.size);
+    };
+    const auto& here = findings.smallest[reference];
+    const std::size_t shown = findings.tabled_level();
+    if (shown < reference && !findings.smallest[shown]) {
+        const std::size_t best = findings.best(shown);
+        return fmt::format("Noise: even at {} no tested size is found; {} {} there.",
+                           findings.noise(shown), findings.name(best),
+                           best_text(findings, best, shown));
+    }
+    std::vector<std::string> texts;
+    if (reference > 0 && findings.smallest[0]) {
+        const std::string low =
+            findings.request.noise_levels[0] == 0.0 ? "without noise" : "at " + findings.noise(0);
+        if (!here || findings.smallest[0]->size < 0.9 * here->size) {
+            texts.push_back(
+                fmt::format("{} the smallest fault found would be {}{}", low, size(0),
+                            findings.smallest[0]->from_curve ? "" : " (a tested size)"));
+        } else {
+            texts.push_back(
+                fmt::format("{} the smallest fault found is no smaller ({})", low, size(0)));
+        }
+    }
+    if (last > reference) {
+        const std::string at_noise = "at " + findings.noise(last);
+        if (!findings.smallest[last]) {
+            texts.push_back(at_noise + (without_threshold(findings.detection, last)
+                                            ? " there is no threshold"
+                                            : " no tested size is found"));
+        } else if (here && findings.smallest[last]->size > 1.1 * here->size) {
+            texts.push_back(fmt::format("{} the smallest fault found is {}", at_noise, size(last)));
+        }
+    }
+    return texts.empty() ? "" : "Noise: " + joined(texts) + ".";
 }
 
 std::string assessable_step(const Findings& findings) {
@@ -361,6 +368,20 @@ std::size_t Findings::best(std::size_t level) const {
         }
     }
     return best;
+}
+
+std::size_t Findings::tabled_level() const {
+    if (smallest[reference]) {
+        return reference;
+    }
+    if (const auto quieter = quieter_level(*this)) {
+        return *quieter;
+    }
+    std::size_t level = 0;
+    while (level < reference && largest_cell(detection[best(level)].levels[level]) == nullptr) {
+        ++level;
+    }
+    return level;
 }
 
 std::string Findings::fault_name() const {
@@ -504,6 +525,9 @@ std::string next_step(const Findings& findings) {
     }
     const std::string& name = findings.name(best);
     const bool compared = name.starts_with("own_") || name.starts_with("change_");
+    if (compared && !findings.longer.empty()) {
+        return findings.longer;
+    }
     return fmt::format(
         "test larger {}, {}", faults(findings),
         !simulated ? "another sensor or another feature"

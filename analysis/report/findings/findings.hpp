@@ -26,6 +26,7 @@ struct AssessedDetection {
     // A size as a share of the tooth in words, or ""; may be empty.
     std::function<std::string(double)> share = {};
     std::string untested = "";  // next step that removes an idealization of the study, or ""
+    std::string longer = "";    // next step if records are shorter than by default, or ""
 };
 
 // The results with the numbers that several sections need.
@@ -49,6 +50,9 @@ struct Findings : AssessedDetection {
     // Feature of the smallest fault, otherwise the one that finds most of the largest faults, the
     // better ranked of several.
     std::size_t best(std::size_t level) const;
+    // Noise level whose best feature the table by noise has: the reference; where nothing is found
+    // there, the next quieter one where something is, or else the quietest one with rates.
+    std::size_t tabled_level() const;
 
     std::string fault_name() const;                 // "crack"
     std::string noise(std::size_t level) const;     // "noise x 1"; recordings have none: ""

@@ -123,11 +123,22 @@ class Run {
         try {
             all.signals = chosen_signals(options_, tile_);
             if (part_.empty()) {  // for a part, `merge` computes them
+                if (planner_->facts().verified && !options_.quiet) {
+                    fmt::print(stderr, "computing some gearboxes again with fine steps\n");
+                }
                 all.numerical =
                     find_numerical_error(*planner_, &rows, choice_ ? choice_->fine.get() : nullptr);
                 all.step_error = find_step_error_of_run(
                     *planner_, plan_.threshold_gearboxes() + plan_.test_rows());
-                all.assumptions = assumption_rows(*planner_);
+                const auto [variants, pairs] = assumption_pairs(*planner_);
+                if (pairs > 0) {
+                    Progress again(2L * pairs * static_cast<long>(variants.size()),
+                                   options_.quiet || options_.progress == "json", 0,
+                                   Progress::Form::text, "gearboxes with changed assumptions");
+                    all.assumptions =
+                        assumption_rows(*planner_, [&](long count) { again.advance(count); });
+                    again.finish();
+                }
             }
         } catch (const machine::Cancelled&) {
             const std::string reason = interruption.reason({});
@@ -154,6 +165,7 @@ class Run {
     }
 
     int conclude(EnsembleOutcome outcome, const Interruption& interruption) {
+        const auto start = WallClock::now();
         Results examples;
         const StoredRows rows(*checkpoint_, plan_, outcome.batches);
         if (outcome.failure.empty() && outcome.interruption.empty()) {
@@ -178,6 +190,7 @@ class Run {
                 all.timing = timing_of(outcome);
                 all.timing.push_back({"setup_s", setup_s_});
                 all.timing.push_back({"output_s", outcome.output_s});
+                all.timing.push_back({"evaluation_s", seconds_since(start)});
                 write_results(path, all, rows);
                 if (whole && prints_results()) {
                     screen = screen_of(all, rows);

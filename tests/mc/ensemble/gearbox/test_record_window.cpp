@@ -313,10 +313,14 @@ TEST_CASE("Lengths of records that make no sense are refused, and reports state 
     CHECK(
         refused(" --set sensor.record_turns=4 --set 'features.use=[\"sun_window_ratio\"]'").code ==
         2);
-    const std::string conditions = record_conditions(ideal_crack_study({"sensor.record_turns=4"}));
-    CHECK(contains(conditions, "begins at a random tooth position"));
-    CHECK(contains(conditions, "10 of the 81 ring teeth that it can meet (12 %)"));
-    CHECK(contains(record_conditions(ideal_crack_study({})), "81 of the 81 ring teeth"));
+    const RecordFacts facts = record_facts(ideal_crack_study({"sensor.record_turns=4"}));
+    CHECK(contains(facts.conditions, "begins at a random tooth position"));
+    CHECK(contains(facts.conditions, "10 of the 81 ring teeth that it can meet (12 %)"));
+    CHECK(contains(facts.longer, "these have 10 turns of the planet in 25.9 s"));
+    CHECK(contains(facts.longer, "without sensor.record_turns 81 turns in 210 s"));
+    const RecordFacts whole = record_facts(ideal_crack_study({}));
+    CHECK(contains(whole.conditions, "81 of the 81 ring teeth"));
+    CHECK(whole.longer.empty());
 }
 
 }  // namespace gearpod::mc::test_record_window
