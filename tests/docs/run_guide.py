@@ -31,12 +31,17 @@ SMALL = {
 # Studies of slow gearboxes, which turn faster here: a mesh period then has fewer samples and steps.
 SLOW = ("studies/planet-crack.toml", "studies/bearing-fault.toml", "studies/sensor-places.toml", "studies/two-stages.toml",
         "studies/planet-life.toml")
-REAL_TEETH = (*SLOW, "studies/real-teeth.toml", "studies/indicator-league.toml", "studies/worn-sun.toml", "stage.toml")
+REAL_TEETH = (*SLOW, "studies/real-teeth.toml", "studies/indicator-league.toml", "studies/worn-sun.toml", "stage.toml", "turbine.toml")
 FASTER = ["--set", "operation.carrier_speed_rpm=60"]
+# Arguments of the wind turbine and what replaces them: few gearboxes, and steps without a pilot run.
+REPLACED = {"ensemble.threshold_instances=400": ["ensemble.threshold_instances=8"],
+            "numerics.scatter_tolerance=0.2": ["numerics.integrator=central-difference", "--set", "numerics.mass_scaling_Hz=214"]}
 LAUNCHER = """#!/usr/bin/python3 -Bs
 import os, sys
 small = {small!r}
 command, *rest = sys.argv[1:] or [""]
+if rest and rest[0] == "turbine.toml":
+    rest = [new for old in rest for new in {replaced!r}.get(old, [old])]
 if command == "sweep" and "--lives" in rest:
     added = small["lives"]
 elif command == "run" and rest and rest[0] in {real!r}:
@@ -75,7 +80,7 @@ def make_tree(folder, program, sources):
     for name in LINKED:
         (folder / name).symlink_to(sources / name)
     launcher = folder / "gearpod"
-    launcher.write_text(LAUNCHER.format(small=SMALL, real=REAL_TEETH, slow=SLOW, faster=FASTER, program=str(program)), encoding="utf-8")
+    launcher.write_text(LAUNCHER.format(small=SMALL, real=REAL_TEETH, slow=SLOW, faster=FASTER, replaced=REPLACED, program=str(program)), encoding="utf-8")
     launcher.chmod(0o755)
 
 
