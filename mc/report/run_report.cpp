@@ -112,35 +112,35 @@ std::string other_fault_of(const analysis::Findings& findings, const Results& fr
 
 // Computing time with the shares of its parts.
 analysis::Section time_section(const Results& frame) {
-    constexpr std::string_view kThreads = "_thread_s";
     double all = 0.0;
     std::map<std::string, double> values;
     std::pair<double, std::string> most;
     for (const Timing& timing : frame.timing) {
         values[timing.name] = timing.seconds;
-        if (timing.name.ends_with(kThreads)) {
+        if (timing.name.ends_with("_thread_s")) {
             all += timing.seconds;
-            most = std::max(most, {timing.seconds,
-                                   timing.name.substr(0, timing.name.size() - kThreads.size())});
+            most = std::max(most,
+                            {timing.seconds, timing.name.substr(0, timing.name.find("_thread_s"))});
         }
     }
     analysis::Section section{"time", "", {}};
     const std::string threads = frame.provenance_value("threads"),
                       ranks = frame.provenance_value("ranks");
-    // Files of earlier versions do not have the time after the gearboxes.
-    const std::string before =
-        values.contains("evaluation_s")
-            ? fmt::format("{:.1f} s before this report; ",
+    const std::string whole =
+        values.contains("evaluation_s")  // since 0.3
+            ? fmt::format("{:.1f} s to the results; ",
                           values["setup_s"] + values["ensemble_s"] + values["evaluation_s"])
             : "";
-    section.state(
-        "time",
-        all > 0.0 ? fmt::format("Time: {}gearboxes {:.1f} s ({} thread{}{}, {} {:.0f} %).", before,
-                                values["ensemble_s"], threads, threads == "1" ? "" : "s",
-                                ranks == "1" ? "" : " in " + ranks + " ranks", most.second,
-                                100.0 * most.first / all)
-                  : "",
-        analysis::Shown::screen);
+    if (all > 0.0) {
+        section.state("time",
+                      fmt::format("Time: {}gearboxes {:.1f} s with {} thread{}{}.", whole,
+                                  values["ensemble_s"], threads, threads == "1" ? "" : "s",
+                                  ranks == "1" ? "" : " in " + ranks + " ranks"),
+                      analysis::Shown::screen);
+        section.state("time.most",
+                      fmt::format("The largest part of the gearboxes' time is {}, {:.0f} %.",
+                                  most.second, 100.0 * most.first / all));
+    }
     const double superposed = values["superposed_records"],
                  full = values["superposition_fallback_records"];
     section.state("time.superposed",

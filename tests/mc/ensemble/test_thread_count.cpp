@@ -31,7 +31,7 @@ void check_threads(const std::string& environment, const std::string& more, int 
     const Folder folder;
     check_mentions(
         require_success(shell(with(environment) + kProgram + run_of(folder) + more)),
-        {" s with " + std::to_string(threads) + " thread" + (threads == 1 ? " (" : "s (")});
+        {" s with " + std::to_string(threads) + " thread" + (threads == 1 ? "." : "s.")});
 }
 
 TEST_CASE(
