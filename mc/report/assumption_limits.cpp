@@ -118,10 +118,7 @@ AssumptionLimits assumption_limits(const Results& frame, const RowSource& rows,
         !has_sizes(findings.request)) {
         return limits;
     }
-    const std::size_t reference = findings.reference,
-                      level = findings.smallest[reference]
-                                  ? reference
-                                  : quieter_level(findings).value_or(reference),
+    const std::size_t level = found_level(findings).value_or(findings.reference),
                       best = findings.best(level);
     const Answer answer(frame, rows, best, level);
     const PredictedDetection as_is = answer.as_is();

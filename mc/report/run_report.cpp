@@ -110,7 +110,7 @@ std::string other_fault_of(const analysis::Findings& findings, const Results& fr
                              findings.name(findings.best(findings.reference)), findings.reference);
 }
 
-// Computing time with the shares of its parts.
+// Time of the run and of its gearboxes, and the largest part of theirs.
 analysis::Section time_section(const Results& frame) {
     double all = 0.0;
     std::map<std::string, double> values;

@@ -320,8 +320,8 @@ std::string more_gearboxes(const Findings& findings, const LevelDetection& detec
 
 }  // namespace
 
-std::optional<std::size_t> quieter_level(const Findings& findings) {
-    for (std::size_t n = findings.reference; n-- > 0;) {
+std::optional<std::size_t> found_level(const Findings& findings) {
+    for (std::size_t n = findings.reference + 1; n-- > 0;) {
         if (findings.smallest[n]) {
             return n;
         }
@@ -371,11 +371,8 @@ std::size_t Findings::best(std::size_t level) const {
 }
 
 std::size_t Findings::tabled_level() const {
-    if (smallest[reference]) {
-        return reference;
-    }
-    if (const auto quieter = quieter_level(*this)) {
-        return *quieter;
+    if (const auto found = found_level(*this)) {
+        return *found;
     }
     std::size_t level = 0;
     while (level < reference && largest_cell(detection[best(level)].levels[level]) == nullptr) {
@@ -515,7 +512,7 @@ std::string next_step(const Findings& findings) {
                    ? "measure the noise at your sensor, and read its row below"
                    : "measure the noise at your sensor, and repeat the study with it";
     }
-    if (const auto quieter = quieter_level(findings)) {
+    if (const auto quieter = found_level(findings)) {
         const SmallestFault& there = *findings.smallest[*quieter];
         return fmt::format("reduce the noise at the sensor: at {} {} finds {}{}",
                            findings.noise(*quieter), there.feature, findings.fault,

@@ -66,8 +66,8 @@ struct Findings : AssessedDetection {
     std::string alarm_if(std::size_t feature, std::size_t level, int digits) const;
 };
 
-// Loudest noise below the reference at which a fault is found.
-std::optional<std::size_t> quieter_level(const Findings& findings);
+// Loudest noise up to the reference at which a fault is found.
+std::optional<std::size_t> found_level(const Findings& findings);
 // Sentence on the smallest fault found at a noise level, or why there is none.
 std::string headline_text(const Findings& findings, std::size_t level);
 // Step after this answer, without a full stop.
